@@ -1,0 +1,39 @@
+"""The errors gbnbench raises on purpose; the command turns each into one line and exit code 2."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+
+class GbnbenchError(Exception):
+    """Base of every error that is meant for the user's eyes."""
+
+
+class InputError(GbnbenchError, ValueError):
+    """An argument breaks a rule; the text names it, the rule, the value seen and the way out."""
+
+
+class RefusalError(InputError):
+    """A generator or measure cannot serve this n and d, and says why."""
+
+
+class FormatError(InputError):
+    """A file cannot be read as a point set.
+
+    Attributes
+    ----------
+    path : Path
+        The file.
+    line : int or None
+        1-based line of the fault, where the format has lines.
+    """
+
+    def __init__(self, path: str | Path, message: str, line: int | None = None) -> None:
+        self.path = Path(path)
+        self.line = line
+        where = f"{self.path}, line {line}" if line is not None else f"{self.path}"
+        super().__init__(f"{where}: {message}")
+
+
+class DeviceError(GbnbenchError, RuntimeError):
+    """No OpenCL device can do the work; the text says what to install or choose."""

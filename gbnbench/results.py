@@ -1,0 +1,125 @@
+"""What the analysis returns: frozen results that carry how they were made."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gbnbench.torus import FloatArray, spacing
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+@dataclass(frozen=True)
+class Spectrum:
+    """Power at integer frequencies, averaged over realizations.
+
+    Attributes
+    ----------
+    power : (2*fmax+1,)*d or (m,) float64
+        1 in expectation for white noise. The cube has DC at its centre, where it equals n, and axis a is
+        coordinate a; (m,) where the frequencies were listed.
+    n, d, realizations : int
+        Points a set, dimension, sets averaged.
+    fmax : int
+        Largest harmonic on each axis, cycles per unit length.
+    frequencies : (m, d) int64 or None
+        The list asked for, None for the whole cube.
+    precision, method, device : str
+        "double" or "float", the evaluation chosen, and where it ran.
+    """
+
+    power: FloatArray
+    n: int
+    d: int
+    realizations: int
+    fmax: int
+    frequencies: NDArray[np.int64] | None = None
+    precision: str = "double"
+    method: str = ""
+    device: str = ""
+
+    @property
+    def spacing(self) -> float:
+        """n**(-1/d), so that nu = |f| * spacing."""
+        return spacing(self.n, self.d)
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
+        return np.array(self.power, dtype=dtype) if copy else np.asarray(self.power, dtype=dtype)
+
+
+@dataclass(frozen=True)
+class RadialPower:
+    """Mean power on shells, DC excluded.
+
+    Attributes
+    ----------
+    frequency : (s,) float64
+        Radius |f| of each shell (or mean radius of each annulus), ascending, cycles per unit length.
+    nu : (s,) float64
+        frequency * n**(-1/d).
+    power : (s,) float64
+        Mean over the shell's frequencies, over the whole space.
+    count : (s,) int64
+        Frequencies in the shell, over the whole space.
+    """
+
+    frequency: FloatArray
+    nu: FloatArray
+    power: FloatArray
+    count: NDArray[np.int64]
+
+    def to_frame(self) -> pd.DataFrame:
+        """Columns frequency, nu, power, count."""
+        import pandas as pd
+
+        return pd.DataFrame(
+            {"frequency": self.frequency, "nu": self.nu, "power": self.power, "count": self.count}
+        )
+
+
+@dataclass(frozen=True)
+class Measures(Mapping[str, float]):
+    """Scalar measures by name; nan where undefined, and then ``reasons`` says why.
+
+    Attributes
+    ----------
+    measured : dict
+        Every name of ``gbnbench.analysis.catalogue`` is always there.
+    standard_error : dict
+        Over realizations; nan for a single realization or where the measure is undefined.
+    reasons : dict
+        Name -> sentence, only for measures that are undefined here.
+    """
+
+    measured: Mapping[str, float]
+    standard_error: Mapping[str, float] = field(default_factory=dict)
+    reasons: Mapping[str, str] = field(default_factory=dict)
+
+    def __getitem__(self, name: str) -> float:
+        return self.measured[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.measured)
+
+    def __len__(self) -> int:
+        return len(self.measured)
+
+    def to_frame(self) -> pd.DataFrame:
+        """One row a measure: columns measure, value, standard_error, reason."""
+        import pandas as pd
+
+        return pd.DataFrame(
+            {
+                "measure": list(self),
+                "value": [self[m] for m in self],
+                "standard_error": [self.standard_error.get(m, math.nan) for m in self],
+                "reason": [self.reasons.get(m, "") for m in self],
+            }
+        )

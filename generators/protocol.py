@@ -1,0 +1,38 @@
+"""What every generator is: a frozen dataclass of its settings that draws one realization when called."""
+
+from __future__ import annotations
+
+from typing import ClassVar, Protocol, runtime_checkable
+
+import numpy as np
+
+from gbnbench.torus import FloatArray
+
+
+@runtime_checkable
+class Generator(Protocol):
+    """A generator of point sets on the unit torus.
+
+    Attributes
+    ----------
+    name : str
+        What the command calls it.
+    summary : str
+        One line for lists, with the source.
+    """
+
+    name: ClassVar[str]
+    summary: ClassVar[str]
+
+    def refusal(self, n: int, d: int) -> str | None:
+        """Why n points in d dimensions cannot be made, with the nearest that can; None where they can."""
+        ...
+
+    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
+        """Draw one realization: (n, d) float64 in [0, 1), the same for the same state of rng."""
+        ...
+
+
+def realization_rng(seed: int, k: int) -> np.random.Generator:
+    """Random stream of realization k: the k-th child of SeedSequence(seed), whatever the count asked for."""
+    return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(k,)))
