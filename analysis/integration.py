@@ -1,0 +1,46 @@
+"""L2 discrepancies of point sets, by SciPy (Warnock 1972; Hickernell 1998; Zhou, Fang & Ning 2013)."""
+
+from __future__ import annotations
+
+from typing import Literal, get_args
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.stats import qmc
+
+from gbnbench.errors import RefusalError
+from gbnbench.torus import FloatArray, as_realizations
+
+Discrepancy = Literal["CD", "WD", "MD", "L2-star"]
+# Terms n^2 d of one set that SciPy sums in some ten seconds a discrepancy.
+MOST_TERMS = 10**10
+
+
+def discrepancies(x: ArrayLike) -> dict[Discrepancy, FloatArray]:
+    """Centred, wrap-around, mixture and star L2 discrepancies of each set.
+
+    Parameters
+    ----------
+    x : (n, d) or (realizations, n, d) float64
+        Points in [0, 1)^d.
+
+    Returns
+    -------
+    dict
+        "CD", "WD", "MD", "L2-star" -> (realizations,) float64. As SciPy has them, the first three are squares
+        and the last is not. Only WD belongs to the torus: the others change when the set is shifted.
+
+    Raises
+    ------
+    RefusalError
+        If n^2 d exceeds 1e10: the sums run over all pairs.
+    """
+    sets = as_realizations(x)
+    n, d = sets.shape[1:]
+    if n * n * d > MOST_TERMS:
+        most = int((MOST_TERMS / d) ** 0.5)
+        raise RefusalError(f"discrepancies sum over n^2 d terms; in d={d} n must be at most {most}, got n={n}")
+    return {
+        kind: np.array([qmc.discrepancy(points, method=kind) for points in sets])
+        for kind in get_args(Discrepancy)
+    }

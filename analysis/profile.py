@@ -1,0 +1,125 @@
+"""Scalars of the radial profile: noise floor, power at 1, the two fits, evacuated energy and peak.
+
+Ahmed, Ren & Wonka 2022: Sec. 3 (exponential and power-law families), Sec. 4.3 (evacuated energy), Fig. 1(g).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from gbnbench.analysis.shells import Shells
+from gbnbench.errors import RefusalError
+from gbnbench.results import RadialPower
+from gbnbench.torus import FloatArray
+
+FLOOR_NU = 0.25
+FIT_BAND = (0.05, 0.6)
+FIT_SHELLS = 3
+PEAK_BAND = (0.5, 2.0)
+DECIBELS = 10 / math.log(10)  # of a natural logarithm
+
+
+def noise_floor(radial: RadialPower) -> float:
+    """Mean power over the frequencies with 0 < nu <= 0.25; over the lowest shell where there are none."""
+    band = radial.nu <= FLOOR_NU
+    if not band.any():
+        return float(radial.power[0])
+    return float(np.average(radial.power[band], weights=radial.count[band]))
+
+
+def power_at_1(radial: RadialPower) -> float:
+    """Mean power at |f| = 1, the lowest shell of any cube."""
+    return float(radial.power[0])
+
+
+@dataclass(frozen=True)
+class Fit:
+    """A straight line through ln P of exact shells.
+
+    Attributes
+    ----------
+    intercept, slope : float
+        ln P = intercept + slope * abscissa.
+    residual_db : float
+        Root mean square departure, dB.
+    """
+
+    intercept: float
+    slope: float
+    residual_db: float
+
+
+def _fit(radial: RadialPower, *, logarithmic: bool) -> Fit:
+    band = (radial.nu >= FIT_BAND[0]) & (radial.nu <= FIT_BAND[1])
+    shells = int(band.sum())
+    if shells < FIT_SHELLS:
+        raise RefusalError(f"a profile fit needs three shells with 0.05 <= nu <= 0.6; this spectrum has {shells}")
+    power = radial.power[band]
+    if not (power > 0).all():
+        raise RefusalError("a profile fit needs power above 0 on every shell with 0.05 <= nu <= 0.6")
+    abscissa = np.log(radial.nu[band]) if logarithmic else radial.nu[band] ** 2
+    design = np.stack([np.ones(shells), abscissa], axis=1)
+    target = np.log(power)
+    (intercept, slope), *_ = np.linalg.lstsq(design, target, rcond=None)
+    rest = target - design @ (intercept, slope)
+    return Fit(float(intercept), float(slope), float(DECIBELS * np.sqrt(np.mean(rest**2))))
+
+
+def exponential_fit(radial: RadialPower) -> Fit:
+    """Fit ln P = ln epsilon + c nu^2 over 0.05 <= nu <= 0.6 (Eq. 19: c = 4 pi^2 where sigma = 1).
+
+    Raises
+    ------
+    RefusalError
+        Below three shells, or where a shell has no power.
+    """
+    return _fit(radial, logarithmic=False)
+
+
+def powerlaw_fit(radial: RadialPower) -> Fit:
+    """Fit ln P = a + b ln nu over the same shells; raises likewise."""
+    return _fit(radial, logarithmic=True)
+
+
+def evacuated_energy(power: FloatArray, shells: Shells, n: int, d: int, fmax: int) -> float:
+    """-sum of ln P / n over all frequencies with 0 < nu < 1 and P < 1, of one realization, nats a point.
+
+    Raises
+    ------
+    RefusalError
+        If the cube ends below nu = 1, or a power is exactly 0 (its logarithm is infinite).
+    """
+    edge = n ** (1 / d)
+    if fmax + 1 < edge:
+        raise RefusalError(
+            f"evacuated energy needs every frequency with nu < 1: fmax >= {math.ceil(edge) - 1}, here {fmax}"
+        )
+    inside = np.append(shells.radius < edge * (1 - 1e-12), False)
+    chosen = power.ravel()[inside[shells.label]]
+    if (chosen == 0).any():
+        raise RefusalError("evacuated energy is infinite: the power of some frequency is exactly 0")
+    return float(-np.sum(np.log(chosen[chosen < 1])) / n)
+
+
+def peak(radial: RadialPower) -> tuple[float, float]:
+    """Largest mean power over the rings round(|f|) = k with 0.5 <= nu <= 2, and that ring's nu.
+
+    Raises
+    ------
+    RefusalError
+        If the cube ends below nu = 1, where a peak may still be to come.
+    """
+    spacing = float(radial.nu[0] / radial.frequency[0])
+    ring = np.rint(radial.frequency).astype(np.int64)
+    count = np.bincount(ring, radial.count)
+    total = np.bincount(ring, radial.power * radial.count)
+    nu = np.arange(len(count)) * spacing
+    if nu[-1] < 1:
+        raise RefusalError(f"the peak needs frequencies up to nu = 1 at least; this spectrum ends at {nu[-1]:.2f}")
+    band = (nu >= PEAK_BAND[0]) & (nu <= PEAK_BAND[1]) & (count > 0)
+    mean = np.where(band, total / np.maximum(count, 1), -np.inf)
+    k = int(np.argmax(mean))
+    return float(mean[k]), float(nu[k])

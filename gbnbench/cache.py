@@ -1,0 +1,51 @@
+"""Where gbnbench may keep what it learnt: a folder that is known to be writable."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+
+def is_writable(folder: Path) -> bool:
+    """Whether a file can really be made in folder, which is created if need be."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            return True
+    except OSError:
+        return False
+
+
+@cache
+def cache_folder() -> Path:
+    """``$GBNBENCH_CACHE``, else the user's cache folder, else a temporary one: the first that is writable."""
+    import platformdirs
+
+    asked = os.environ.get("GBNBENCH_CACHE")
+    for folder in ([Path(asked)] if asked else []) + [Path(platformdirs.user_cache_dir("gbnbench"))]:
+        if is_writable(folder):
+            return folder
+    return Path(tempfile.mkdtemp(prefix="gbnbench-cache-"))
+
+
+def recall(name: str) -> Any | None:
+    """Read the JSON value kept under name; None where there is none that can be read."""
+    try:
+        return json.loads((cache_folder() / f"{name}.json").read_text())
+    except (OSError, ValueError):
+        return None
+
+
+def remember(name: str, value: Any) -> None:
+    """Keep a JSON value under name, whole or not at all; a cache that cannot be written costs only time."""
+    path = cache_folder() / f"{name}.json"
+    partial = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        partial.write_text(json.dumps(value))
+        partial.replace(path)
+    except OSError:
+        partial.unlink(missing_ok=True)

@@ -1,0 +1,34 @@
+/* cos and sin of phases that are exact fixed-point fractions of a turn; needs vector.cl.
+ *
+ * The nearest quarter turn is taken off in integers, exactly, at any size of the phase; what is left lies in
+ * [-1/8, 1/8) turn, where the Taylor series end below 5e-17 (double) and 2e-9 (float).
+ */
+#if DOUBLE
+#define RADIANS (6.283185307179586476925 / 18446744073709551616.0)
+#else
+#define RADIANS (6.283185307179586f / 4294967296.0f)
+#endif
+
+static void cos_sin_of_turn(TURNV phase, REALV *cosine, REALV *sine)
+{
+    const TURN eighth = (TURN)1 << (TURN_BITS - 3);
+    TURNV quarter = (phase + eighth) >> (TURN_BITS - 2);
+    REALV t = TO_REALV(AS_STURNV(phase - (quarter << (TURN_BITS - 2)))) * (REAL)RADIANS;
+    REALV u = t * t;
+#if DOUBLE
+    REALV s = t - t * u * (1.0 / 6 - u * (1.0 / 120 - u * (1.0 / 5040 - u * (1.0 / 362880
+        - u * (1.0 / 39916800 - u * (1.0 / 6227020800.0 - u * (1.0 / 1307674368000.0)))))));
+    REALV c = 1.0 - u * (0.5 - u * (1.0 / 24 - u * (1.0 / 720 - u * (1.0 / 40320
+        - u * (1.0 / 3628800 - u * (1.0 / 479001600 - u * (1.0 / 87178291200.0 - u * (1.0 / 20922789888000.0))))))));
+#else
+    REALV s = t - t * u * (1.0f / 6 - u * (1.0f / 120 - u * (1.0f / 5040 - u * (1.0f / 362880))));
+    REALV c = 1.0f - u * (0.5f - u * (1.0f / 24 - u * (1.0f / 720 - u * (1.0f / 40320 - u * (1.0f / 3628800)))));
+#endif
+    STURNV swapped = (quarter & (TURN)1) != (TURN)0;
+    STURNV cosine_negative = ((quarter + (TURN)1) & (TURN)2) != (TURN)0;
+    STURNV sine_negative = (quarter & (TURN)2) != (TURN)0;
+    REALV a = swapped ? s : c;
+    REALV b = swapped ? c : s;
+    *cosine = cosine_negative ? -a : a;
+    *sine = sine_negative ? -b : b;
+}

@@ -1,0 +1,165 @@
+"""Which OpenCL device does the work: what there is, what was asked for, what really works there."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import sys
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from gbnbench.cache import cache_folder, is_writable
+from gbnbench.errors import DeviceError
+
+if TYPE_CHECKING:
+    import pyopencl as cl
+
+DEVICE_VARIABLE = "GBNBENCH_DEVICE"
+
+INSTALL = (
+    'Install one: pip install "pyopencl[pocl]" brings a CPU device on Linux x86-64; elsewhere install the '
+    "OpenCL runtime of your GPU or CPU's vendor, then run: gbnbench devices"
+)
+
+
+@dataclass(frozen=True)
+class Device:
+    """An OpenCL device as gbnbench sees it.
+
+    Attributes
+    ----------
+    index : int
+        Position in ``devices()``; a selector.
+    name, platform, platform_version, version, driver : str
+        As the runtime reports them; the platform version tells two PoCLs apart.
+    is_cpu, has_double : bool
+        Kind, and whether it computes in double.
+    compute_units : int
+        Cores or multiprocessors.
+    position : (int, int)
+        Indices of the platform and of the device in it.
+    """
+
+    index: int
+    name: str
+    platform: str
+    platform_version: str
+    version: str
+    driver: str
+    is_cpu: bool
+    has_double: bool
+    compute_units: int
+    position: tuple[int, int]
+
+    @property
+    def label(self) -> str:
+        """One line for tables and manifests."""
+        return f"{self.name} ({self.platform}, {self.platform_version.strip()})"
+
+    @property
+    def fingerprint(self) -> str:
+        """Short digest of device, driver and version: what was learnt of one holds only for it."""
+        text = "|".join((self.platform, self.platform_version, self.name, self.version, self.driver))
+        return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+    def describe(self) -> dict[str, str]:
+        """JSON-ready record for results."""
+        return {
+            "name": self.name,
+            "platform": self.platform,
+            "version": self.platform_version.strip(),
+            "driver": self.driver,
+        }
+
+
+def import_pyopencl() -> Any:
+    """Import pyopencl with a cache folder that PoCL can write, or say what to install.
+
+    Notes
+    -----
+    With an unwritable cache folder PoCL offers a platform without devices.
+    """
+    kept = os.environ.get("POCL_CACHE_DIR")
+    if "pyopencl" not in sys.modules and (kept is None or not is_writable(Path(kept))):
+        os.environ["POCL_CACHE_DIR"] = str(cache_folder() / "pocl")
+    try:
+        import pyopencl
+    except ImportError as error:
+        raise DeviceError(f"pyopencl cannot be imported ({error}). {INSTALL}") from None
+    return pyopencl
+
+
+def handle(position: tuple[int, int]) -> cl.Device:
+    """Look up the pyopencl device at a (platform, device) position."""
+    pyopencl = import_pyopencl()
+    return pyopencl.get_platforms()[position[0]].get_devices()[position[1]]
+
+
+@cache
+def devices() -> tuple[Device, ...]:
+    """All OpenCL devices, in the order of platforms; empty where there is none.
+
+    Raises
+    ------
+    DeviceError
+        If pyopencl is not installed.
+    """
+    cl = import_pyopencl()
+    try:
+        platforms = cl.get_platforms()
+    except cl.LogicError:  # the loader's way of saying that it knows no platform
+        return ()
+    found: list[Device] = []
+    for i, platform in enumerate(platforms):
+        try:
+            present = platform.get_devices()
+        except cl.Error:
+            continue
+        for j, device in enumerate(present):
+            found.append(
+                Device(
+                    index=len(found),
+                    name=device.name.strip(),
+                    platform=platform.name.strip(),
+                    platform_version=platform.version,
+                    version=device.version.strip(),
+                    driver=device.driver_version.strip(),
+                    is_cpu=bool(device.type & cl.device_type.CPU),
+                    has_double="cl_khr_fp64" in device.extensions.split() or bool(device.double_fp_config),
+                    compute_units=device.max_compute_units,
+                    position=(i, j),
+                )
+            )
+    return tuple(found)
+
+
+def choose(selector: str | None = None) -> Device:
+    """Pick a device.
+
+    Parameters
+    ----------
+    selector : str, optional
+        An index of ``devices()``, or part of a device's name, platform or platform version, in any case;
+        without it ``$GBNBENCH_DEVICE``, else the best found: double precision first, then GPUs.
+
+    Raises
+    ------
+    DeviceError
+        If there is no device, or the selector fits none or several.
+    """
+    present = devices()
+    if not present:
+        raise DeviceError(f"no OpenCL device found. {INSTALL}")
+    wanted = selector if selector is not None else os.environ.get(DEVICE_VARIABLE, "")
+    if not wanted.strip():
+        return min(present, key=lambda d: (not d.has_double, d.is_cpu, d.index))
+    fitting = [d for d in present if wanted.strip() == str(d.index)] or [
+        d for d in present if wanted.strip().lower() in d.label.lower()
+    ]
+    if len(fitting) != 1:
+        listing = "; ".join(f"{d.index}: {d.label}" for d in fitting or present)
+        fault = "fits several devices" if fitting else "fits no device"
+        raise DeviceError(f"device {wanted!r} {fault}: {listing}. Give one index, or more of the name")
+    return fitting[0]

@@ -1,0 +1,179 @@
+"""A context and queue on the chosen device, with programs built once for each set of definitions."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping, Sequence
+from functools import cache, cached_property
+from importlib import resources
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gbnbench.cache import cache_folder
+from gbnbench.errors import DeviceError
+from gbnbench.opencl.device import Device, choose, handle, import_pyopencl
+from gbnbench.opencl.probe import VectorWidths, vector_widths
+
+# Safe everywhere it was tried; -cl-fast-relaxed-math and -cl-unsafe-math-optimizations give wrong gradients.
+OPTIONS = ("-cl-std=CL1.2", "-cl-mad-enable", "-cl-finite-math-only")
+
+
+class Program:
+    """A built program; keeps one kernel object an entry point."""
+
+    def __init__(self, owner: Runtime, built: Any) -> None:
+        self._runtime = owner
+        self._kernels = {kernel.function_name: kernel for kernel in built.all_kernels()}
+
+    def run(self, name: str, global_size: Sequence[int], local_size: Sequence[int], *args: Any) -> None:
+        """Enqueue a kernel.
+
+        Parameters
+        ----------
+        name : str
+            Entry point.
+        global_size, local_size : sequences of int
+            Work-items; the local size is always said, since without it PoCL uses one core.
+        *args
+            Buffers and numpy scalars of the kernel's own types.
+        """
+        self._kernels[name](self._runtime.queue, tuple(global_size), tuple(local_size), *args)
+
+
+class Runtime:
+    """One device ready to compute.
+
+    Attributes
+    ----------
+    device : Device
+        Which.
+    context, queue
+        pyopencl objects; the queue runs in order.
+    """
+
+    def __init__(self, device: Device) -> None:
+        cl = import_pyopencl()
+        self._cl = cl
+        self.device = device
+        self.context = cl.Context([handle(device.position)])
+        self.queue = cl.CommandQueue(self.context)
+        self._programs: dict[tuple[object, ...], Program] = {}
+
+    @cached_property
+    def widths(self) -> VectorWidths:
+        """Proven vector widths on a CPU; one lane a work-item elsewhere."""
+        if not self.device.is_cpu:
+            return VectorWidths(1, 1 if self.device.has_double else 0)
+        return vector_widths(self.device)
+
+    def lanes(self, precision: str) -> int:
+        """Vector width for precision, "float" or "double".
+
+        Raises
+        ------
+        DeviceError
+            If the device cannot compute in that precision.
+        """
+        lanes = self.widths.float64 if precision == "double" else self.widths.float32
+        if lanes == 0:
+            raise DeviceError(
+                f"{self.device.label} does not compute in {precision}; choose another device (gbnbench devices) "
+                'or precision="float" where a power floor of 1e-13 suffices'
+            )
+        return lanes
+
+    @property
+    def group(self) -> int:
+        """Work-group size: 1 where work-items are vectors already, a wavefront's worth on a GPU."""
+        return 1 if self.device.is_cpu else 64
+
+    def program(self, package: str, files: Sequence[str], defines: Mapping[str, object] | None = None) -> Program:
+        """Build kernel files, once for each set of definitions.
+
+        Parameters
+        ----------
+        package : str
+            Package whose ``kernels`` folder holds the files, such as ``gbnbench.analysis``; a file name that
+            begins with a slash is taken from gbnbench's own ``kernels``.
+        files : sequence of str
+            Joined in this order, each under its own ``#line``.
+        defines : mapping, optional
+            ``-D`` macros.
+
+        Raises
+        ------
+        DeviceError
+            If the compiler refuses; its log is in the text.
+        """
+        key = (package, tuple(files), tuple(sorted((defines or {}).items(), key=str)))
+        if key not in self._programs:
+            options = [*OPTIONS, *(f"-D {name}={value}" for name, value in (defines or {}).items())]
+            try:
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore", self._cl.CompilerWarning)
+                    built = self._cl.Program(self.context, _source(package, tuple(files))).build(
+                        options, cache_dir=str(cache_folder() / "pyopencl")
+                    )
+            except self._cl.RuntimeError as error:
+                raise DeviceError(f"{self.device.label} cannot build {', '.join(files)}: {error}") from None
+            self._programs[key] = Program(self, built)
+        return self._programs[key]
+
+    def upload(self, array: NDArray[Any]) -> Any:
+        """Copy an array to a new device buffer."""
+        flags = self._cl.mem_flags.READ_WRITE | self._cl.mem_flags.COPY_HOST_PTR
+        return self._cl.Buffer(self.context, flags, hostbuf=np.ascontiguousarray(array))
+
+    def empty(self, nbytes: int) -> Any:
+        """Make an uninitialised device buffer.
+
+        Raises
+        ------
+        DeviceError
+            If the device has no such memory.
+        """
+        limit = int(handle(self.device.position).max_mem_alloc_size)
+        if nbytes > limit:
+            raise DeviceError(f"{self.device.label} gives buffers of at most {limit} bytes; {nbytes} were needed")
+        return self._cl.Buffer(self.context, self._cl.mem_flags.READ_WRITE, max(int(nbytes), 1))
+
+    def download(self, buffer: Any, out: NDArray[Any]) -> NDArray[Any]:
+        """Copy the head of a buffer into out, waiting for the kernels before it."""
+        self._cl.enqueue_copy(self.queue, out, buffer)
+        return out
+
+    def update(self, buffer: Any, array: NDArray[Any]) -> None:
+        """Copy an array into the head of an existing buffer."""
+        self._cl.enqueue_copy(self.queue, buffer, np.ascontiguousarray(array))
+
+    def finish(self) -> None:
+        """Wait for all that was enqueued."""
+        self.queue.finish()
+
+
+@cache
+def _source(package: str, files: tuple[str, ...]) -> str:
+    parts = []
+    for name in files:
+        home = "gbnbench" if name.startswith("/") else package
+        text = (resources.files(home) / "kernels" / name.lstrip("/")).read_text()
+        parts.append(f'#line 1 "{name.lstrip("/")}"\n{text}')
+    return "\n".join(parts)
+
+
+@cache
+def _open(device: Device) -> Runtime:
+    return Runtime(device)
+
+
+def runtime(selector: str | None = None) -> Runtime:
+    """Open the chosen device, once a process; see ``choose`` for selectors.
+
+    Raises
+    ------
+    DeviceError
+        If there is no such device.
+    """
+    return _open(choose(selector))
