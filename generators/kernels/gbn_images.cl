@@ -5,6 +5,11 @@
  * Points come ordered so that neighbours in space are near in memory; boxes hold the centre and half width of each
  * run of BOX points. One work-item sums LANES points over every box that comes within the cut-off.
  */
+#if DOUBLE
+#define NEAREST 6755399441055744.0 /* 1.5 * 2^52: adding and subtracting it rounds to an integer */
+#else
+#define NEAREST 12582912.0f
+#endif
 #define COORDINATE(x, a, k) (x)[(a) * stride + (k)]
 
 /* One work-item bounds one run of BOX points on the torus: widths are taken around its first point. */
@@ -54,7 +59,7 @@ __kernel void gbn_images(__global const REAL *x, const uint n, const uint stride
             REALV u[DIM], half_square = (REALV)0;
             for (uint a = 0; a < DIM; a++) {
                 u[a] = at[a] - COORDINATE(x, a, l);
-                u[a] = (u[a] - rint(u[a])) * scale;
+                u[a] = (u[a] - ((u[a] + NEAREST) - NEAREST)) * scale;
                 half_square += u[a] * u[a];
             }
             const REALV g = exp_negative(half_square * (REAL)0.5);
