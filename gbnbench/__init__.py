@@ -1,0 +1,48 @@
+"""Exact spectra of point sets in any dimension, generators compared side by side, and Gaussian Blue Noise.
+
+The names below load their modules when first used, so that importing gbnbench costs nearly nothing:
+
+- ``generate(name, n=, d=, seed=, realizations=, **settings)``: point sets from a generator;
+- ``load(path)``, ``save(path, x)``: point-set files;
+- ``periodogram(x, fmax)``: exact power at every integer frequency; ``radial(spectrum)``: its radial mean;
+- ``measures(x)``: every scalar measure with its standard error.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from gbnbench.analysis.measures import measures
+    from gbnbench.analysis.periodogram import periodogram
+    from gbnbench.analysis.radial import radial
+    from gbnbench.errors import GbnbenchError
+    from gbnbench.generators.registry import generate
+    from gbnbench.points import load, save
+
+__version__ = "0.1.0"
+
+_HOMES = {
+    "GbnbenchError": "gbnbench.errors",
+    "generate": "gbnbench.generators.registry",
+    "load": "gbnbench.points",
+    "measures": "gbnbench.analysis.measures",
+    "periodogram": "gbnbench.analysis.periodogram",
+    "radial": "gbnbench.analysis.radial",
+    "save": "gbnbench.points",
+}
+
+__all__ = ["GbnbenchError", "generate", "load", "measures", "periodogram", "radial", "save"]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module 'gbnbench' has no attribute {name!r}")
+    value = getattr(importlib.import_module(_HOMES[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted([*globals(), *_HOMES])

@@ -1,0 +1,121 @@
+"""What every generator of the registry promises, asked of each in one to four dimensions."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from typing import Any
+
+import numpy as np
+import pytest
+
+from gbnbench.errors import InputError, RefusalError
+from gbnbench.generators.protocol import Generator, realization_rng
+from gbnbench.generators.registry import GENERATORS, find, generate
+from gbnbench.generators.settings import specification
+
+QUICK: dict[str, dict[str, Any]] = {"lloyd": {"iterations": 4}, "gbn": {"gradients": 20}}
+SIZES = (16, 15, 27)
+
+
+def served() -> list[tuple[str, int, int]]:
+    """Name, n and d of everything that can be made, at the first of a few small sizes."""
+    cases = []
+    for name in GENERATORS:
+        for d in (1, 2, 3, 4):
+            fits = [n for n in SIZES if find(name).refusal(n, d) is None]
+            cases += [(name, fits[0], d)] if fits else []
+    return cases
+
+
+def changed(generator: Generator) -> Generator:
+    """The same generator with every number and switch moved off its default."""
+    values: dict[str, Any] = {}
+    for field in dataclasses.fields(generator):  # type: ignore[arg-type]
+        if isinstance(field.default, bool):
+            values[field.name] = not field.default
+        elif isinstance(field.default, int):
+            values[field.name] = field.default + 1
+        elif isinstance(field.default, float):
+            values[field.name] = field.default * 0.75
+    return dataclasses.replace(generator, **values)  # type: ignore[type-var]
+
+
+@pytest.mark.parametrize(("name", "n", "d"), served())
+class TestDraws:
+    def test_is_points_of_the_torus(self, name: str, n: int, d: int) -> None:
+        x = generate(name, n=n, d=d, **QUICK.get(name, {}))
+        assert x.shape == (n, d)
+        assert x.dtype == np.float64
+        assert x.flags.c_contiguous
+        assert np.all((x >= 0) & (x < 1))
+        assert len(np.unique(x, axis=0)) == n
+
+    def test_realization_depends_on_seed_and_index_alone(self, name: str, n: int, d: int) -> None:
+        quick = QUICK.get(name, {})
+        sets = generate(name, n=n, d=d, seed=5, realizations=3, **quick)
+        assert sets.shape == (3, n, d)
+        assert np.array_equal(generate(name, n=n, d=d, seed=5, **quick), sets[0])
+        assert np.array_equal(find(name, **quick)(n, d, realization_rng(5, 2)), sets[2])
+
+    def test_realizations_and_seeds_differ(self, name: str, n: int, d: int) -> None:
+        quick = QUICK.get(name, {})
+        sets = [
+            *generate(name, n=n, d=d, seed=5, realizations=2, **quick),
+            generate(name, n=n, d=d, seed=6, **quick),
+        ]
+        for i in range(3):
+            for j in range(i):
+                assert not np.intersect1d(sets[i], sets[j]).size
+
+    def test_serves_a_single_point_or_says_why_not(self, name: str, n: int, d: int) -> None:
+        if find(name).refusal(1, d) is None:
+            assert generate(name, n=1, d=d, **QUICK.get(name, {})).shape == (1, d)
+        else:
+            with pytest.raises(RefusalError, match="n"):
+                generate(name, n=1, d=d)
+
+
+@pytest.mark.parametrize("name", GENERATORS)
+class TestGenerator:
+    def test_follows_the_protocol(self, name: str) -> None:
+        kind = GENERATORS[name]
+        assert kind.name == name
+        assert kind.summary
+        assert "\n" not in kind.summary
+        assert isinstance(kind(), Generator)
+
+    def test_is_frozen_and_equal_by_its_settings(self, name: str) -> None:
+        generator = GENERATORS[name]()
+        assert generator == find(name)
+        assert hash(generator) == hash(find(name))
+        for field in dataclasses.fields(generator):  # type: ignore[arg-type]
+            with pytest.raises(dataclasses.FrozenInstanceError):
+                setattr(generator, field.name, field.default)
+
+    def test_settings_make_the_round_trip_through_text(self, name: str) -> None:
+        for generator in (GENERATORS[name](), changed(GENERATORS[name]())):
+            text = specification(generator)
+            assert find(text) == generator
+            assert specification(find(text)) == text
+        assert specification(GENERATORS[name]()) == name
+
+    @pytest.mark.parametrize("d", [1, 2, 3, 4, 7, 30_000])
+    @pytest.mark.parametrize("n", [1, 2, 10, 1000, 2**31])
+    def test_refusal_names_what_was_asked_and_a_size_that_fits(self, name: str, n: int, d: int) -> None:
+        generator = find(name)
+        reason = generator.refusal(n, d)
+        if reason is None:
+            return
+        assert f"n={n}" in reason or f"d={d}" in reason
+        nearest = re.search(r"nearest is (\d+)", reason)
+        if nearest and f"n={n}" in reason:
+            assert generator.refusal(int(nearest.group(1)), d) is None
+        with pytest.raises(RefusalError):
+            generator(n, d, realization_rng(0, 0))
+
+    def test_unknown_setting_is_refused_with_those_there_are(self, name: str) -> None:
+        with pytest.raises(InputError, match=f"{name} has no setting 'nonsense'") as caught:
+            find(name, nonsense=1)
+        for field in dataclasses.fields(GENERATORS[name]):  # type: ignore[arg-type]
+            assert f"{field.name}=" in str(caught.value)

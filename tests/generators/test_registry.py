@@ -1,0 +1,59 @@
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from gbnbench.errors import InputError, RefusalError
+from gbnbench.generators.lloyd import Lloyd
+from gbnbench.generators.registry import find, generate
+
+
+def test_random_is_numpys_stream_of_the_documented_seed() -> None:
+    expected = [
+        np.random.default_rng(np.random.SeedSequence(7, spawn_key=(k,))).random((5, 3)) for k in range(4)
+    ]
+    assert np.array_equal(generate("random", n=5, d=3, seed=7, realizations=4), expected)
+
+
+def test_name_may_hold_settings() -> None:
+    text = generate("lloyd[iterations=3]", n=9, tolerance="0")
+    assert np.array_equal(text, generate("lloyd", n=9, iterations=3, tolerance=0.0))
+    assert find(" lloyd [ iterations = 3 ] ") == Lloyd(iterations=3)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"name": "jitered", "n": 4}, "did you mean 'jittered'.*there are random, grid"),
+        ({"name": "no-such-thing", "n": 4}, "no generator is named 'no-such-thing'; there are random"),
+        ({"name": "lloyd[iterations=3]", "n": 4, "iterations": 4}, "a setting must come once"),
+        ({"name": "lloyd[iterations=-3]", "n": 4}, "iterations must be >= 0; got -3"),
+        (
+            {"name": "lloyd", "n": 4, "itrations": 4},
+            "did you mean 'iterations'.*iterations=200, tolerance=0.001",
+        ),
+        ({"name": "random", "n": 0}, "n must be a whole number >= 1; got 0"),
+        ({"name": "random", "n": 4.5}, "n must be a whole number >= 1; got 4.5"),
+        ({"name": "random", "n": True}, "n must be a whole number >= 1; got True"),
+        ({"name": "random", "n": 4, "d": 0}, "d must be a whole number >= 1; got 0"),
+        ({"name": "random", "n": 4, "seed": -1}, "seed must be a whole number >= 0; got -1"),
+        ({"name": "random", "n": 4, "realizations": 0}, "realizations must be a whole number >= 1; got 0"),
+    ],
+)
+def test_wrong_arguments_are_named(arguments: dict[str, Any], message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        generate(**arguments)
+
+
+def test_refusal_is_the_generators_own() -> None:
+    with pytest.raises(
+        RefusalError, match=r"n must be m\*\*2 for a jittered grid; got n=1000, nearest is 1024"
+    ):
+        generate("jittered", n=1000)
+
+
+def test_numpy_integers_are_integers() -> None:
+    n, d = np.array([6, 2])
+    assert generate("random", n=n, d=d, seed=np.uint32(3), realizations=np.int8(2)).shape == (2, 6, 2)
