@@ -1,4 +1,4 @@
-"""Sixfold order of Delaunay neighbours: PSA's bond order (Heck et al. 2013) and psi6 (Halperin & Nelson 1978)."""
+"""Sixfold order of Delaunay neighbours: bond order (Heck et al. 2013; PSA), psi6 (Halperin & Nelson 1978)."""
 
 from __future__ import annotations
 

@@ -19,9 +19,12 @@ if TYPE_CHECKING:
 
 IndexArray = NDArray[np.intp]
 
-# A Voronoi edge (in 3D the width of a face) shorter than this many spacings counts as none: far above the
-# rounding of coordinates, far below what a random set shows.
-DEGENERATE = 1e-8
+# A Voronoi edge, or the width of a Voronoi face, below this many spacings counts as none: above what rounding
+# makes of cocircular points, below what a random set shows. Circumcentres of thin tetrahedra round more.
+SHORTEST_EDGE = 1e-8
+NARROWEST_FACE = 1e-6
+# Volume of a tetrahedron, over its sides' product, below which it is flat.
+FLATTEST = 1e-8
 # The torus holds the integer lattice of each point, so no empty ball is wider than sqrt(3): two rings of
 # images reach every neighbour of a point, whatever the set.
 WIDEST_MARGIN = 2.0
@@ -117,15 +120,17 @@ def neighbours(x: ArrayLike) -> tuple[Neighbours, ...]:
 
     Examples
     --------
-    >>> neighbours([[0.1, 0.2], [0.6, 0.3], [0.4, 0.8]])[0].degree.mean()
-    np.float64(6.0)
+    >>> float(neighbours([[0.1, 0.2], [0.6, 0.3], [0.4, 0.8]])[0].degree.mean())
+    6.0
     """
     sets = as_realizations(x)
     d = sets.shape[2]
     if d == 1:
         raise RefusalError("Delaunay neighbours say nothing in d = 1: every point has two; use d = 2 or 3")
     if d > 3:
-        raise RefusalError(f"Delaunay neighbours are made in d = 2 and 3; got d={d}, where they grow too many")
+        raise RefusalError(
+            f"Delaunay neighbours are made in d = 2 and 3; got d={d}, where they grow too many"
+        )
     return tuple(_triangulate(points) for points in sets)
 
 
@@ -183,20 +188,23 @@ def plane_neighbours(x: ArrayLike | Sequence[Neighbours], measure: str) -> Seque
 def _triangulate(x: FloatArray) -> Neighbours:
     n, d = x.shape
     h = spacing(n, d)
+    if len(np.unique(x, axis=0)) < n:
+        raise RefusalError(f"Delaunay neighbours need distinct points; some of these n={n} coincide")
     star = _star2 if d == 2 else _star3
     margin = 3 * h if 3 * h < 1 else WIDEST_MARGIN
     while True:
         tiled, owner = _tile(x, margin)
         try:
-            simplices = Delaunay(tiled).simplices.astype(np.intp)
-            found = star(tiled, simplices, n, h, margin)
+            found = star(tiled, _inner_simplices(tiled, n), n, h, margin)
         except QhullError:  # too few images to span the space
-            found = None
+            found = 0.0
         if isinstance(found, _Star):
             return Neighbours(found.indptr, owner[found.image], tiled[found.image] - x[found.point])
         if margin >= WIDEST_MARGIN:
-            raise RefusalError(f"Delaunay neighbours need distinct points; in a set of n={n} some coincide")
-        wanted = max(1.5 * margin, found or 0.0)
+            raise RefusalError(
+                f"Delaunay neighbours need points apart; some of these n={n} are too near for doubles"
+            )
+        wanted = max(1.5 * margin, found)
         margin = wanted if wanted < 1 else WIDEST_MARGIN
 
 
@@ -205,7 +213,22 @@ def _tile(x: FloatArray, margin: float) -> tuple[FloatArray, IndexArray]:
     if margin <= 1:
         return with_images(x, margin)
     shifts = sorted(itertools.product((0, 1, -1, 2, -2), repeat=x.shape[1]), key=any)  # the set itself first
-    return np.concatenate([x + np.array(s) for s in shifts]), np.tile(np.arange(len(x), dtype=np.intp), len(shifts))
+    return np.concatenate([x + np.array(s) for s in shifts]), np.tile(
+        np.arange(len(x), dtype=np.intp), len(shifts)
+    )
+
+
+def _inner_simplices(tiled: FloatArray, n: int) -> IndexArray:
+    """Simplices at the first n points; none where one of those lies on the hull, or rounding lost a point."""
+    mesh = Delaunay(tiled)
+    simplices = mesh.simplices.astype(np.intp)
+    if len(mesh.coplanar):
+        return simplices[:0]
+    for corner in range(simplices.shape[1]):
+        outer = simplices[mesh.neighbors[:, corner] < 0]
+        if (np.delete(outer, corner, axis=1) < n).any():
+            return simplices[:0]
+    return simplices[(simplices < n).any(axis=1)]
 
 
 @dataclass(frozen=True)
@@ -218,7 +241,7 @@ class _Star:
 
 
 def _star2(tiled: FloatArray, simplices: IndexArray, n: int, h: float, margin: float) -> _Star | float:
-    """Closed cycles of neighbours in the plane, or the margin that is lacking (0: a star is open)."""
+    """Find closed cycles of neighbours in the plane, or the margin that is lacking (0: a star is open)."""
     corners = np.concatenate([simplices, simplices[:, [1, 2, 0]], simplices[:, [2, 0, 1]]])
     point, first, second = corners[corners[:, 0] < n].T
     a, b = tiled[first] - tiled[point], tiled[second] - tiled[point]
@@ -243,21 +266,20 @@ def _star2(tiled: FloatArray, simplices: IndexArray, n: int, h: float, margin: f
     preceding = np.empty_like(following)
     preceding[following] = np.arange(len(following))
     length = np.sqrt(np.sum((centre - centre[preceding]) ** 2, axis=1))
-    return _kept(point, first, length > DEGENERATE * h, n)
+    return _kept(point, first, length > SHORTEST_EDGE * h, n)
 
 
 def _star3(tiled: FloatArray, simplices: IndexArray, n: int, h: float, margin: float) -> _Star | float:
-    """Neighbours in space whose Voronoi faces have area, or the margin that is lacking (0: unknown)."""
+    """Find neighbours in space whose Voronoi faces have area, or the margin that is lacking (0: unknown)."""
+    if len(np.unique(simplices[simplices < n])) < n:
+        return 0.0
     origin = tiled[simplices[:, 0]]
     sides = tiled[simplices[:, 1:]] - origin[:, None]
     # Flat tetrahedra come from points on one sphere; their centre is that of the tetrahedra beside them.
-    solid = np.abs(np.linalg.det(sides)) > DEGENERATE * np.prod(np.sqrt(np.sum(sides**2, axis=2)), axis=1)
+    solid = np.abs(np.linalg.det(sides)) > FLATTEST * np.prod(np.sqrt(np.sum(sides**2, axis=2)), axis=1)
     simplices, origin, sides = simplices[solid], origin[solid], sides[solid]
     centre = np.linalg.solve(2 * sides, np.sum(sides**2, axis=2)[..., None])[..., 0]
-    own = (simplices < n).any(axis=1)
-    if len(np.unique(simplices[simplices < n])) < n:
-        return 0.0
-    lacking = _reach((origin + centre)[own], np.sqrt(np.sum(centre[own] ** 2, axis=1)))
+    lacking = _reach(origin + centre, np.sqrt(np.sum(centre**2, axis=1)))
     if lacking > margin:
         return lacking
     pairs = np.array([(i, j) for i in range(4) for j in range(4) if i != j])
@@ -271,9 +293,9 @@ def _star3(tiled: FloatArray, simplices: IndexArray, n: int, h: float, margin: f
     corner = corner - np.repeat(np.add.reduceat(corner, start) / count[:, None], count, axis=0)
     moment = np.add.reduceat(corner[:, :, None] * corner[:, None, :], start)
     trace = np.trace(moment, axis1=1, axis2=2)
-    # Product of the two moments of a flat face; it is 0 for a face that is a point or a line.
-    spread = (trace**2 - np.sum(moment**2, axis=(1, 2))) / 2
-    return _kept(point[start], image[start], spread > DEGENERATE**2 * h**4, n)
+    # A flat face has two moments: this is their product, and over their sum it is the width squared.
+    product = (trace**2 - np.sum(moment**2, axis=(1, 2))) / 2
+    return _kept(point[start], image[start], product > (NARROWEST_FACE * h) ** 2 * trace, n)
 
 
 def _reach(centre: FloatArray, radius: FloatArray) -> float:

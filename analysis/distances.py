@@ -35,11 +35,13 @@ def nearest_distances(x: ArrayLike) -> FloatArray:
     unit = densest_spacing(n, d)
     if math.isnan(unit):
         raise RefusalError(
-            f"distances are measured in spacings of the densest lattice, known for d <= {len(HERMITE)}; got d={d}"
+            f"distances are in spacings of the densest lattice, known for d <= {len(HERMITE)}; got d={d}"
         )
     if n < 2:
         raise RefusalError("a distance between points needs n >= 2; got n=1")
-    return np.array([cKDTree(points, boxsize=1.0).query(points, k=2)[0][:, 1] for points in sets]) / unit
+    box = np.ones(d)
+    nearest = [np.asarray(cKDTree(points, boxsize=box).query(points, k=2)[0])[:, 1] for points in sets]
+    return np.array(nearest, dtype=np.float64) / unit
 
 
 def min_distance(x: ArrayLike) -> FloatArray:

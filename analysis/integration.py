@@ -39,7 +39,9 @@ def discrepancies(x: ArrayLike) -> dict[Discrepancy, FloatArray]:
     n, d = sets.shape[1:]
     if n * n * d > MOST_TERMS:
         most = int((MOST_TERMS / d) ** 0.5)
-        raise RefusalError(f"discrepancies sum over n^2 d terms; in d={d} n must be at most {most}, got n={n}")
+        raise RefusalError(
+            f"discrepancies sum over n^2 d terms; in d={d} n must be at most {most}, got n={n}"
+        )
     return {
         kind: np.array([qmc.discrepancy(points, method=kind) for points in sets])
         for kind in get_args(Discrepancy)

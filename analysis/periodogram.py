@@ -1,8 +1,8 @@
 """Exact periodograms in any dimension: P(f) = |sum_k exp(-2 pi i f.x_k)|^2 / n at integer frequencies.
 
 The cube of frequencies is split in a leading and a trailing group of dimensions; each group's half space is
-enumerated by base-(2F+1) digits (Ahmed, Ren & Wonka 2022, App. C), its cosines and sines are tabulated from exact
-fixed-point phases, and the amplitudes are a register-tiled real product of the two tables.
+enumerated by base-(2F+1) digits (Ahmed, Ren & Wonka 2022, App. C), its cosines and sines are tabulated from
+exact fixed-point phases, and the amplitudes are a register-tiled real product of the two tables.
 """
 
 from __future__ import annotations
@@ -51,8 +51,8 @@ def periodogram(
     Returns
     -------
     Spectrum
-        ``power`` is (2*fmax+1,)*d float64 with DC, which equals n, at the centre; (m,) for listed frequencies.
-        1 in expectation for white noise.
+        ``power`` is (2*fmax+1,)*d float64 with DC, which equals n, at the centre; (m,) for listed
+        frequencies. 1 in expectation for white noise.
 
     Raises
     ------
@@ -65,8 +65,8 @@ def periodogram(
     Notes
     -----
     Eq. (10) of Ahmed, Ren & Wonka (2022), divided by n as in PSA. A coordinate is rounded to a multiple of
-    2**-64 of a turn (2**-32 in float); from there f.x mod 1 is exact at any f, and the error of an amplitude is
-    that of the cosines and their sum: about 4e-16 sqrt(n) rms in double, 4e-7 sqrt(n) in float up to
+    2**-64 of a turn (2**-32 in float); from there f.x mod 1 is exact at any f, and the error of an amplitude
+    is that of the cosines and their sum: about 4e-16 sqrt(n) rms in double, 4e-7 sqrt(n) in float up to
     |f| = 512, where rounded coordinates begin to count.
 
     Examples
@@ -78,22 +78,22 @@ def periodogram(
     """
     points = as_realizations(x)
     if (fmax is None) == (frequencies is None):
-        raise InputError("give either fmax or frequencies: periodogram(x, 64) or periodogram(x, frequencies=f)")
+        raise InputError(
+            "give either fmax or frequencies: periodogram(x, 64) or periodogram(x, frequencies=f)"
+        )
     if frequencies is not None:
         return _listed(points, _check_frequencies(frequencies, points.shape[2]), precision)
-    total: FloatArray | None = None
     fmax = check_fmax(fmax, points.shape[2])
-    for power in powers(points, fmax, precision):
-        total = power if total is None else np.add(total, power, out=total)
-    return spectrum_of(total / len(points) if len(points) > 1 else total, points.shape, fmax, precision)
+    each = powers(points, fmax, precision)
+    mean = next(each)
+    for power in each:
+        mean += power
+    mean /= len(points)
+    return spectrum_of(mean, points.shape, fmax, precision)
 
 
-def spectrum_of(
-    power: FloatArray | None, shape: tuple[int, ...], fmax: int, precision: str = "double"
-) -> Spectrum:
-    """Label a mean cube made by ``powers`` with what made it; shape is that of the (realizations, n, d) points."""
-    if power is None:
-        raise InputError("a spectrum needs at least one realization")
+def spectrum_of(power: FloatArray, shape: tuple[int, ...], fmax: int, precision: str = "double") -> Spectrum:
+    """Label a mean cube of ``powers`` with what made it; shape is that of its (realizations, n, d) points."""
     realizations, n, d = shape
     return Spectrum(
         power=power,
@@ -138,16 +138,19 @@ def check_fmax(fmax: object, d: int) -> int:
     room = int(MEMORY_SHARE * os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")) // 24
     if count > room:
         fitting = (math.floor(room ** (1 / d)) - 1) // 2
-        way_out = f"the largest fmax that fits is {fitting}" if fitting >= 1 else "list the frequencies you need"
+        way_out = (
+            f"the largest fmax that fits is {fitting}" if fitting >= 1 else "list the frequencies you need"
+        )
         raise InputError(
-            f"fmax={fmax} in d={d} means {count:.3g} frequencies, of which {room:.3g} fit in memory; {way_out}"
+            f"fmax={fmax} in d={d} means {count:.3g} frequencies, of which {room:.3g} fit in memory; "
+            f"{way_out}"
         )
     return int(fmax)
 
 
 def largest_fmax(count: int, d: int) -> int:
     """Largest F with (2F+1)**d <= count, at least 1."""
-    f = max(1, math.floor((count ** (1 / d) - 1) / 2))
+    f = max(1, math.floor((math.pow(count, 1 / d) - 1) / 2))
     while (2 * f + 3) ** d <= count:  # the root may round down
         f += 1
     return f
@@ -267,8 +270,12 @@ class _TwoGroupProduct:
         self.rows = 3 if p.lanes > 1 else 4
         base = 2 * fmax + 1
         leading = d // 2
-        per_point = sum((base**dims + 1) // 2 for dims in (leading, d - leading)) * 2 * np.dtype(p.real).itemsize
-        chunk = min(_padded(n, SUM_POINTS), max(SUM_POINTS, TABLE_BYTES // per_point // SUM_POINTS * SUM_POINTS))
+        per_point = (
+            sum((base**dims + 1) // 2 for dims in (leading, d - leading)) * 2 * np.dtype(p.real).itemsize
+        )
+        chunk = min(
+            _padded(n, SUM_POINTS), max(SUM_POINTS, TABLE_BYTES // per_point // SUM_POINTS * SUM_POINTS)
+        )
         program = p.program(
             "digits.cl", "tables.cl", "product.cl", "power.cl", ROWS=self.rows, TABLE_POINTS=TABLE_POINTS
         )

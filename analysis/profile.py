@@ -56,7 +56,9 @@ def _fit(radial: RadialPower, *, logarithmic: bool) -> Fit:
     band = (radial.nu >= FIT_BAND[0]) & (radial.nu <= FIT_BAND[1])
     shells = int(band.sum())
     if shells < FIT_SHELLS:
-        raise RefusalError(f"a profile fit needs three shells with 0.05 <= nu <= 0.6; this spectrum has {shells}")
+        raise RefusalError(
+            f"a profile fit needs three shells with 0.05 <= nu <= 0.6; this spectrum has {shells}"
+        )
     power = radial.power[band]
     if not (power > 0).all():
         raise RefusalError("a profile fit needs power above 0 on every shell with 0.05 <= nu <= 0.6")
@@ -105,20 +107,28 @@ def evacuated_energy(power: FloatArray, shells: Shells, n: int, d: int, fmax: in
 
 
 def peak(radial: RadialPower) -> tuple[float, float]:
-    """Largest mean power over the rings round(|f|) = k with 0.5 <= nu <= 2, and that ring's nu.
+    """Largest mean power over the whole rings round(|f|) = k < fmax with 0.5 <= nu <= 2, and that ring's nu.
 
     Raises
     ------
     RefusalError
-        If the cube ends below nu = 1, where a peak may still be to come.
+        If the last whole ring lies below nu = 1, where a peak may still be to come.
     """
     spacing = float(radial.nu[0] / radial.frequency[0])
     ring = np.rint(radial.frequency).astype(np.int64)
-    count = np.bincount(ring, radial.count)
-    total = np.bincount(ring, radial.power * radial.count)
+    whole = ring < round(radial.frequency[-1])  # the ring of fmax reaches half a unit beyond the cube
+    if not whole.any():
+        raise RefusalError(
+            "the peak needs whole rings of frequencies up to nu = 1 at least; fmax = 1 holds none"
+        )
+    count = np.bincount(ring[whole], radial.count[whole])
+    total = np.bincount(ring[whole], radial.power[whole] * radial.count[whole])
     nu = np.arange(len(count)) * spacing
     if nu[-1] < 1:
-        raise RefusalError(f"the peak needs frequencies up to nu = 1 at least; this spectrum ends at {nu[-1]:.2f}")
+        raise RefusalError(
+            f"the peak needs whole rings of frequencies up to nu = 1 at least; the last here is at "
+            f"{nu[-1]:.2f}"
+        )
     band = (nu >= PEAK_BAND[0]) & (nu <= PEAK_BAND[1]) & (count > 0)
     mean = np.where(band, total / np.maximum(count, 1), -np.inf)
     k = int(np.argmax(mean))

@@ -17,6 +17,8 @@ from gbnbench.torus import FloatArray, as_realizations
 ROWS = 256
 # Frequencies evaluated first, in units of sqrt(n): the statistics of most sets need no more.
 FIRST_RANGE = 8.0
+# Some minutes of one core.
+MOST_POINTS = 200_000
 
 
 @dataclass(frozen=True)
@@ -27,8 +29,10 @@ class SpectralStatistics:
     ----------
     effective_nyquist, oscillations : float
         Of the power averaged over realizations, as PSA's.
+    effective_nyquist_error, oscillations_error : float
+        Their standard errors by the jackknife over realizations; nan for a single one.
     effective_nyquist_by_set, oscillations_by_set : (realizations,) float64
-        Of each set's own power.
+        Of each set's own power, whose noise counts as oscillation too: more than the mean power has.
     frequency : (k,) float64
         Left edges of PSA's bins, sqrt(n)/200 apart, as far as they were needed.
     power : (realizations, k) float64
@@ -37,6 +41,8 @@ class SpectralStatistics:
 
     effective_nyquist: float
     oscillations: float
+    effective_nyquist_error: float
+    oscillations_error: float
     effective_nyquist_by_set: FloatArray
     oscillations_by_set: FloatArray
     frequency: FloatArray
@@ -59,7 +65,7 @@ def spectral_statistics(x: ArrayLike) -> SpectralStatistics:
     Raises
     ------
     RefusalError
-        If d is not 2 or n < 2.
+        If d is not 2, n < 2, or n > 200,000: a fifth of all pairs is counted.
 
     Notes
     -----
@@ -73,7 +79,9 @@ def spectral_statistics(x: ArrayLike) -> SpectralStatistics:
     Oscillations: 10 sqrt(2 pi Int (P - 1)^2 v dv / (pi (v1^2 - v0^2))) over v0..v1, v0 where P first reaches
     0.98 (its maximum, where it never does), v1 = min(v0 + 5 sqrt(n), n/2).
 
-    The window ends at r = 1/4 at the latest, so pairs farther apart are not counted.
+    The window ends at r = 1/4 at the latest, so pairs farther apart are not counted. Integrals are the plain
+    trapezoid rule; PSA's drops one sample where their number is odd, and reads coordinates as float32, so its
+    figures may differ by 0.001.
     """
     sets = as_realizations(x)
     n, d = sets.shape[1:]
@@ -81,23 +89,37 @@ def spectral_statistics(x: ArrayLike) -> SpectralStatistics:
         raise RefusalError(f"PSA's spectral statistics are defined in the plane; got d={d}")
     if n < 2:
         raise RefusalError("PSA's spectral statistics are made of pairs and need n >= 2; got n=1")
+    if n > MOST_POINTS:
+        raise RefusalError(
+            f"PSA's spectral statistics count n^2/10 pairs; n must be at most {MOST_POINTS}, got n={n}"
+        )
     total = int(100 * math.sqrt(n))
     density = _excess_density(sets, total)
-    rows = min(total, math.ceil(FIRST_RANGE * total / (0.5 * math.sqrt(n)))) if n > 4 else total
+    rows = min(total, math.ceil(FIRST_RANGE * total / (0.5 * math.sqrt(n))))
     while True:
         frequency = np.arange(rows) * (0.5 * n / total)
         power = _power(density, frequency, n, total)
-        curves = [power.mean(axis=0), *power]
+        curves = [power.mean(axis=0), *power, *_left_out(power)]
         if rows == total or all(_suffices(curve, frequency, n) for curve in curves):
             break
         rows = total
     nyquist = np.array([_effective_nyquist(curve, frequency, n) for curve in curves])
     omega = np.array([_oscillations(curve, frequency, n) for curve in curves])
-    return SpectralStatistics(float(nyquist[0]), float(omega[0]), nyquist[1:], omega[1:], frequency, power)
+    last = len(sets) + 1
+    return SpectralStatistics(
+        effective_nyquist=float(nyquist[0]),
+        oscillations=float(omega[0]),
+        effective_nyquist_error=_jackknife(nyquist[last:]),
+        oscillations_error=_jackknife(omega[last:]),
+        effective_nyquist_by_set=nyquist[1:last],
+        oscillations_by_set=omega[1:last],
+        frequency=frequency,
+        power=power,
+    )
 
 
 def effective_nyquist(x: ArrayLike) -> FloatArray:
-    """Effective Nyquist frequency of each set, over sqrt(n)/2: (realizations,); see ``spectral_statistics``."""
+    """Effective Nyquist of each set, over sqrt(n)/2: (realizations,); see ``spectral_statistics``."""
     return spectral_statistics(x).effective_nyquist_by_set
 
 
@@ -113,7 +135,7 @@ def _excess_density(sets: FloatArray, total: int) -> FloatArray:
     bins = total // 2 + 1
     r = np.arange(bins) * width
     g = pair_density(sets, bins, bins * width)
-    return ((2 * math.pi * n * width) * (g - 1) * r).T
+    return np.transpose((2 * math.pi * n * width) * (g - 1) * r)
 
 
 def _power(density: FloatArray, frequency: FloatArray, n: int, total: int) -> FloatArray:
@@ -129,6 +151,17 @@ def _power(density: FloatArray, frequency: FloatArray, n: int, total: int) -> Fl
         window = np.where(r > end, 0.0, window)
         power[:, start : start + ROWS] = np.abs(1 + (j0(2 * math.pi * v * r) * window) @ density).T
     return power
+
+
+def _left_out(power: FloatArray) -> FloatArray:
+    """Mean power of all sets but one, for each; nothing for a single set."""
+    sets = len(power)
+    return (power.sum(axis=0) - power) / (sets - 1) if sets > 1 else power[:0]
+
+
+def _jackknife(left_out: FloatArray) -> float:
+    sets = len(left_out)
+    return math.sqrt((sets - 1) * float(np.var(left_out))) if sets > 1 else math.nan
 
 
 def _rise(power: FloatArray) -> int:

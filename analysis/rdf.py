@@ -82,9 +82,13 @@ def rdf(x: ArrayLike) -> RadialDistribution:
     width = RANGE * unit / max(planned, 1)
     bins = min(planned, math.floor(0.5 / width))
     if bins < 1:
-        raise RefusalError(f"rdf has int({BINS_PER_POINT} n) bins, none of which fits the torus at n={n}, d={d}")
+        raise RefusalError(
+            f"rdf has int({BINS_PER_POINT} n) bins, none of which fits the torus at n={n}, d={d}"
+        )
     g = pair_density(sets, bins, bins * width)
-    return RadialDistribution(np.arange(bins) * (width / unit), g.mean(axis=0), g)
+    return RadialDistribution(
+        np.arange(bins, dtype=np.float64) * (width / unit), np.mean(g, axis=0, dtype=np.float64), g
+    )
 
 
 def pair_density(sets: FloatArray, bins: int, reach: float) -> FloatArray:
@@ -95,7 +99,7 @@ def pair_density(sets: FloatArray, bins: int, reach: float) -> FloatArray:
     index = np.arange(bins, dtype=np.float64)
     ball = math.pi ** (d / 2) / math.gamma(d / 2 + 1) * (reach / bins) ** d
     expected = n * (n - 1) / 2 * ball * ((index + 1) ** d - index**d)
-    return np.array([pair_counts(points, bins, reach) for points in sets]) / expected
+    return np.asarray(np.array([pair_counts(points, bins, reach) for points in sets]) / expected)
 
 
 def pair_counts(x: FloatArray, bins: int, reach: float) -> NDArray[np.int64]:

@@ -36,7 +36,8 @@ class Shells:
 
     def sum(self, values: FloatArray) -> FloatArray:
         """Sum over each group of a cube of values (or a flat one): (size,) float64."""
-        return np.bincount(self.label, weights=values.ravel(), minlength=self.size + 1)[: self.size]
+        total = np.bincount(self.label, weights=values.ravel(), minlength=self.size + 1)
+        return total[: self.size].astype(np.float64, copy=False)
 
     def mean(self, values: FloatArray) -> FloatArray:
         """Mean over each group: (size,) float64."""

@@ -17,6 +17,7 @@ POINTS_PER_PIXEL = 4
 EDGE_NU = (60 / 512) ** 2 * 512 * 0.5 / math.pi
 FILTER_SIGMA = 0.6  # pixels
 FILTER_RADIUS = 2  # pixels; the Gaussian has fallen to 1/250
+CHUNK = 1 << 22  # samples taken at once
 
 
 def zone_plate(x: ArrayLike, pixels: int = 512) -> FloatArray:
@@ -59,16 +60,24 @@ def zone_plate(x: ArrayLike, pixels: int = 512) -> FloatArray:
         raise InputError(f"pixels must be at least 1; got {pixels}")
     side = max(1, round(math.sqrt(n) / POINTS_PER_PIXEL**0.5))
     tiles = math.ceil(pixels / side)
+    turns = EDGE_NU / (pixels * side / math.sqrt(n))
     ring = 1 + FILTER_RADIUS // side  # tiles around the picture from which samples reach into it
-    samples = _samples(points * side, side, tiles, ring, EDGE_NU / (pixels * side / math.sqrt(n)))
-    return _resample(points * side, samples, side, tiles, ring)[:pixels, :pixels]
+    weighted, weight = np.zeros((side * side, tiles, tiles)), np.zeros((side * side, 1, 1))
+    chunk = max(1, CHUNK // max(64, (tiles + 2 * ring) ** 2))
+    for start in range(0, n, chunk):
+        local = points[start : start + chunk] * side
+        _splat(local, _samples(local, side, tiles, ring, turns), weighted, weight)
+    mean = np.full_like(weighted, 0.5)
+    np.divide(weighted, weight, out=mean, where=weight > 0)
+    picture = mean.reshape(side, side, tiles, tiles).transpose(2, 0, 3, 1).reshape(tiles * side, tiles * side)
+    return np.clip(picture[:pixels, :pixels], 0.0, 1.0)
 
 
 def _samples(local: FloatArray, side: int, tiles: int, ring: int, turns: float) -> FloatArray:
     """Pattern at the points of every tile: (n, tiles + 2 ring, tiles + 2 ring), rows of tiles first."""
     corner = np.arange(-ring, tiles + ring) * float(side)
-    square = (local[:, :, None] + corner) ** 2
-    phase = square[:, 1, :, None] + square[:, 0, None, :]
+    square: FloatArray = (local[:, :, None] + corner) ** 2
+    phase: FloatArray = square[:, 1, :, None] + square[:, 0, None, :]
     phase *= math.pi * turns
     np.sin(phase, out=phase)
     phase += 1
@@ -76,24 +85,23 @@ def _samples(local: FloatArray, side: int, tiles: int, ring: int, turns: float) 
     return phase
 
 
-def _resample(local: FloatArray, samples: FloatArray, side: int, tiles: int, ring: int) -> FloatArray:
-    """Normalised Gaussian mean at every pixel centre of the tiles.
+def _splat(local: FloatArray, samples: FloatArray, weighted: FloatArray, weight: FloatArray) -> None:
+    """Add samples and their weights to the pixels around them.
 
     All tiles have the same points, so the weights from points to the pixels of one tile serve them all: one
     sparse product for each neighbouring tile that a filter can reach from.
     """
-    n = len(local)
+    side, tiles = math.isqrt(len(weighted)), weighted.shape[1]
+    ring = (samples.shape[1] - tiles) // 2
     taps = np.arange(-FILTER_RADIUS - 1, FILTER_RADIUS + 1)
     pixel = np.floor(local + 0.5).astype(np.intp)[:, :, None] + taps  # those whose centre may be in reach
     distance = pixel + 0.5 - local[:, :, None]
-    weight = np.exp(-(distance**2) / (2 * FILTER_SIGMA**2))
-    weight[np.abs(distance) > FILTER_RADIUS] = 0.0
+    along = np.exp(-(distance**2) / (2 * FILTER_SIGMA**2))
+    along[np.abs(distance) > FILTER_RADIUS] = 0.0
     tile, pixel = np.divmod(pixel, side)
-    both = weight[:, 1, :, None] * weight[:, 0, None, :]
+    both = along[:, 1, :, None] * along[:, 0, None, :]
     target = pixel[:, 1, :, None] * side + pixel[:, 0, None, :]
-    owner = np.broadcast_to(np.arange(n)[:, None, None], both.shape)
-    total = np.zeros((side * side, tiles, tiles))
-    norm = np.zeros(side * side)
+    owner = np.broadcast_to(np.arange(len(local))[:, None, None], both.shape)
     for up in np.unique(tile[:, 1]):
         for right in np.unique(tile[:, 0]):
             use = (tile[:, 1, :, None] == up) & (tile[:, 0, None, :] == right) & (both > 0)
@@ -104,9 +112,5 @@ def _resample(local: FloatArray, samples: FloatArray, side: int, tiles: int, rin
             rows = slice(ring - up, ring - up + tiles)
             columns = slice(ring - right, ring - right + tiles)
             sent = samples[senders, rows, columns].reshape(len(senders), -1)
-            total += (weights @ sent).reshape(total.shape)
-            norm += np.asarray(weights.sum(axis=1)).ravel()
-    mean = np.full_like(total, 0.5)
-    np.divide(total, norm[:, None, None], out=mean, where=norm[:, None, None] > 0)
-    picture = mean.reshape(side, side, tiles, tiles).transpose(2, 0, 3, 1).reshape(tiles * side, tiles * side)
-    return np.clip(picture, 0.0, 1.0)
+            weighted += (weights @ sent).reshape(weighted.shape)
+            weight += weights.sum(axis=1).reshape(weight.shape)

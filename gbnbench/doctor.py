@@ -1,12 +1,12 @@
 """Whether a device can be trusted: every kernel of ours against plain numpy, on the user's own device.
 
-Runtimes have miscompiled kernels on some processors (PoCL's tracker, issue 979), so nothing is believed that was
-not tried on the device, driver and version at hand.
+Runtimes have miscompiled kernels on some processors (PoCL's tracker, issue 979), so nothing is believed that
+was not tried on the device, driver and version at hand.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,7 +16,7 @@ import gbnbench
 from gbnbench.cache import recall, remember
 from gbnbench.errors import DeviceError, GbnbenchError
 from gbnbench.opencl import Device, choose, runtime
-from gbnbench.torus import FloatArray, spacing
+from gbnbench.torus import FloatArray, displacement, spacing
 
 # n, d, fmax: none a multiple of a vector, a tile or a chunk.
 PERIODOGRAMS = ((7, 1, 19), (131, 2, 9), (333, 2, 5), (61, 3, 3), (29, 5, 1))
@@ -24,6 +24,8 @@ QUICK_PERIODOGRAMS = ((131, 2, 9), (29, 5, 1))
 # n, d, sigma: the first two by the nearest image, the others by theta.
 ENERGIES = ((613, 2, 0.9), (401, 1, 1.0), (83, 2, 1.0), (53, 3, 0.7), (37, 8, 1.0))
 QUICK_ENERGIES = ((401, 2, 1.0), (53, 3, 0.7))
+SWEEP, QUICK_SWEEP = 101, 41  # points of the farthest-point kernel's sweep
+DISTANCE = 1e-9  # a sweep's departure, in box sides
 AMPLITUDE = {"double": 1e-14, "float": 2e-6}  # error allowed, over sqrt(n)
 GRADIENT = {"double": 1e-11, "float": 1e-4}  # over the largest component
 
@@ -81,11 +83,14 @@ class Examination:
         failed = sorted({check.kernel for check in self.checks if not check.passed})
         if failed:
             return (
-                f"do not trust {self.device.label}: {', '.join(failed)} departs from numpy. Choose another device "
+                f"do not trust {self.device.label}: {', '.join(failed)} departs from numpy. Choose another "
+                f"device "
                 "(gbnbench devices), or update its driver and run gbnbench doctor again"
             )
         precisions = " and ".join(sorted({check.precision for check in self.checks}))
-        return f"{self.device.label} can be trusted: {len(self.checks)} checks in {precisions} agree with numpy"
+        return (
+            f"{self.device.label} can be trusted: {len(self.checks)} checks in {precisions} agree with numpy"
+        )
 
 
 def numpy_power(x: FloatArray, frequencies: NDArray[np.int64]) -> FloatArray:
@@ -95,11 +100,12 @@ def numpy_power(x: FloatArray, frequencies: NDArray[np.int64]) -> FloatArray:
     for a in range(x.shape[1]):
         phase += frequencies[:, a].astype(np.uint64)[:, None] * turns[:, a]
     angle = 2 * np.pi * (phase.astype(np.int64) / 2.0**64)
-    return (np.cos(angle).sum(axis=1) ** 2 + np.sin(angle).sum(axis=1) ** 2) / len(x)
+    power: FloatArray = (np.cos(angle).sum(axis=1) ** 2 + np.sin(angle).sum(axis=1) ** 2) / len(x)
+    return power
 
 
 def numpy_gradient(x: FloatArray, sigma: float) -> FloatArray:
-    """Gradient of the energy with respect to points in spacings, by images summed one by one: (n, d) float64."""
+    """Gradient of the energy by points in spacings, images summed one by one: (n, d) float64."""
     n, d = x.shape
     side = 1 / spacing(n, d)
     images = np.arange(-np.ceil(9 * sigma / side) - 1, np.ceil(9 * sigma / side) + 2) * side
@@ -133,7 +139,25 @@ def _energy(n: int, d: int, sigma: float, precision: str) -> Iterator[Check]:
     evaluate = field(n, d, sigma, precision)
     expected = numpy_gradient(x, sigma)
     error = float(np.max(np.abs(evaluate(x).gradient - expected)) / np.max(np.abs(expected)))
-    yield Check(f"gbn gradient, {evaluate.method}", f"n={n} d={d} sigma={sigma}", precision, error, GRADIENT[precision])
+    yield Check(
+        f"gbn gradient, {evaluate.method}",
+        f"n={n} d={d} sigma={sigma}",
+        precision,
+        error,
+        GRADIENT[precision],
+    )
+
+
+def _farthest_points(n: int, precision: str) -> Iterator[Check]:
+    from gbnbench.generators.sweeps import Sweeps, move_afresh
+
+    x = np.random.default_rng(n).random((n, 2))
+    work = Sweeps(x[None])
+    work.sweep(np.array([True]))
+    for v in range(n):
+        move_afresh(x, v)
+    error = float(np.max(np.abs(displacement(work.download()[0], x))))
+    yield Check("farthest-point sweep", f"n={n} d=2", precision, error, DISTANCE)
 
 
 def examine(quick: bool = False) -> Examination:
@@ -153,13 +177,15 @@ def examine(quick: bool = False) -> Examination:
     checks: list[Check] = []
     precisions = [p for p in ("double", "float") if (p == "float" or device.has_double)]
     for precision in precisions:
-        work = [
+        work: list[tuple[Callable[..., Iterator[Check]], tuple[float, ...]]] = [
             *((_periodogram, case) for case in (QUICK_PERIODOGRAMS if quick else PERIODOGRAMS)),
             *((_energy, case) for case in (QUICK_ENERGIES if quick else ENERGIES)),
         ]
+        if precision == "double":
+            work.append((_farthest_points, (QUICK_SWEEP if quick else SWEEP,)))
         for check, case in work:
             try:
-                checks.extend(check(*case, precision))  # type: ignore[operator]
+                checks.extend(check(*case, precision))
             except (GbnbenchError, RuntimeError) as error:
                 checks.append(Check(check.__name__.strip("_"), str(case), precision, np.inf, 0.0, str(error)))
     return Examination(device, tuple(checks))

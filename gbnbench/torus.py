@@ -47,7 +47,9 @@ def check_points(x: ArrayLike) -> FloatArray:
     except (TypeError, ValueError):
         raise InputError("x must be an array of real numbers, (n, d) or (realizations, n, d)") from None
     if points.ndim not in (2, 3) or 0 in points.shape:
-        raise InputError(f"x must be (n, d) or (realizations, n, d) with no empty axis; got shape {points.shape}")
+        raise InputError(
+            f"x must be (n, d) or (realizations, n, d) with no empty axis; got shape {points.shape}"
+        )
     inside = (points >= 0) & (points < 1)
     if not inside.all():
         where = tuple(int(i) for i in np.argwhere(~inside)[0])
@@ -89,12 +91,13 @@ def displacement(a: FloatArray, b: FloatArray) -> FloatArray:
 
 def toroidal_distance(a: FloatArray, b: FloatArray) -> FloatArray:
     """Length of the shortest vector from b to a; shapes broadcast, the last axis is summed."""
-    return np.sqrt(np.sum(displacement(a, b) ** 2, axis=-1))
+    distance: FloatArray = np.sqrt(np.sum(displacement(a, b) ** 2, axis=-1))
+    return distance
 
 
 def spacing(n: int, d: int) -> float:
     """Nominal grid spacing n**(-1/d), the unit of sigma and the inverse unit of nu."""
-    return float(n) ** (-1.0 / d)
+    return math.pow(n, -1.0 / d)
 
 
 def densest_spacing(n: int, d: int) -> float:

@@ -111,7 +111,7 @@ class Sweeps:
             self._runtime.download(buffer, array)
         for s in sets:
             for v in range(self._state[s, 0], n):
-                moved, radius = _move_afresh(self._x[s], v)
+                moved, radius = move_afresh(self._x[s], v)
                 self._state[s, 0] += 1
                 self._state[s, 2] += moved
                 self.fresh_moves[s] += 1
@@ -146,7 +146,7 @@ class Sweeps:
         return True
 
 
-def _move_afresh(x: FloatArray, v: int) -> tuple[bool, float]:
+def move_afresh(x: FloatArray, v: int) -> tuple[bool, float]:
     """Move point v of x (n, 2) in place; return whether it moved and how wide the largest gap was."""
     rest = np.delete(x, v, axis=0)
     if len(rest) == 0:

@@ -94,7 +94,8 @@ def import_pyopencl() -> Any:
 def handle(position: tuple[int, int]) -> cl.Device:
     """Look up the pyopencl device at a (platform, device) position."""
     pyopencl = import_pyopencl()
-    return pyopencl.get_platforms()[position[0]].get_devices()[position[1]]
+    device: cl.Device = pyopencl.get_platforms()[position[0]].get_devices()[position[1]]
+    return device
 
 
 @cache

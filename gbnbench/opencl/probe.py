@@ -20,6 +20,7 @@ from gbnbench.opencl.device import Device, handle, import_pyopencl
 SECONDS = 120
 CANDIDATES = {"float": (1, 4, 8, 16), "double": (1, 2, 4, 8)}
 
+
 @dataclass(frozen=True)
 class VectorWidths:
     """Widest proven vectors.
@@ -47,7 +48,9 @@ def _works(context: Any, queue: Any, precision: str, width: int) -> bool:
     kernels = resources.files("gbnbench") / "kernels"
     source = "\n".join((kernels / name).read_text() for name in ("vector.cl", "probe.cl"))
     try:
-        program = cl.Program(context, source).build([f"-D DOUBLE={int(precision == 'double')}", f"-D LANES={width}"])
+        program = cl.Program(context, source).build(
+            [f"-D DOUBLE={int(precision == 'double')}", f"-D LANES={width}"]
+        )
         cl.Kernel(program, "probe")(queue, (1,), (1,), device_a, device_b, out)
         got = np.empty_like(a)
         cl.enqueue_copy(queue, got, out)
@@ -75,9 +78,10 @@ def _child(platform: int, device: int, precision: str) -> None:
 
 def _widest(device: Device, precision: str) -> int:
     """Widest vector that a child process proved before it ended or died; 0 for none."""
-    call = f"from gbnbench.opencl.probe import _child; _child({device.position[0]}, {device.position[1]}, {precision!r})"
+    arguments = (*device.position, precision)
+    call = f"from gbnbench.opencl.probe import _child; _child(*{arguments!r})"
     try:
-        output = subprocess.run(
+        output: bytes | None = subprocess.run(
             [sys.executable, "-c", call], capture_output=True, timeout=SECONDS, check=False
         ).stdout
     except subprocess.TimeoutExpired as late:

@@ -79,7 +79,8 @@ class Runtime:
         lanes = self.widths.float64 if precision == "double" else self.widths.float32
         if lanes == 0:
             raise DeviceError(
-                f"{self.device.label} does not compute in {precision}; choose another device (gbnbench devices) "
+                f"{self.device.label} does not compute in {precision}; choose another device (gbnbench "
+                f"devices) "
                 'or precision="float" where a power floor of 1e-13 suffices'
             )
         return lanes
@@ -89,7 +90,9 @@ class Runtime:
         """Work-group size: 1 where work-items are vectors already, a wavefront's worth on a GPU."""
         return 1 if self.device.is_cpu else 64
 
-    def program(self, package: str, files: Sequence[str], defines: Mapping[str, object] | None = None) -> Program:
+    def program(
+        self, package: str, files: Sequence[str], defines: Mapping[str, object] | None = None
+    ) -> Program:
         """Build kernel files, once for each set of definitions.
 
         Parameters
@@ -136,7 +139,9 @@ class Runtime:
         """
         limit = int(handle(self.device.position).max_mem_alloc_size)
         if nbytes > limit:
-            raise DeviceError(f"{self.device.label} gives buffers of at most {limit} bytes; {nbytes} were needed")
+            raise DeviceError(
+                f"{self.device.label} gives buffers of at most {limit} bytes; {nbytes} were needed"
+            )
         return self._cl.Buffer(self.context, self._cl.mem_flags.READ_WRITE, max(int(nbytes), 1))
 
     def download(self, buffer: Any, out: NDArray[Any]) -> NDArray[Any]:

@@ -1,8 +1,9 @@
 """Energy and gradient of Gaussian Blue Noise on the torus (Ahmed, Ren & Wonka 2022, Eq. 15-23).
 
-E = sum over pairs of prod over dimensions of theta, theta being exp(-u^2 / 2 sigma^2) summed over all periods, and
-u = x n^(1/d) counted in spacings. Two evaluations, both exact to the precision: the nearest image of each pair
-where the box is at least twice the cut-off wide, and the harmonics of theta where it is narrower.
+E = sum over pairs of prod over dimensions of theta, theta being exp(-u^2 / 2 sigma^2) summed over all
+periods, and u = x n^(1/d) counted in spacings. Two evaluations, both exact to the precision: the nearest
+image of each pair where the box is at least twice the cut-off wide, and the harmonics of theta where it is
+narrower.
 """
 
 from __future__ import annotations
@@ -32,8 +33,8 @@ class Gradient:
     gradient : (n, d) float64
         dE/du, u in spacings.
     excess : float
-        Ex = (E + n theta(0)^d / 2 - n (2 pi)^(d/2) sigma^d / 2) / n, the energy a point above that of a constant
-        density: (1/2n) sum over f != 0 of w_f P(f).
+        Ex = (E + n theta(0)^d / 2 - n (2 pi)^(d/2) sigma^d / 2) / n, the energy a point above that of a
+        constant density: (1/2n) sum over f != 0 of w_f P(f).
     """
 
     gradient: FloatArray
@@ -120,7 +121,7 @@ class NearestImage(_Evaluation):
         self._order: NDArray[np.intp] | None = None
 
     def _sorted(self, x: FloatArray) -> NDArray[np.intp]:
-        """Order by cells of about BOX points along a serpentine; any order is right, a compact one is fast."""
+        """Order by cells of about BOX points along a serpentine: any order is right, a compact one fast."""
         cells = max(1, round((self.n / BOX) ** (1 / self.d)))
         cell = np.minimum((np.mod(x, 1.0) * cells).astype(np.int64), cells - 1)
         key = cell[:, 0]
@@ -130,6 +131,7 @@ class NearestImage(_Evaluation):
         return np.argsort(key, kind="stable")
 
     def __call__(self, x: FloatArray) -> Gradient:
+        """Evaluate; see ``Field``."""
         if self._order is None:  # points move by less than a spacing or so: one order serves a whole run
             self._order = self._sorted(x)
         order = self._order
@@ -174,6 +176,7 @@ class Theta(_Evaluation):
         self._kernels = self._program("gbn_theta.cl", TERMS=terms)
 
     def __call__(self, x: FloatArray) -> Gradient:
+        """Evaluate; see ``Field``."""
         angle = 2 * np.pi * (x - np.floor(x))
         cosine = self.runtime.upload(self._rows(np.cos(angle)))
         sine = self.runtime.upload(self._rows(np.sin(angle)))

@@ -27,13 +27,14 @@ class GaussianBlueNoise:
     iterations : int
         If not 0, so many steps of the paper's own descent instead.
     excess : float
-        Stop early once the excess energy a point is at most this; in 2D 4.5e-6 is the paper's quality at 10,000
-        steps, 1.1e-6 that at 100,000. 0 never stops early.
+        Stop early once the excess energy a point is at most this; in 2D 4.5e-6 is the paper's quality at
+        10,000 steps, 1.1e-6 that at 100,000. 0 never stops early.
 
     Notes
     -----
-    Starts from uniform random points: starts from jittered or regular ones keep a memory of their grid. A power
-    below about 1e-30 cannot be reached in double; sets with an excess below 6e-7 in 2D are partly crystalline.
+    Starts from uniform random points: starts from jittered or regular ones keep a memory of their grid. A
+    power below about 1e-30 cannot be reached in double; sets with an excess below 6e-7 in 2D are partly
+    crystalline.
     """
 
     name: ClassVar[str] = "gbn"
@@ -54,7 +55,7 @@ class GaussianBlueNoise:
             raise InputError(f"excess must be 0 or more; got {self.excess}")
 
     def refusal(self, n: int, d: int) -> str | None:  # noqa: ARG002 - any size will do
-        """Serves every n and d."""
+        """Serve every n and d."""
         return None
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:

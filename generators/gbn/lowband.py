@@ -1,8 +1,8 @@
 """Preconditioner of the lowest band: its modes of displacement, divided by their own curvature.
 
 A displacement u_k = q cos(q.x_k) changes the density at q alone, with the curvature
-lambda_q = |q|^2 (2 pi)^(d/2) sigma^d exp(-sigma^2 |q|^2 / 2), which falls with |q|^2: in large sets the lowest
-modes need far more steps than the middle band. Only nu <= 0.15 is treated; reaching nu >= 0.4 hurts.
+lambda_q = |q|^2 (2 pi)^(d/2) sigma^d exp(-sigma^2 |q|^2 / 2), which falls with |q|^2: in large sets the
+lowest modes need far more steps than the middle band. Only nu <= 0.15 is treated; reaching nu >= 0.4 hurts.
 """
 
 from __future__ import annotations
@@ -28,7 +28,9 @@ class LowBand:
         grid = np.stack(np.meshgrid(*[self._f] * d, indexing="ij"))  # (d, ...) frequencies
         q2 = (2 * math.pi / side) ** 2 * np.sum(grid**2, axis=0)
         inside = (q2 > 0) & (q2 <= (2 * math.pi * EDGE) ** 2)
-        curvature = np.where(inside, q2 * (2 * math.pi) ** (d / 2) * sigma**d * np.exp(-(sigma**2) * q2 / 2), 1)
+        curvature = np.where(
+            inside, q2 * (2 * math.pi) ** (d / 2) * sigma**d * np.exp(-(sigma**2) * q2 / 2), 1
+        )
         self._inverse = np.where(inside, 1 / curvature, 0.0)
         self._inside = inside
         self._direction = np.where(inside, 2 * math.pi / side * grid / np.sqrt(np.maximum(q2, 1e-300)), 0.0)
@@ -42,7 +44,7 @@ class LowBand:
         return table
 
     def correction(self, x: FloatArray, gradient: FloatArray, size: float) -> FloatArray:
-        """What to add to size * gradient so that each mode of the band is divided by its curvature.
+        """Return what to add to size * gradient so that each mode is divided by its own curvature.
 
         Parameters
         ----------
@@ -65,7 +67,8 @@ class LowBand:
         along = np.zeros(shape, np.complex128)
         for a in range(x.shape[1]):
             along += self._direction[a] * ((first * gradient[:, a : a + 1]).T @ second).reshape(shape)
-        # f and -f stand both in the grid: together they are the cosine and the sine mode, of squared norm n/2 each.
+        # f and -f stand both in the grid: together they are the cosine and the sine mode, each of
+        # squared norm n/2.
         along *= np.where(self._inside, self._inverse - size, 0.0) / self._n
         out = np.empty_like(gradient)
         for a in range(x.shape[1]):

@@ -1,4 +1,4 @@
-"""Minimisers of the Gaussian Blue Noise energy: Nesterov's method with adaptive restart, and the paper's descent."""
+"""Minimisers of the Gaussian Blue Noise energy: Nesterov with adaptive restart, and the paper's descent."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ def largest_curvature(n: int, d: int, sigma: float) -> float:
 
     Notes
     -----
-    max over q != 0 of |q|^2 (2 pi)^(d/2) sigma^d exp(-sigma^2 |q|^2 / 2), q = 2 pi f n^(-1/d): 4.62 for d = 2,
-    sigma = 1. The official step of 0.25 n^(2/d) / n is right in scale for d = 2 only.
+    max over q != 0 of |q|^2 (2 pi)^(d/2) sigma^d exp(-sigma^2 |q|^2 / 2), q = 2 pi f n^(-1/d): 4.62 for d =
+    2, sigma = 1. The official step of 0.25 n^(2/d) / n is right in scale for d = 2 only.
     """
     unit = 2 * math.pi / n ** (1 / d)
     top = max(1, round(2 / (sigma * unit) ** 2))  # |f|^2 of the maximum, on the continuum
@@ -36,7 +36,7 @@ def step_size(n: int, d: int, sigma: float) -> float:
 
 
 def _capped(step: FloatArray) -> FloatArray:
-    """The step, shortened where its longest displacement exceeds one spacing."""
+    """Shorten the step where its longest displacement exceeds one spacing."""
     longest = math.sqrt(float(np.max(np.sum(step**2, axis=1))))
     return step / longest if longest > 1 else step
 
@@ -74,10 +74,11 @@ def descend(x: FloatArray, field: Field, sigma: float, iterations: int, excess: 
 
 
 def accelerate(x: FloatArray, field: Field, sigma: float, gradients: int, excess: float = 0.0) -> FloatArray:
-    """Nesterov's method with adaptive restart (O'Donoghue & Candes 2015): 300 gradients do 10,000 steps' work.
+    """Nesterov's method with adaptive restart: 300 gradients do the work of 10,000 steps of descent.
 
-    Parameters and returns are those of ``descend``. Above 4,096 points the lowest band is preconditioned, since
-    its modes are too slow for any step that the middle band allows.
+    Parameters and returns are those of ``descend``. Above 4,096 points the lowest band is preconditioned,
+    since its modes are too slow for any step that the middle band allows. The restart is that of
+    O'Donoghue & Candes (2015).
     """
     n, d = x.shape
     side = n ** (1 / d)

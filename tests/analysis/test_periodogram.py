@@ -12,7 +12,7 @@ from gbnbench.errors import InputError
 
 
 def exact_amplitudes(x, frequencies):
-    """Integer phases on the 2^-53 grid, long double cosines, (m, n) at once: shares nothing with the kernels."""
+    """Integer phases on the 2^-53 grid and long double cosines: shares nothing with the kernels."""
     grid = (np.asarray(x) * 2.0**53).astype(object)
     turns = np.array([[int(c) for c in row] for row in grid], dtype=object)
     phase = (np.asarray(frequencies, dtype=object) @ turns.T) % 2**53
@@ -43,7 +43,9 @@ def test_the_cube_is_exact(d, fmax, n, precision, allowed):
 
 
 @pytest.mark.parametrize("d", [1, 2, 3, 5, 8])
-@pytest.mark.parametrize(("precision", "allowed", "largest"), [("double", 1e-15, 2**40), ("float", 1e-6, 512)])
+@pytest.mark.parametrize(
+    ("precision", "allowed", "largest"), [("double", 1e-15, 2**40), ("float", 1e-6, 512)]
+)
 def test_listed_frequencies_are_exact_at_any_size(d, precision, allowed, largest):
     rng = np.random.default_rng(d)
     x = on_grid(rng, (301, d))
@@ -77,7 +79,9 @@ def test_the_centre_is_n_axis_a_is_coordinate_a_and_the_mean_is_over_sets():
     assert spectrum.power[5, 5 + 4] < 40
     each = np.stack(list(powers(x, 5)))
     assert spectrum.power == pytest.approx(each.mean(axis=0), rel=1e-14)
-    assert spectrum.power == pytest.approx(np.mean([periodogram(one, 5).power for one in x], axis=0), rel=1e-14)
+    assert spectrum.power == pytest.approx(
+        np.mean([periodogram(one, 5).power for one in x], axis=0), rel=1e-14
+    )
     assert (spectrum.n, spectrum.d, spectrum.realizations, spectrum.fmax) == (50, 2, 3, 5)
 
 

@@ -75,7 +75,8 @@ def test_without_pyopencl_the_error_says_what_to_install(tmp_path):
 def test_importing_gbnbench_loads_no_heavy_library():
     done = python(
         "import sys, gbnbench\n"
-        "print([m for m in ('numpy', 'scipy', 'pandas', 'matplotlib', 'pyopencl', 'skimage') if m in sys.modules])"
+        "print([m for m in ('numpy', 'scipy', 'pandas', 'matplotlib', 'pyopencl', 'skimage') if m in "
+        "sys.modules])"
     )
     assert done.stdout.strip() == "[]"
 

@@ -1,0 +1,279 @@
+"""All measures of one source: spectra, pictures and scalars, with standard errors or the reason why not."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gbnbench.analysis.anisotropy import anisotropy, anisotropy_db
+from gbnbench.analysis.bond_order import bond_order, psi6
+from gbnbench.analysis.catalogue import CATALOGUE
+from gbnbench.analysis.delaunay import Neighbours, neighbours, valence, valence6
+from gbnbench.analysis.distances import mean_distance, min_distance
+from gbnbench.analysis.periodogram import check_fmax, largest_fmax, powers, spectrum_of
+from gbnbench.analysis.profile import (
+    evacuated_energy,
+    exponential_fit,
+    noise_floor,
+    peak,
+    power_at_1,
+    powerlaw_fit,
+)
+from gbnbench.analysis.psa import spectral_statistics
+from gbnbench.analysis.radial import radial_power
+from gbnbench.analysis.rdf import rdf
+from gbnbench.analysis.shells import Shells, exact_shells
+from gbnbench.analysis.zone_plate import zone_plate
+from gbnbench.errors import RefusalError
+from gbnbench.results import Measures, RadialPower, Spectrum
+from gbnbench.torus import FloatArray, as_realizations
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+Result = TypeVar("Result")
+_Estimate = tuple[float, float]  # value, standard error
+_Entry = tuple[tuple[str, ...], Callable[[], list[_Estimate]]]
+
+LARGEST_NU = 2.0  # what the peak and the pictures need
+MOST_FREQUENCIES = 1 << 21  # of one cube, 16 MB
+MOST_TERMS = 1e11  # frequencies times points of one set: about ten seconds of one core
+MOST_KEPT = 1 << 27  # powers of all sets together, 1 GB
+EDGE_RATIO = 10.0  # power at |f| = 1 over its diagonal neighbours that only a cut at the border explains
+
+
+@dataclass(frozen=True)
+class Analysis:
+    """Everything measured of the sets of one source.
+
+    Attributes
+    ----------
+    spectrum : Spectrum
+        Mean over the realizations.
+    radial : RadialPower
+        Its exact shells.
+    anisotropy : DataFrame
+        A row a ring: frequency, nu, anisotropy_db, psa_db.
+    rdf : DataFrame or None
+        Columns r, g; None where it is undefined.
+    valence : DataFrame or None
+        Columns degree, share; None where it is undefined.
+    zone_plate : (pixels, pixels) float64 or None
+        Of the first set; None for d != 2.
+    measures : Measures
+        The scalars.
+    warnings : tuple of str
+        What to know before trusting a number.
+    """
+
+    spectrum: Spectrum
+    radial: RadialPower
+    anisotropy: pd.DataFrame
+    rdf: pd.DataFrame | None
+    valence: pd.DataFrame | None
+    zone_plate: FloatArray | None
+    measures: Measures
+    warnings: tuple[str, ...]
+
+
+def measures(x: ArrayLike, fmax: int | None = None) -> Measures:
+    """Every scalar measure of one or several sets.
+
+    Parameters
+    ----------
+    x : (n, d) or (realizations, n, d) array_like
+        Points on the unit torus. Spatial measures and evacuated energy are means over the sets, the others
+        are of the mean spectrum.
+    fmax : int, optional
+        Largest harmonic on each axis; by default as far as nu = 2, or as affordable (``default_fmax``).
+
+    Returns
+    -------
+    Measures
+        Every name of the catalogue; nan where undefined, with the reason in ``reasons``. ``standard_error``
+        is over realizations: the standard deviation of the mean, or the jackknife's where the measure is of
+        the mean spectrum (for the peak, a maximum, that errs on the large side).
+
+    Raises
+    ------
+    InputError
+        If x is not points of the unit torus.
+    """
+    return _Scalars(as_realizations(x), fmax).measures()
+
+
+def analyse(x: ArrayLike, fmax: int | None = None) -> Analysis:
+    """Measure everything, pictures included; parameters as those of ``measures``."""
+    scalars = _Scalars(as_realizations(x), fmax)
+    points = scalars.points
+    return Analysis(
+        spectrum=scalars.spectrum,
+        radial=scalars.radial,
+        anisotropy=anisotropy(scalars.spectrum),
+        rdf=_unless_refused(lambda: rdf(points).to_frame()),
+        valence=_unless_refused(lambda: valence(scalars.neighbours()).to_frame()),
+        zone_plate=_unless_refused(lambda: zone_plate(points)),
+        measures=scalars.measures(),
+        warnings=_warnings(scalars.radial, points.shape[2]),
+    )
+
+
+def default_fmax(n: int, d: int, realizations: int = 1) -> int:
+    """Harmonics up to nu = 2, fewer where the cube, its time or the powers kept would grow too large."""
+    wanted = math.ceil(LARGEST_NU * math.pow(n, 1 / d))
+    most = min(MOST_FREQUENCIES, MOST_TERMS / n, MOST_KEPT / realizations)
+    return max(1, min(wanted, largest_fmax(int(most), d)))
+
+
+class _Scalars:
+    """The powers of all sets and what is made of them."""
+
+    def __init__(self, points: FloatArray, fmax: int | None) -> None:
+        self.points = points
+        realizations, n, d = points.shape
+        self.fmax = check_fmax(default_fmax(n, d, realizations) if fmax is None else fmax, d)
+        self.powers = np.stack(list(powers(points, self.fmax)))
+        self.shells: Shells = exact_shells(self.fmax, d)
+        self.spectrum = spectrum_of(self.powers.mean(axis=0), points.shape, self.fmax)
+        self.radial = radial_power(self.spectrum.power, self.shells, self.spectrum.spacing)
+        self._neighbours: Sequence[Neighbours] | None = None
+
+    def neighbours(self) -> Sequence[Neighbours]:
+        """Delaunay neighbours of every set, triangulated once."""
+        if self._neighbours is None:
+            self._neighbours = neighbours(self.points)
+        return self._neighbours
+
+    def measures(self) -> Measures:
+        """Assemble values, standard errors and reasons in the catalogue's order."""
+        values: dict[str, float] = {}
+        errors: dict[str, float] = {}
+        reasons: dict[str, str] = {}
+        for names, compute in (*self._of_spectrum(), *self._of_sets()):
+            try:
+                for name, (value, error) in zip(names, compute(), strict=True):
+                    values[name], errors[name] = value, error
+                    if not math.isfinite(value):
+                        values[name] = errors[name] = math.nan
+                        reasons[name] = "not finite: the sets are too few or too regular for it"
+            except RefusalError as refusal:
+                for name in names:
+                    values[name] = errors[name] = math.nan
+                    reasons[name] = str(refusal)
+        order = [definition.name for definition in CATALOGUE]
+        return Measures({m: values[m] for m in order}, {m: errors[m] for m in order}, reasons)
+
+    def _of_spectrum(self) -> list[_Entry]:
+        """Measures of the mean spectrum, their errors by the jackknife over sets."""
+        rows = np.stack([self.shells.mean(power) for power in self.powers])
+        realizations = len(rows)
+
+        def profile(compute: Callable[[RadialPower], Sequence[float]]) -> Callable[[], list[_Estimate]]:
+            def with_power(power: FloatArray) -> RadialPower:
+                return RadialPower(self.radial.frequency, self.radial.nu, power, self.radial.count)
+
+            def left_out(k: int) -> Sequence[float]:
+                return compute(with_power((rows.sum(axis=0) - rows[k]) / (realizations - 1)))
+
+            return lambda: _jackknife(compute(self.radial), left_out, realizations)
+
+        def directional() -> list[_Estimate]:
+            spacing, total = self.spectrum.spacing, self.powers.sum(axis=0)
+
+            def left_out(k: int) -> Sequence[float]:
+                rest = (total - self.powers[k]) / (realizations - 1)
+                return [anisotropy_db(rest, self.shells, realizations - 1, spacing)]
+
+            whole = [anisotropy_db(self.spectrum.power, self.shells, realizations, spacing)]
+            # Left-out spectra read -10 log10(M - 1): the same shift for each, so the spread is not touched.
+            return _jackknife(whole, left_out, realizations)
+
+        def exponential(radial: RadialPower) -> Sequence[float]:
+            fit = exponential_fit(radial)
+            return math.exp(fit.intercept), fit.slope, fit.residual_db
+
+        def powerlaw(radial: RadialPower) -> Sequence[float]:
+            fit = powerlaw_fit(radial)
+            return fit.slope, fit.residual_db
+
+        return [
+            (("noise_floor",), profile(lambda r: [noise_floor(r)])),
+            (("power_at_1",), profile(lambda r: [power_at_1(r)])),
+            (("profile_epsilon", "profile_c", "profile_residual_db"), profile(exponential)),
+            (("powerlaw_exponent", "powerlaw_residual_db"), profile(powerlaw)),
+            (("peak", "peak_nu"), profile(peak)),
+            (("anisotropy_db",), directional),
+        ]
+
+    def _of_sets(self) -> list[_Entry]:
+        """Measures of each set, averaged."""
+        _, n, d = self.points.shape
+
+        def energy() -> list[_Estimate]:
+            each = [evacuated_energy(power, self.shells, n, d, self.fmax) for power in self.powers]
+            return [_mean(np.array(each))]
+
+        def psa() -> list[_Estimate]:
+            found = spectral_statistics(self.points)
+            return [
+                (found.effective_nyquist, found.effective_nyquist_error),
+                (found.oscillations, found.oscillations_error),
+            ]
+
+        return [
+            (("evacuated_energy",), energy),
+            (("min_distance",), lambda: [_mean(min_distance(self.points))]),
+            (("mean_distance",), lambda: [_mean(mean_distance(self.points))]),
+            (("bond_order",), lambda: [_mean(bond_order(self.neighbours()))]),
+            (("psi6",), lambda: [_mean(psi6(self.neighbours()))]),
+            (("valence6",), lambda: [_mean(valence6(self.neighbours()))]),
+            (("effective_nyquist", "oscillations"), psa),
+        ]
+
+
+def _mean(each: FloatArray) -> _Estimate:
+    """Mean over sets and its standard error, nan for a single set."""
+    error = float(each.std(ddof=1) / math.sqrt(len(each))) if len(each) > 1 else math.nan
+    return float(each.mean()), error
+
+
+def _jackknife(
+    whole: Sequence[float], left_out: Callable[[int], Sequence[float]], realizations: int
+) -> list[_Estimate]:
+    """Values of the whole with the jackknife's standard errors (Efron 1982), nan for a single set."""
+    if realizations < 2:
+        return [(float(value), math.nan) for value in whole]
+    rest = np.array([left_out(k) for k in range(realizations)])
+    with np.errstate(invalid="ignore"):  # an infinite value has no spread
+        departure = rest - rest.mean(axis=0)
+    spread = np.sqrt((realizations - 1) / realizations * np.sum(departure**2, axis=0))
+    return [(float(value), float(error)) for value, error in zip(whole, spread, strict=True)]
+
+
+def _unless_refused(compute: Callable[[], Result]) -> Result | None:
+    """Return the result, or None where the measure means nothing for these sets."""
+    try:
+        return compute()
+    except RefusalError:
+        return None
+
+
+def _warnings(radial: RadialPower, d: int) -> tuple[str, ...]:
+    """Say where a set is not toroidal: a cut at the border puts power on the axes, not on the diagonals."""
+    squared = np.rint(radial.frequency**2).astype(int)
+    diagonal = radial.power[np.isin(squared, (2, 5))]
+    if d < 2 or len(diagonal) == 0:
+        return ()
+    ratio = radial.power[0] / diagonal.mean() if diagonal.mean() > 0 else 0.0
+    if ratio < EDGE_RATIO:
+        return ()
+    return (
+        f"not toroidal? power at |f| = 1 is {ratio:.0f} times that of its diagonal neighbours, as when "
+        f"points "
+        "keep away from the border of a box; low-frequency numbers then measure the border",
+    )

@@ -1,0 +1,105 @@
+"""The optimiser reaches the paper's quality; settings are checked; the low band's preconditioner is right."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from gbnbench.analysis import profile
+from gbnbench.analysis.periodogram import periodogram
+from gbnbench.analysis.radial import radial
+from gbnbench.errors import InputError
+from gbnbench.generators.gbn.energy import field
+from gbnbench.generators.gbn.generator import GaussianBlueNoise
+from gbnbench.generators.gbn.lowband import LowBand
+from gbnbench.generators.gbn.optimiser import largest_curvature, step_size
+from gbnbench.generators.protocol import realization_rng
+
+
+@pytest.fixture(scope="module")
+def spectrum():
+    return periodogram(GaussianBlueNoise()(1024, 2, realization_rng(1, 0)), 64)
+
+
+def test_three_hundred_gradients_reach_the_papers_ten_thousand_steps(spectrum):
+    """The authors' ten sets of 1,024 points, 10,000 steps: P(1) 3.3e-10, floor 6.6e-10, peak 2.14."""
+    shells = radial(spectrum)
+    assert profile.power_at_1(shells) < 3e-9
+    assert profile.noise_floor(shells) < 2e-9
+    assert 1.8 < profile.peak(shells)[0] < 2.9
+
+
+def test_the_profile_is_the_papers_equation_19(spectrum):
+    fit = profile.exponential_fit(radial(spectrum))
+    assert fit.slope == pytest.approx(4 * math.pi**2, rel=0.03)
+    assert fit.residual_db < profile.powerlaw_fit(radial(spectrum)).residual_db / 2
+
+
+def test_the_papers_descent_is_slower_by_the_published_factor():
+    """In 2D, k accelerated gradients do the work of about k^2/9 steps: 60 of them against 400."""
+    excess = {}
+    for name, maker in {
+        "descent": GaussianBlueNoise(iterations=400),
+        "accelerated": GaussianBlueNoise(gradients=60),
+    }.items():
+        excess[name] = field(256, 2, 1.0)(maker(256, 2, realization_rng(2, 0))).excess
+    assert excess["accelerated"] == pytest.approx(excess["descent"], rel=0.6)
+
+
+@pytest.mark.parametrize(("n", "d", "floor"), [(16, 2, 1e-7), (216, 3, 1e-7), (200, 8, 1e-6), (64, 1, 1e-6)])
+def test_other_dimensions_and_small_sets_reach_deep_floors(n, d, floor):
+    x = GaussianBlueNoise(gradients=200)(n, d, realization_rng(3, 0))
+    assert profile.noise_floor(radial(periodogram(x, 1 if d == 8 else 4))) < floor
+
+
+def test_it_stops_at_the_excess_asked_for():
+    x = GaussianBlueNoise(excess=1e-3)(256, 2, realization_rng(4, 0))
+    assert 2e-4 < field(256, 2, 1.0)(x).excess <= 1e-3
+
+
+@pytest.mark.parametrize("n", [1, 2, 3])
+def test_the_smallest_sets_spread_out(n):
+    x = GaussianBlueNoise()(n, 2, realization_rng(5, 0))
+    assert x.shape == (n, 2)
+    if n == 2:  # the farthest that two points of the unit torus can be apart
+        difference = x[0] - x[1]
+        assert np.abs(np.abs(difference - np.rint(difference)) - 0.5).max() < 1e-3
+
+
+def test_the_curvature_is_the_published_one():
+    assert largest_curvature(10**6, 2, 1.0) == pytest.approx(4.62, abs=0.01)
+    assert step_size(1024, 2, 1.0) == pytest.approx(1.2 / 4.62, rel=0.01)
+
+
+def test_a_mode_of_the_low_band_is_divided_by_its_own_curvature():
+    n, sigma, size = 900, 1.0, 0.26
+    side = 30.0
+    x = (np.stack(np.meshgrid(*[np.arange(30)] * 2, indexing="ij"), -1).reshape(-1, 2) + 0.5) / 30
+    band = LowBand(n, 2, sigma)
+    for f, inside in (([1, 2], True), ([4, -1], True), ([5, 0], False)):
+        q = 2 * np.pi * np.array(f) / side
+        q2 = q @ q
+        along = q / np.sqrt(q2)
+        wave = np.cos(2 * np.pi * x @ f + 0.3)[:, None]
+        curvature = q2 * 2 * np.pi * sigma**2 * np.exp(-(sigma**2) * q2 / 2)
+        expected = (1 / curvature - size) * wave * along if inside else np.zeros((n, 2))
+        assert band.correction(x, wave * along, size) == pytest.approx(expected, abs=1e-10)
+        across = np.array([-along[1], along[0]])
+        assert band.correction(x, wave * across, size) == pytest.approx(np.zeros((n, 2)), abs=1e-10)
+
+
+@pytest.mark.parametrize(
+    ("settings", "says"),
+    [
+        ({"sigma": 0.1}, "sigma must be between 0.3 and 3"),
+        ({"sigma": math.nan}, "sigma"),
+        ({"gradients": -1}, "gradients"),
+        ({"iterations": -1}, "iterations"),
+        ({"excess": -1.0}, "excess"),
+    ],
+)
+def test_settings_out_of_range_are_refused(settings, says):
+    with pytest.raises(InputError, match=says):
+        GaussianBlueNoise(**settings)
