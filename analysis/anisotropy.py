@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 BAND = (0.1, 1.0)  # nu of the shells that the scalar pools
+ROUNDING = 1e-26  # mean power of a shell at or below which only rounding is left, as off a lattice's harmonics
 
 
 def shell_variance(power: FloatArray, shells: Shells, realizations: int) -> tuple[FloatArray, FloatArray]:
@@ -34,11 +35,11 @@ def shell_variance(power: FloatArray, shells: Shells, realizations: int) -> tupl
     deviation : (size,) float64
         (M m + 1)/(M m) times the sum over the m frequencies of one half space of (p / mean - 1)^2.
     freedom : (size,) float64
-        m - 1; 0 for shells of a single pair or without power, which say nothing.
+        m - 1; 0 for shells of a single pair or with no power beyond rounding, which say nothing.
     """
     mean = shells.mean(power)
     m = shells.count / 2
-    usable = (m >= 2) & (mean > 0)
+    usable = (m >= 2) & (mean > ROUNDING)
     scale = np.zeros(shells.size + 1)
     scale[:-1][usable] = 1 / mean[usable]
     relative = (power.ravel() * scale[shells.label] - 1) ** 2
@@ -69,7 +70,7 @@ def anisotropy_db(power: FloatArray, shells: Shells, realizations: int, spacing:
     band = (nu >= BAND[0]) & (nu <= BAND[1])
     value = pooled_db(deviation[band], freedom[band])
     if np.isnan(value):
-        raise RefusalError("no shell with 0.1 <= nu <= 1 has two independent frequencies of power above 0")
+        raise RefusalError("no shell with 0.1 <= nu <= 1 has two independent frequencies of power beyond rounding")
     return value
 
 
@@ -113,6 +114,7 @@ def anisotropy(spectrum: Spectrum) -> pd.DataFrame:
         ours = 10 * np.log10(total_deviation / total_freedom)
         mean = first / m
         psa = 10 * np.log10((second - m * mean**2) / (m - 1) / mean**2)
+    psa[mean <= ROUNDING] = np.nan
     return pd.DataFrame(
         {"frequency": rings, "nu": rings * spectrum.spacing, "anisotropy_db": ours, "psa_db": psa}
     )

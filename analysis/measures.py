@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gbnbench.analysis.anisotropy import anisotropy, anisotropy_db
+from gbnbench.analysis.anisotropy import ROUNDING, anisotropy, anisotropy_db
 from gbnbench.analysis.bond_order import bond_order, psi6
 from gbnbench.analysis.catalogue import CATALOGUE
 from gbnbench.analysis.delaunay import Neighbours, neighbours, valence, valence6
@@ -44,7 +44,7 @@ LARGEST_NU = 2.0  # what the peak and the pictures need
 MOST_FREQUENCIES = 1 << 21  # of one cube, 16 MB
 MOST_TERMS = 1e11  # frequencies times points of one set: about ten seconds of one core
 MOST_KEPT = 1 << 27  # powers of all sets together, 1 GB
-EDGE_RATIO = 10.0  # power at |f| = 1 over its diagonal neighbours that only a cut at the border explains
+EDGE_RATIO = 5.0  # power at |f| = 1 and 2 over the diagonals beside them that only a border explains
 
 
 @dataclass(frozen=True)
@@ -265,15 +265,16 @@ def _unless_refused(compute: Callable[[], Result]) -> Result | None:
 
 def _warnings(radial: RadialPower, d: int) -> tuple[str, ...]:
     """Say where a set is not toroidal: a cut at the border puts power on the axes, not on the diagonals."""
-    squared = np.rint(radial.frequency**2).astype(int)
-    diagonal = radial.power[np.isin(squared, (2, 5))]
-    if d < 2 or len(diagonal) == 0:
+    by_square = dict(
+        zip(np.rint(radial.frequency**2).astype(int).tolist(), radial.power.tolist(), strict=True)
+    )
+    if d < 2 or not {1, 2, 4, 5} <= set(by_square):
         return ()
-    ratio = radial.power[0] / diagonal.mean() if diagonal.mean() > 0 else 0.0
-    if ratio < EDGE_RATIO:
+    axes, diagonals = min(by_square[1], by_square[4]), (by_square[2] + by_square[5]) / 2
+    if axes < max(EDGE_RATIO * diagonals, ROUNDING):
         return ()
     return (
-        f"not toroidal? power at |f| = 1 is {ratio:.0f} times that of its diagonal neighbours, as when "
-        f"points "
-        "keep away from the border of a box; low-frequency numbers then measure the border",
+        f"not toroidal? power on the axes, {by_square[1]:.2g} at |f| = 1, is {axes / diagonals:.2g} times that "
+        "of the diagonals beside them, as when points keep away from the border of a box: low-frequency "
+        "numbers then measure the border",
     )

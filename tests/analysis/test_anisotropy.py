@@ -57,6 +57,15 @@ def test_psas_form_takes_a_slope_within_a_ring_for_anisotropy_and_ours_does_not(
     assert rings["anisotropy_db"][at].max() < -100
 
 
+def test_rounding_off_a_lattices_harmonics_is_no_direction():
+    f = np.indices((2 * FMAX + 1,) * 2) - FMAX
+    power = np.random.default_rng(1).exponential(1e-30, f[0].shape)
+    power[(f % 16 == 0).all(axis=0)] = 256
+    rings = anisotropy(Spectrum(power, n=256, d=2, realizations=1, fmax=FMAX)).set_index("frequency")
+    assert np.isnan(rings["anisotropy_db"].drop([16, 23])).all()  # |f| = 16 and 16 sqrt 2
+    assert np.isfinite(rings["anisotropy_db"][16])
+
+
 def test_where_no_shell_has_two_directions_it_is_refused():
     with pytest.raises(RefusalError, match="two independent frequencies"):
         anisotropy_db(np.ones(9), exact_shells(4, 1), 1, 0.25)

@@ -64,8 +64,10 @@ def test_a_set_cut_at_the_border_is_called_so_and_toroidal_ones_are_not():
     inside = (np.stack(np.meshgrid(*[np.arange(16)] * 2), -1).reshape(-1, 2) + rng.random((256, 2))) / 16
     assert analyse(inside).warnings == ()
     assert analyse(rng.random((256, 2))).warnings == ()
-    (warning,) = analyse(inside * 0.95).warnings
-    assert "not toroidal" in warning
+    assert analyse(np.stack(np.meshgrid(*[np.arange(15) / 15] * 2), -1).reshape(-1, 2)).warnings == ()
+    for cut in (inside * 0.97 + 0.015, inside * [0.9, 1.0]):
+        (warning,) = analyse(cut).warnings
+        assert "not toroidal" in warning
 
 
 def test_everything_a_report_draws_is_there_in_the_plane_and_only_what_means_something_elsewhere():
