@@ -1,0 +1,95 @@
+"""``gbnbench generate`` and ``gbnbench analyze``: point sets made into files, and files measured."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from gbnbench.cli import options
+from gbnbench.errors import GbnbenchError
+
+if TYPE_CHECKING:
+    from gbnbench.results import Measures
+
+
+@click.command()
+@click.argument("name")
+@click.option("-n", "n", type=click.IntRange(1), default=1024, show_default=True, help="Points a set.")
+@click.option("-d", "d", type=click.IntRange(1), default=2, show_default=True, help="Dimension.")
+@click.option("--realizations", type=click.IntRange(1), default=1, show_default=True, help="Sets.")
+@options.seed
+@click.option(
+    "-o", "--out", type=click.Path(path_type=Path, dir_okay=False), required=True,
+    help="File to write, replacing any; its format goes by the suffix.",
+)  # fmt: skip
+@options.device
+def generate(name: str, n: int, d: int, realizations: int, seed: int, out: Path) -> None:
+    """Write sets of the generator NAME, such as gbn or 'gbn[iterations=1000]'."""
+    from gbnbench.generators.registry import generate as draw
+    from gbnbench.points import save
+    from gbnbench.points.write import encode
+
+    encode(out, [[0.0]])  # a suffix that cannot be written is refused before the work
+    x = draw(name, n=n, d=d, seed=seed, realizations=realizations)
+    replaced = ", replacing what was there" if out.exists() else ""
+    save(out, x)
+    sets = "1 set" if realizations == 1 else f"{realizations} sets"
+    click.echo(f"wrote {out}: {sets} of {n} points, d={d}{replaced}")
+
+
+@click.command()
+@click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="FILE...")
+@click.option("--json", "as_json", is_flag=True, help="Print a list of {path, set, n, d, measures}.")
+@options.device
+def analyze(files: tuple[Path, ...], as_json: bool) -> None:
+    """Measure every set in every FILE, one row a set."""
+    from gbnbench.analysis.measures import measures
+    from gbnbench.points import read
+
+    rows: list[tuple[Path, int, int, int, Measures]] = []
+    failed = False
+    for path in files:
+        try:
+            for index, x in enumerate(read(path)):
+                rows.append((path, index, x.shape[0], x.shape[1], measures(x)))
+        except GbnbenchError as error:
+            failed = True
+            click.echo(f"gbnbench: error: {error}", err=True)
+        except OSError as error:
+            failed = True
+            click.echo(f"gbnbench: error: {path}: {error.strerror or error}", err=True)
+    if as_json:
+        listed = [
+            {
+                "path": str(path),
+                "set": index,
+                "n": n,
+                "d": d,
+                "measures": {name: v if math.isfinite(v) else None for name, v in found.items()},
+            }
+            for path, index, n, d, found in rows
+        ]
+        click.echo(json.dumps(listed, indent=2, allow_nan=False))
+    elif rows:
+        _table(rows)
+    if failed:
+        click.get_current_context().exit(2)
+
+
+def _table(rows: list[tuple[Path, int, int, int, Measures]]) -> None:
+    """Print aligned columns: wide, so that each set keeps its line."""
+    from gbnbench.analysis.catalogue import BY_NAME
+
+    heads = ["file", "set", "n", "d", *(BY_NAME[name].title for name in rows[0][4])]
+    cells = [heads]
+    for path, index, n, d, found in rows:
+        numbers = ["-" if math.isnan(v) else f"{v:.4g}" for v in found.values()]
+        cells.append([str(path), str(index), str(n), str(d), *numbers])
+    widths = [max(len(row[i]) for row in cells) for i in range(len(heads))]
+    for row in cells:
+        first, *rest = (cell.rjust(width) for cell, width in zip(row, widths, strict=True))
+        click.echo("  ".join([first.strip().ljust(widths[0]), *rest]))

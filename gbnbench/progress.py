@@ -1,0 +1,123 @@
+"""What a long command says while it works: a live bar on a terminal, a line now and then elsewhere."""
+
+from __future__ import annotations
+
+import sys
+import time
+from types import TracebackType
+from typing import TYPE_CHECKING, Self
+
+if TYPE_CHECKING:
+    from rich.progress import Progress as Bar
+
+QUIET_SECONDS = 10.0  # between plain lines
+
+
+class Progress:
+    """Say nothing: the base of the two that speak, and what ``--quiet`` uses.
+
+    A progress is a context; ``start`` comes first, then any number of ``advance``.
+    """
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Leave nothing on the terminal."""
+
+    def say(self, text: str) -> None:
+        """Print one line beside the progress."""
+
+    def start(self, total: int, done: int, doing: str) -> None:
+        """Begin counting steps, of which some are done already."""
+
+    def advance(self, doing: str, steps: int = 1) -> None:
+        """Count steps and name what is being done now."""
+
+
+class Lines(Progress):
+    """Plain lines on standard error, at most one in ten seconds, for logs and pipes."""
+
+    def __init__(self) -> None:
+        self._total = self._done = self._before = 0
+        self._began = self._spoke = time.monotonic()
+
+    def say(self, text: str) -> None:
+        """Print one line."""
+        print(text, file=sys.stderr, flush=True)
+
+    def start(self, total: int, done: int, doing: str) -> None:
+        """Begin counting and say what is first."""
+        self._total, self._done, self._before = total, done, done
+        self._began = self._spoke = time.monotonic()
+        self.say(f"{done}/{total} {doing}")
+
+    def advance(self, doing: str, steps: int = 1) -> None:
+        """Count, and print when the last line is old enough."""
+        self._done += steps
+        now = time.monotonic()
+        if now - self._spoke < QUIET_SECONDS and (steps == 0 or self._done < self._total):
+            return
+        self._spoke = now
+        elapsed = now - self._began
+        fresh, ahead = self._done - self._before, self._total - self._done
+        left = f", about {elapsed * ahead / fresh:.0f} s left" if fresh and ahead else ""
+        self.say(f"{self._done}/{self._total} {doing} ({elapsed:.0f} s{left})")
+
+
+class Live(Progress):
+    """One bar on standard error with what is being done, elapsed and remaining time."""
+
+    def __init__(self) -> None:
+        from rich.console import Console
+        from rich.progress import (
+            BarColumn,
+            MofNCompleteColumn,
+            Progress,
+            TextColumn,
+            TimeElapsedColumn,
+            TimeRemainingColumn,
+        )
+
+        self._bar: Bar = Progress(
+            BarColumn(),
+            MofNCompleteColumn(),
+            TimeElapsedColumn(),
+            TextColumn("left"),
+            TimeRemainingColumn(),
+            TextColumn("{task.description}", markup=False),
+            console=Console(stderr=True),
+            transient=True,
+        )
+        self._task = self._bar.add_task("starting", total=None)
+
+    def __enter__(self) -> Self:
+        self._bar.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Take the bar off the terminal."""
+        self._bar.stop()
+
+    def say(self, text: str) -> None:
+        """Print one line above the bar."""
+        self._bar.console.print(text, markup=False, highlight=False)
+
+    def start(self, total: int, done: int, doing: str) -> None:
+        """Show the bar with what is done already."""
+        self._bar.reset(self._task, total=total, completed=done, description=doing)
+
+    def advance(self, doing: str, steps: int = 1) -> None:
+        """Move the bar."""
+        self._bar.update(self._task, advance=steps, description=doing)
+
+
+def choose(quiet: bool) -> Progress:
+    """Pick by where standard error goes."""
+    if quiet:
+        return Progress()
+    return Live() if sys.stderr.isatty() else Lines()
