@@ -15,7 +15,9 @@ if TYPE_CHECKING:
     import pandas as pd
 
 BAND = (0.1, 1.0)  # nu of the shells that the scalar pools
-ROUNDING = 1e-26  # mean power of a shell at or below which only rounding is left, as off a lattice's harmonics
+ROUNDING = (
+    1e-26  # mean power of a shell at or below which only rounding is left, as off a lattice's harmonics
+)
 
 
 def shell_variance(power: FloatArray, shells: Shells, realizations: int) -> tuple[FloatArray, FloatArray]:
@@ -48,30 +50,26 @@ def shell_variance(power: FloatArray, shells: Shells, realizations: int) -> tupl
     return deviation, np.where(usable, m - 1, 0.0)
 
 
-def pooled_db(deviation: FloatArray, freedom: FloatArray) -> float:
-    """10 log10 of the pooled variance; nan without degrees of freedom, -inf where all power is equal."""
-    total = float(freedom.sum())
-    if total == 0:
-        return float("nan")
-    with np.errstate(divide="ignore"):
-        return float(10 * np.log10(deviation.sum() / total))
-
-
 def anisotropy_db(power: FloatArray, shells: Shells, realizations: int, spacing: float) -> float:
     """Scalar anisotropy of a bare cube: shells with 0.1 <= nu <= 1 pooled, dB.
 
     Raises
     ------
     RefusalError
-        If no shell of that band has two independent frequencies.
+        If no shell of that band has two independent frequencies, or most of the band holds only rounding.
     """
     deviation, freedom = shell_variance(power, shells, realizations)
     nu = shells.radius * spacing
     band = (nu >= BAND[0]) & (nu <= BAND[1])
-    value = pooled_db(deviation[band], freedom[band])
-    if np.isnan(value):
-        raise RefusalError("no shell with 0.1 <= nu <= 1 has two independent frequencies of power beyond rounding")
-    return value
+    possible = np.maximum(shells.count[band] / 2 - 1, 0).sum()
+    if possible == 0:
+        raise RefusalError("no shell with 0.1 <= nu <= 1 has two independent frequencies")
+    if freedom[band].sum() < possible / 2:
+        raise RefusalError(
+            "most frequencies with 0.1 <= nu <= 1 hold no power beyond rounding, as a lattice's do"
+        )
+    with np.errstate(divide="ignore"):  # -inf where the power of each shell is equal
+        return float(10 * np.log10(deviation[band].sum() / freedom[band].sum()))
 
 
 def anisotropy(spectrum: Spectrum) -> pd.DataFrame:

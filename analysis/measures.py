@@ -36,6 +36,7 @@ from gbnbench.torus import FloatArray, as_realizations
 if TYPE_CHECKING:
     import pandas as pd
 
+NYQUIST_STEP = 0.005  # resolution of the effective Nyquist frequency, part of its error
 Result = TypeVar("Result")
 _Estimate = tuple[float, float]  # value, standard error
 _Entry = tuple[tuple[str, ...], Callable[[], list[_Estimate]]]
@@ -221,7 +222,10 @@ class _Scalars:
         def psa() -> list[_Estimate]:
             found = spectral_statistics(self.points)
             return [
-                (found.effective_nyquist, found.effective_nyquist_error),
+                (
+                    found.effective_nyquist,
+                    math.hypot(found.effective_nyquist_error, NYQUIST_STEP / math.sqrt(12)),
+                ),
                 (found.oscillations, found.oscillations_error),
             ]
 

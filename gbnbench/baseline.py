@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from gbnbench.analysis.catalogue import CATALOGUE
+from gbnbench.analysis.catalogue import CATALOGUE, judged
 from gbnbench.run import Run, SourceResult
 
 LIMIT = 3.0  # standard errors of the difference
@@ -97,7 +97,12 @@ def _changes(after: SourceResult, before: SourceResult) -> list[Change]:
         name = definition.name
         errors = [side.measures.standard_error.get(name, math.nan) for side in (before, after)]
         was, now = before.measures[name], after.measures[name]
-        word, deviations = verdict(was, now, math.hypot(*errors), definition.better)
+        word, deviations = verdict(
+            judged(name, was, before.realizations),
+            judged(name, now, after.realizations),
+            math.hypot(*errors),
+            definition.better,
+        )
         if word:
             changes.append(Change(after.key, after.label, after.n, after.d, name, was, now, deviations, word))
     return changes

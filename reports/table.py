@@ -13,7 +13,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from gbnbench.analysis.catalogue import CATALOGUE, Definition
+from gbnbench.analysis.catalogue import CATALOGUE, Definition, judged
 from gbnbench.reports.numbers import error_number, number
 from gbnbench.reports.style import Group, groups, members
 from gbnbench.run import Run, SourceResult
@@ -126,12 +126,18 @@ def rows(run: Run, group: Group | None = None) -> list[Row]:
 
 def _best(made: Sequence[Row], place: Group, column: Definition) -> set[str]:
     """Text of the best value of a column among the sources of one n and d; empty where there is none."""
-    found = [row.cells[column.name] for row in made if (row.source.n, row.source.d) == place]
-    found = [cell for cell in found if not math.isnan(cell.value)]
-    if len({cell.text for cell in found}) < 2:
+    there = [row for row in made if (row.source.n, row.source.d) == place]
+    found = {
+        row.cells[column.name].text: judged(
+            column.name, row.cells[column.name].value, row.source.realizations
+        )
+        for row in there
+        if not math.isnan(row.cells[column.name].value)
+    }
+    if len(found) < 2:
         return set()
     choose = min if column.better == "lower" else max
-    return {choose(found, key=lambda cell: cell.value).text}
+    return {choose(found, key=found.__getitem__)}
 
 
 def row_label(source: SourceResult, run: Run) -> str:

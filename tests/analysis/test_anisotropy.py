@@ -63,7 +63,9 @@ def test_rounding_off_a_lattices_harmonics_is_no_direction():
     power[(f % 16 == 0).all(axis=0)] = 256
     rings = anisotropy(Spectrum(power, n=256, d=2, realizations=1, fmax=FMAX)).set_index("frequency")
     assert np.isnan(rings["anisotropy_db"].drop([16, 23])).all()  # |f| = 16 and 16 sqrt 2
-    assert np.isfinite(rings["anisotropy_db"][16])
+    assert rings["anisotropy_db"][16] == -np.inf  # four equal powers
+    with pytest.raises(RefusalError, match="most frequencies"):
+        anisotropy_db(power, exact_shells(FMAX, 2), 1, 1 / 16)
 
 
 def test_where_no_shell_has_two_directions_it_is_refused():
