@@ -278,7 +278,7 @@ def _warnings(radial: RadialPower, d: int) -> tuple[str, ...]:
     if axes < max(EDGE_RATIO * diagonals, ROUNDING):
         return ()
     return (
-        f"not toroidal? power on the axes, {by_square[1]:.2g} at |f| = 1, is {axes / diagonals:.2g} times that "
-        "of the diagonals beside them, as when points keep away from the border of a box: low-frequency "
+        f"not toroidal? power on the axes, {by_square[1]:.2g} at |f| = 1, is {axes / diagonals:.2g} times "
+        "that of the diagonals beside them, as when points keep away from the border of a box: low-frequency "
         "numbers then measure the border",
     )

@@ -16,7 +16,7 @@ PROBES = 200  # frequencies at which the error is taken
 
 
 def separable(x: FloatArray, fmax: int) -> FloatArray:
-    """Numpy: a table of complex exponentials for each of two groups of dimensions, and one complex product."""
+    """Tabulate complex exponentials for two groups of dimensions in numpy, and take one complex product."""
     f = np.arange(-fmax, fmax + 1)
     tables = []
     for group in (x[:, : x.shape[1] // 2], x[:, x.shape[1] // 2 :]):
@@ -71,7 +71,7 @@ def rows() -> Iterator[tuple[object, ...]]:
         truth = true_amplitudes(x[0], f)
         ours = None
         for name, method in methods(d):
-            seconds = cpu_seconds(lambda m=method: [m(one, fmax) for one in x])
+            seconds = cpu_seconds(lambda m=method, x=x, fmax=fmax: [m(one, fmax) for one in x])
             ours = ours or seconds
             power = method(x[0], fmax)[tuple((f + fmax).T)]
             error = np.sqrt(np.mean((np.sqrt(power * n) - truth) ** 2) / n)
