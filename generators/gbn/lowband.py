@@ -14,32 +14,38 @@ from numpy.typing import NDArray
 
 from gbnbench.torus import FloatArray
 
-EDGE = 0.15
+EDGE = 0.15  # in nu
 
 
 class LowBand:
-    """Modes with 0 < nu <= 0.15 of n points in d dimensions, as a grid of two groups of dimensions."""
+    """Modes with 0 < nu <= 0.15 of n points in d dimensions, in single precision: 1e-3 would do.
+
+    The modes are a grid over two groups of dimensions; f and -f being one mode, the first axis takes f >= 0 only.
+    """
 
     def __init__(self, n: int, d: int, sigma: float) -> None:
-        side = n ** (1 / d)
-        self._n = n
-        self._leading = d // 2
-        self._f = np.arange(-math.floor(EDGE * side), math.floor(EDGE * side) + 1)
-        grid = np.stack(np.meshgrid(*[self._f] * d, indexing="ij"))  # (d, ...) frequencies
-        q2 = (2 * math.pi / side) ** 2 * np.sum(grid**2, axis=0)
+        side = math.pow(n, 1 / d)
+        self._reach = math.floor(EDGE * side)
+        self._leading = max(1, d // 2)
+        axes = [np.arange(0 if a == 0 else -self._reach, self._reach + 1) for a in range(d)]
+        q = 2 * math.pi / side * np.stack(np.meshgrid(*axes, indexing="ij"))  # (d, modes of each axis...)
+        q2 = np.sum(q**2, axis=0)
         inside = (q2 > 0) & (q2 <= (2 * math.pi * EDGE) ** 2)
-        curvature = np.where(
-            inside, q2 * (2 * math.pi) ** (d / 2) * sigma**d * np.exp(-(sigma**2) * q2 / 2), 1
-        )
-        self._inverse = np.where(inside, 1 / curvature, 0.0)
-        self._inside = inside
-        self._direction = np.where(inside, 2 * math.pi / side * grid / np.sqrt(np.maximum(q2, 1e-300)), 0.0)
+        # A mode on the plane f_0 = 0 stands there twice, as f and as -f.
+        self._weight = np.where(inside, np.where(q[0] > 0, 2.0, 1.0), 0.0) / n
+        q2[~inside] = 1.0
+        self._inverse = 1 / (q2 * (2 * math.pi) ** (d / 2) * sigma**d * np.exp(-(sigma**2) * q2 / 2))
+        self._direction = q / np.sqrt(q2)
 
-    def _waves(self, x: FloatArray) -> NDArray[np.complex128]:
+    def _waves(self, x: FloatArray, first: bool) -> NDArray[np.complex64]:
         """exp(-2 pi i f.x) over the grid of one group of dimensions: (n, modes)."""
-        table = np.ones((len(x), 1), np.complex128)
-        for coordinate in x.T:
-            axis = np.exp(-2j * np.pi * coordinate[:, None] * self._f)
+        table = np.ones((len(x), 1), np.complex64)
+        for a, coordinate in enumerate(x.T):
+            powers = np.ones((len(x), self._reach + 1), np.complex64)
+            powers[:, 1:] = np.exp(-2j * np.pi * coordinate)[:, None]
+            axis = np.cumprod(powers, axis=1)
+            if not (first and a == 0):
+                axis = np.concatenate([axis[:, :0:-1].conj(), axis], axis=1)
             table = (table[:, :, None] * axis[:, None, :]).reshape(len(x), -1)
         return table
 
@@ -60,18 +66,23 @@ class LowBand:
         (n, d) float64
             sum over the band of (1 / lambda_q - size) times the gradient's projection on the mode.
         """
-        if not self._inside.any():
-            return np.zeros_like(gradient)
-        first, second = self._waves(x[:, : self._leading]), self._waves(x[:, self._leading :])
+        out = np.zeros_like(gradient)
+        if not self._weight.any():
+            return out
+        first = self._waves(x[:, : self._leading], first=True)
+        second = self._waves(x[:, self._leading :], first=False)
         shape = self._inverse.shape
+        force = gradient.astype(np.float32)
         along = np.zeros(shape, np.complex128)
-        for a in range(x.shape[1]):
-            along += self._direction[a] * ((first * gradient[:, a : a + 1]).T @ second).reshape(shape)
-        # f and -f stand both in the grid: together they are the cosine and the sine mode, each of
-        # squared norm n/2.
-        along *= np.where(self._inside, self._inverse - size, 0.0) / self._n
-        out = np.empty_like(gradient)
-        for a in range(x.shape[1]):
-            coefficient = (self._direction[a] * along).reshape(first.shape[1], second.shape[1])
-            out[:, a] = np.einsum("km,km->k", first.conj(), second.conj() @ coefficient.T).real
+        for a, direction in enumerate(self._direction):
+            along += direction * (first.T @ (second * force[:, a : a + 1])).reshape(shape)
+        along *= self._weight * (self._inverse - size)
+        backward = second.conj()
+        for a, direction in enumerate(self._direction):
+            coefficient = (direction * along).astype(np.complex64).reshape(first.shape[1], second.shape[1])
+            # Re(conj(first) (backward @ coefficient.T)), summed over the first group's modes
+            wave = backward @ coefficient.T
+            out[:, a] = np.einsum("km,km->k", first.real, wave.real) + np.einsum(
+                "km,km->k", first.imag, wave.imag
+            )
         return out

@@ -12,7 +12,7 @@ from gbnbench.generators.gbn.lowband import LowBand
 from gbnbench.torus import FloatArray
 
 PATIENCE = 20  # steps over which a rise of the excess energy halves the step
-PRECONDITION_ABOVE = 4096  # points; below, the lowest modes converge by themselves
+PRECONDITION_ABOVE = 2048  # points; below, 300 gradients bring the lowest modes down by themselves
 
 
 def largest_curvature(n: int, d: int, sigma: float) -> float:
@@ -76,7 +76,7 @@ def descend(x: FloatArray, field: Field, sigma: float, iterations: int, excess: 
 def accelerate(x: FloatArray, field: Field, sigma: float, gradients: int, excess: float = 0.0) -> FloatArray:
     """Nesterov's method with adaptive restart: 300 gradients do the work of 10,000 steps of descent.
 
-    Parameters and returns are those of ``descend``. Above 4,096 points the lowest band is preconditioned,
+    Parameters and returns are those of ``descend``. Above 2,048 points the lowest band is preconditioned,
     since its modes are too slow for any step that the middle band allows. The restart is that of
     O'Donoghue & Candes (2015).
     """
