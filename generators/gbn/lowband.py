@@ -20,7 +20,7 @@ EDGE = 0.15  # in nu
 class LowBand:
     """Modes with 0 < nu <= 0.15 of n points in d dimensions, in single precision: 1e-3 would do.
 
-    The modes are a grid over two groups of dimensions; f and -f being one mode, the first axis takes f >= 0 only.
+    The modes are a grid over two groups of dimensions; f and -f being one mode, the first axis takes f >= 0.
     """
 
     def __init__(self, n: int, d: int, sigma: float) -> None:
