@@ -16,7 +16,7 @@ __kernel void selected(__global const TURN *frequency, __global const TURN *x, _
         for (ulong k = first; k < last; k++) {
             TURNV phase = (TURNV)0;
             for (uint a = 0; a < dim; a++)
-                phase += LOADV(frequency, a * stride + j) * x[a * n + k];
+                phase += LOADV_TURNS(frequency, a * stride + j) * x[a * n + k];
             REALV c, s;
             cos_sin_of_turn(phase, &c, &s);
             cosines += c;

@@ -14,7 +14,7 @@ __kernel void tables(__global const TURN *frequency, __global const TURN *x, __g
     for (uint k = first; k < last; k++) {
         TURNV phase = (TURNV)0;
         for (uint a = 0; a < dim; a++)
-            phase += LOADV(frequency, a * stride + j) * x[a * n + begin + k];
+            phase += LOADV_TURNS(frequency, a * stride + j) * x[a * n + begin + k];
         REALV c, s;
         cos_sin_of_turn(phase, &c, &s);
         STOREV(c, cosine, (ulong)k * stride + j);

@@ -3,7 +3,7 @@
 __kernel void probe(__global const REAL *a, __global const TURN *b, __global REAL *out)
 {
     REALV x = LOADV(a, 0);
-    TURNV p = LOADV(b, 0);
+    TURNV p = LOADV_TURNS(b, 0);
     TURNV q = p + (p << 3);
     REALV y = TO_REALV(AS_STURNV(q >> 4));
     y = ((q & (TURN)1) != (TURNV)0) ? y : -y;

@@ -1,8 +1,9 @@
 /* Types of a kernel by -D DOUBLE=0|1 and -D LANES=1|2|4|8|16: scalars, vectors of LANES, loads and stores.
  *
  * REAL a coordinate or a sum, TURN an unsigned fixed-point fraction of a turn of the same size, STURN its signed
- * twin; REALV, TURNV, STURNV are LANES of them. Vectors are loaded and stored by vloadN and vstoreN only: a
- * dereferenced vector pointer that is not aligned crashes.
+ * twin; REALV, TURNV, STURNV are LANES of them. LOADV(p, i) and STOREV(v, p, i) move LANES scalars from p + i on,
+ * wherever that is: a dereferenced vector pointer that is not aligned crashes, and vloadN is a call on the PoCL of
+ * PyPI, around which every vector register is spilled. Compilers make one move of the components named one by one.
  */
 #define JOIN2(a, b) a##b
 #define JOIN(a, b) JOIN2(a, b)
@@ -25,6 +26,7 @@
 #define TURNV TURN
 #define STURNV STURN
 #define LOADV(p, i) ((p)[i])
+#define LOADV_TURNS(p, i) ((p)[i])
 #define STOREV(v, p, i) ((p)[i] = (v))
 #define TO_REALV JOIN(convert_, REAL)
 #define AS_STURNV JOIN(as_, STURN)
@@ -35,9 +37,28 @@
 #define REALV JOIN(REAL, LANES)
 #define TURNV JOIN(TURN, LANES)
 #define STURNV JOIN(STURN, LANES)
-/* i counts scalars, so that a vector may begin anywhere */
-#define LOADV(p, i) JOIN(vload, LANES)(0, (p) + (i))
-#define STOREV(v, p, i) JOIN(vstore, LANES)(v, 0, (p) + (i))
+#define TWO_OF(p, i) (p)[i], (p)[(i) + 1]
+#define FOUR_OF(p, i) TWO_OF(p, i), TWO_OF(p, (i) + 2)
+#define EIGHT_OF(p, i) FOUR_OF(p, i), FOUR_OF(p, (i) + 4)
+#define TO_TWO(v, p, i) (p)[i] = v.s0, (p)[(i) + 1] = v.s1
+#define TO_FOUR(v, p, i) TO_TWO(v.lo, p, i), TO_TWO(v.hi, p, (i) + 2)
+#define TO_EIGHT(v, p, i) TO_FOUR(v.lo, p, i), TO_FOUR(v.hi, p, (i) + 4)
+#if LANES == 2
+#define COMPONENTS TWO_OF
+#define SCATTER TO_TWO
+#elif LANES == 4
+#define COMPONENTS FOUR_OF
+#define SCATTER TO_FOUR
+#elif LANES == 8
+#define COMPONENTS EIGHT_OF
+#define SCATTER TO_EIGHT
+#else
+#define COMPONENTS(p, i) EIGHT_OF(p, i), EIGHT_OF(p, (i) + 8)
+#define SCATTER(v, p, i) TO_EIGHT(v.lo, p, i), TO_EIGHT(v.hi, p, (i) + 8)
+#endif
+#define LOADV(p, i) ((REALV)(COMPONENTS(p, i)))
+#define LOADV_TURNS(p, i) ((TURNV)(COMPONENTS(p, i)))
+#define STOREV(v, p, i) do { const REALV stored = (v); SCATTER(stored, p, i); } while (0)
 #define TO_REALV JOIN(convert_, REALV)
 #define AS_STURNV JOIN(as_, STURNV)
 #define AS_TURNV JOIN(as_, TURNV)

@@ -20,7 +20,7 @@ from gbnbench.torus import FloatArray
 
 CUTOFF = {"double": 9.0, "float": 6.0}  # sigmas beyond which a pair adds less than the precision
 SMALLEST = {"double": 1e-18, "float": 1e-9}  # weight of the first harmonic left out, over that of f = 0
-BOX = 16  # points bounded together
+BOX = 8  # points bounded together
 PACKAGE = "gbnbench.generators"
 
 

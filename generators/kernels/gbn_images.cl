@@ -18,6 +18,7 @@ __kernel void boxes(__global const REAL *x, const uint n, const uint stride, __g
     const uint b = get_global_id(0);
     if (b >= count) return;
     const uint first = b * BOX, last = min(first + BOX, n);
+    #pragma unroll
     for (uint a = 0; a < DIM; a++) {
         const REAL origin = COORDINATE(x, a, first);
         REAL low = 0, high = 0;
@@ -40,6 +41,7 @@ __kernel void gbn_images(__global const REAL *x, const uint n, const uint stride
     const uint k = get_global_id(0) * LANES;
     if (k >= stride) return;
     REALV at[DIM], force[DIM], total = (REALV)0;
+    #pragma unroll
     for (uint a = 0; a < DIM; a++) {
         at[a] = LOADV(x, a * stride + k);
         force[a] = (REALV)0;
@@ -47,16 +49,18 @@ __kernel void gbn_images(__global const REAL *x, const uint n, const uint stride
     const uint own = k / BOX;
     for (uint b = 0; b < count; b++) {
         REAL gap2 = 0;
+        #pragma unroll
         for (uint a = 0; a < DIM; a++) {
             REAL apart = box[(2 * a) * count + b] - box[(2 * a) * count + own];
-            apart = fabs(apart - rint(apart)) - box[(2 * a + 1) * count + b] - box[(2 * a + 1) * count + own];
-            apart = max(apart, (REAL)0);
-            gap2 += apart * apart;
+            apart -= (apart + NEAREST) - NEAREST;
+            apart = (apart < 0 ? -apart : apart) - box[(2 * a + 1) * count + b] - box[(2 * a + 1) * count + own];
+            gap2 += apart > 0 ? apart * apart : (REAL)0;
         }
         if (gap2 > reach * reach) continue;
         const uint last = min((b + 1) * BOX, n);
         for (uint l = b * BOX; l < last; l++) {
             REALV u[DIM], half_square = (REALV)0;
+            #pragma unroll
             for (uint a = 0; a < DIM; a++) {
                 u[a] = at[a] - COORDINATE(x, a, l);
                 u[a] = (u[a] - ((u[a] + NEAREST) - NEAREST)) * scale;
@@ -64,10 +68,12 @@ __kernel void gbn_images(__global const REAL *x, const uint n, const uint stride
             }
             const REALV g = exp_negative(half_square * (REAL)0.5);
             total += g;
+            #pragma unroll
             for (uint a = 0; a < DIM; a++)
                 force[a] -= g * u[a];
         }
     }
+    #pragma unroll
     for (uint a = 0; a < DIM; a++)
         STOREV(force[a], gradient, a * stride + k);
     STOREV(total, energy, k);

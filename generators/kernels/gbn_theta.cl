@@ -14,6 +14,7 @@ __kernel void gbn_theta(__global const REAL *cosine, __global const REAL *sine, 
     const uint k = get_global_id(0) * LANES;
     if (k >= stride) return;
     REALV ck[DIM], sk[DIM], force[DIM], total = (REALV)0;
+    #pragma unroll
     for (uint a = 0; a < DIM; a++) {
         ck[a] = LOADV(cosine, a * stride + k);
         sk[a] = LOADV(sine, a * stride + k);
@@ -21,6 +22,7 @@ __kernel void gbn_theta(__global const REAL *cosine, __global const REAL *sine, 
     }
     for (uint l = 0; l < n; l++) {
         REALV theta[DIM], slope[DIM], p = (REALV)0;
+        #pragma unroll
         for (uint a = 0; a < DIM; a++) {
             const REAL cl = cosine[a * stride + l], sl = sine[a * stride + l];
             const REALV c = ck[a] * cl + sk[a] * sl;
@@ -43,16 +45,19 @@ __kernel void gbn_theta(__global const REAL *cosine, __global const REAL *sine, 
         }
         total += p;
         REALV before = (REALV)1;
+        #pragma unroll
         for (uint a = 0; a < DIM; a++) { /* slope[a] * prod_{b<a} theta[b] */
             slope[a] *= before;
             before *= theta[a];
         }
         REALV after = (REALV)1;
+        #pragma unroll
         for (uint a = DIM; a-- > 0;) {
             force[a] += slope[a] * after;
             after *= theta[a];
         }
     }
+    #pragma unroll
     for (uint a = 0; a < DIM; a++)
         STOREV(force[a] * (REAL)-12.566370614359172954, gradient, a * stride + k);
     STOREV(total, energy, k);
