@@ -193,6 +193,22 @@ CATALOGUE: tuple[Definition, ...] = (
         "Ten times the root mean square departure of the radial power from 1 beyond its first rise.",
         "Heck et al. 2013, as in PSA",
     ),
+    Definition(
+        "discrepancy_wd",
+        "WD",
+        "",
+        "lower",
+        "Wrap-around L2 discrepancy, squared, as SciPy has it; the discrepancy that belongs to the torus.",
+        "Hickernell 1998",
+    ),
+    Definition(
+        "discrepancy_star",
+        "L2*",
+        "",
+        "lower",
+        "Star L2 discrepancy: root mean square error of the count in boxes that begin at the origin.",
+        "Warnock 1972",
+    ),
 )
 
 BY_NAME: dict[str, Definition] = {definition.name: definition for definition in CATALOGUE}

@@ -15,6 +15,7 @@ from gbnbench.analysis.bond_order import bond_order, psi6
 from gbnbench.analysis.catalogue import CATALOGUE
 from gbnbench.analysis.delaunay import Neighbours, neighbours, valence, valence6
 from gbnbench.analysis.distances import mean_distance, min_distance
+from gbnbench.analysis.integration import discrepancies
 from gbnbench.analysis.periodogram import check_fmax, largest_fmax, powers, spectrum_of
 from gbnbench.analysis.profile import (
     evacuated_energy,
@@ -229,6 +230,10 @@ class _Scalars:
                 (found.oscillations, found.oscillations_error),
             ]
 
+        def discrepancy() -> list[_Estimate]:
+            found = discrepancies(self.points, ("WD", "L2-star"))
+            return [_mean(found["WD"]), _mean(found["L2-star"])]
+
         return [
             (("evacuated_energy",), energy),
             (("min_distance",), lambda: [_mean(min_distance(self.points))]),
@@ -237,6 +242,7 @@ class _Scalars:
             (("psi6",), lambda: [_mean(psi6(self.neighbours()))]),
             (("valence6",), lambda: [_mean(valence6(self.neighbours()))]),
             (("effective_nyquist", "oscillations"), psa),
+            (("discrepancy_wd", "discrepancy_star"), discrepancy),
         ]
 
 

@@ -48,7 +48,7 @@ def test_against_the_closed_forms(n: int, d: int) -> None:
 
 
 def test_too_many_points_are_refused_before_the_sum() -> None:
-    with pytest.raises(RefusalError, match="at most 70710"):
+    with pytest.raises(RefusalError, match="at most 22360"):
         discrepancies(np.full((80_000, 2), 0.5))
 
 
