@@ -4,7 +4,8 @@
  * sin cos and cos sin give both amplitudes; Hermitian symmetry gives the other two quadrants. One work-item holds
  * ROWS rows of the leading group by LANES columns of the trailing one in registers, sums SUM_POINTS points at a
  * time, and adds each such sum to the amplitudes in double where the device has it (the type SUM). Rows are
- * written out by macro, since an array of accumulators would live in memory.
+ * written out by macro, since an array of accumulators would live in memory. Tables come packed in tiles of ROWS and
+ * of COLUMNS, those of a work-group (tables.cl).
  */
 #if ROWS == 2
 #define EACH_ROW(DO) DO(0) DO(1)
@@ -20,7 +21,7 @@
 
 #define MULTIPLY(r)                                         \
     {                                                       \
-        const REAL ca = row_cos[r], sa = row_sin[r];        \
+        const REAL ca = row[r], sa = row[ROWS + r];         \
         cc##r += ca * cb;                                   \
         ss##r += sa * sb;                                   \
         sc##r += sa * cb;                                   \
@@ -45,27 +46,24 @@ static void add_up(REALV cc, REALV ss, REALV sc, REALV cs, __global SUM *out, ul
     }
 }
 
-__kernel void product(__global const REAL *restrict cos_a, __global const REAL *restrict sin_a, const uint stride_a,
-                      __global const REAL *restrict cos_b, __global const REAL *restrict sin_b, const uint stride_b,
-                      __global SUM *restrict amplitude, const uint points)
+__kernel void product(__global const REAL *restrict table_a, __global const REAL *restrict table_b,
+                      const uint stride_a, const uint stride_b, __global SUM *restrict amplitude, const uint points)
 {
     const uint j = get_global_id(0) * LANES;
     const uint i = get_global_id(1) * ROWS;
     if (j >= stride_b || i >= stride_a) return;
     const ulong plane = (ulong)stride_a * stride_b;
     __global SUM *tile = amplitude + (ulong)i * stride_b + j;
-    __global const REAL *row_cos = cos_a + i, *row_sin = sin_a + i;
-    __global const REAL *column_cos = cos_b + j, *column_sin = sin_b + j;
+    __global const REAL *row = table_a + (ulong)i * points * 2;
+    __global const REAL *column = table_b + (ulong)(j / COLUMNS) * points * 2 * COLUMNS + j % COLUMNS;
     for (uint first = 0; first < points; first += SUM_POINTS) {
-        const uint last = min(first + SUM_POINTS, points);
+        const uint last = first + SUM_POINTS < points ? first + SUM_POINTS : points;
         EACH_ROW(CLEAR)
         for (uint k = first; k < last; k++) {
-            const REALV cb = LOADV(column_cos, 0), sb = LOADV(column_sin, 0);
+            const REALV cb = LOADV(column, 0), sb = LOADV(column, COLUMNS);
             EACH_ROW(MULTIPLY)
-            row_cos += stride_a;
-            row_sin += stride_a;
-            column_cos += stride_b;
-            column_sin += stride_b;
+            row += 2 * ROWS;
+            column += 2 * COLUMNS;
         }
         EACH_ROW(ADD)
     }

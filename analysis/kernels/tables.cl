@@ -1,23 +1,37 @@
-/* Tables of cos and sin of 2 pi f.x for a group's frequencies and a chunk of points.
+/* Tables of cos and sin of 2 pi f.x for a group's frequencies and a chunk of points, packed for product.cl.
  *
- * One work-item fills LANES frequencies (global id 0) for TABLE_POINTS points (global id 1); row k of a table is
- * point k, contiguous in frequency.
+ * Frequencies stand in tiles of some width; a tile holds, point after point, so many cosines and then as many sines,
+ * so that the product reads every table from end to end. One work-item fills LANES frequencies (global id 0) for
+ * TABLE_POINTS points (global id 1). The width is COLUMNS for the trailing group and ROWS for the leading one.
  */
-__kernel void tables(__global const TURN *frequency, __global const TURN *x, __global REAL *cosine,
-                     __global REAL *sine, const uint stride, const uint dim, const ulong n, const ulong begin,
+__kernel void tables(__global const TURN *frequency, __global const TURN *x, __global REAL *table,
+                     const uint width, const uint stride, const uint dim, const ulong n, const ulong begin,
                      const uint points)
 {
     const uint j = get_global_id(0) * LANES;
     if (j >= stride) return;
     const uint first = get_global_id(1) * TABLE_POINTS;
-    const uint last = min(first + TABLE_POINTS, points);
+    const uint last = first + TABLE_POINTS < points ? first + TABLE_POINTS : points;
     for (uint k = first; k < last; k++) {
         TURNV phase = (TURNV)0;
         for (uint a = 0; a < dim; a++)
             phase += LOADV_TURNS(frequency, a * stride + j) * x[a * n + begin + k];
         REALV c, s;
         cos_sin_of_turn(phase, &c, &s);
-        STOREV(c, cosine, (ulong)k * stride + j);
-        STOREV(s, sine, (ulong)k * stride + j);
+        if (width % LANES == 0) {
+            __global REAL *at = table + ((ulong)(j / width) * points + k) * 2 * width + j % width;
+            STOREV(c, at, 0);
+            STOREV(s, at, width);
+        } else {
+            REAL part[2 * LANES];
+            STOREV(c, part, 0);
+            STOREV(s, part, LANES);
+            for (uint v = 0; v < LANES; v++) {
+                const uint tile = (j + v) / width, row = (j + v) % width;
+                __global REAL *at = table + ((ulong)tile * points + k) * 2 * width + row;
+                at[0] = part[v];
+                at[width] = part[LANES + v];
+            }
+        }
     }
 }
