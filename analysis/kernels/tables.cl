@@ -12,25 +12,27 @@ __kernel void tables(__global const TURN *frequency, __global const TURN *x, __g
     if (j >= stride) return;
     const uint first = get_global_id(1) * TABLE_POINTS;
     const uint last = first + TABLE_POINTS < points ? first + TABLE_POINTS : points;
+    ulong place[LANES]; /* of each lane's cosine for point 0; found once, since division is slow */
+    for (uint v = 0; v < LANES; v++)
+        place[v] = (ulong)((j + v) / width) * points * 2 * width + (j + v) % width;
+    const bool together = width % LANES == 0;
     for (uint k = first; k < last; k++) {
         TURNV phase = (TURNV)0;
         for (uint a = 0; a < dim; a++)
             phase += LOADV_TURNS(frequency, a * stride + j) * x[a * n + begin + k];
         REALV c, s;
         cos_sin_of_turn(phase, &c, &s);
-        if (width % LANES == 0) {
-            __global REAL *at = table + ((ulong)(j / width) * points + k) * 2 * width + j % width;
-            STOREV(c, at, 0);
-            STOREV(s, at, width);
+        __global REAL *row = table + (ulong)k * 2 * width;
+        if (together) {
+            STOREV(c, row, place[0]);
+            STOREV(s, row, place[0] + width);
         } else {
             REAL part[2 * LANES];
             STOREV(c, part, 0);
             STOREV(s, part, LANES);
             for (uint v = 0; v < LANES; v++) {
-                const uint tile = (j + v) / width, row = (j + v) % width;
-                __global REAL *at = table + ((ulong)tile * points + k) * 2 * width + row;
-                at[0] = part[v];
-                at[width] = part[LANES + v];
+                row[place[v]] = part[v];
+                row[place[v] + width] = part[LANES + v];
             }
         }
     }
