@@ -19,7 +19,7 @@ types: $(VENV)/.installed
 	$(BIN)/mypy
 
 wheel: $(VENV)/.installed
-	$(BIN)/python -m build --outdir dist .
+	$(BIN)/python -m build --no-isolation --outdir dist . > build.log 2>&1 || { cat build.log; exit 1; }
 
 $(VENV)/.installed: pyproject.toml constraints.txt
 	$(PYTHON) -m venv $(VENV)
