@@ -50,8 +50,9 @@ class Precision:
         return self.runtime.program(GROUP, ("/vector.cl", "/turns.cl", *files), definitions)
 
     def upload_points(self, x: FloatArray) -> Any:
-        """One contiguous row of fixed-point coordinates a dimension."""
-        return self.runtime.upload(fixed_point(x, np.dtype(self.turn).itemsize * 8).T)
+        """Upload a row of fixed-point coordinates a dimension, and room for a vector past the last."""
+        rows = fixed_point(x, np.dtype(self.turn).itemsize * 8).T
+        return self.runtime.upload(np.append(rows.ravel(), np.zeros(self.lanes, self.turn)))
 
 
 def precision_of(name: str) -> Precision:

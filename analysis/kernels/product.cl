@@ -47,15 +47,16 @@ static void add_up(REALV cc, REALV ss, REALV sc, REALV cs, __global SUM *out, ul
 }
 
 __kernel void product(__global const REAL *restrict table_a, __global const REAL *restrict table_b,
-                      const uint stride_a, const uint stride_b, __global SUM *restrict amplitude, const uint points)
+                      const uint stride_a, const uint stride_b, __global SUM *restrict amplitude,
+                      const uint points, const uint length)
 {
     const uint j = get_global_id(0) * LANES;
     const uint i = get_global_id(1) * ROWS;
     if (j >= stride_b || i >= stride_a) return;
     const ulong plane = (ulong)stride_a * stride_b;
     __global SUM *tile = amplitude + (ulong)i * stride_b + j;
-    __global const REAL *row = table_a + (ulong)i * points * 2;
-    __global const REAL *column = table_b + (ulong)(j / COLUMNS) * points * 2 * COLUMNS + j % COLUMNS;
+    __global const REAL *row = table_a + (ulong)i * length * 2;
+    __global const REAL *column = table_b + (ulong)(j / COLUMNS) * length * 2 * COLUMNS + j % COLUMNS;
     for (uint first = 0; first < points; first += SUM_POINTS) {
         const uint last = first + SUM_POINTS < points ? first + SUM_POINTS : points;
         EACH_ROW(CLEAR)
