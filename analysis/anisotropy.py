@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gbnbench.analysis.shells import Shells, exact_shells, ring_of
+from gbnbench.analysis.profile import ROUNDING
+from gbnbench.analysis.shells import EDGE, Shells, exact_shells, in_band, ring_of
 from gbnbench.errors import InputError, RefusalError
 from gbnbench.results import Spectrum
 from gbnbench.torus import FloatArray
@@ -15,9 +16,6 @@ if TYPE_CHECKING:
     import pandas as pd
 
 BAND = (0.1, 1.0)  # nu of the shells that the scalar pools
-ROUNDING = (
-    1e-26  # mean power of a shell at or below which only rounding is left, as off a lattice's harmonics
-)
 
 
 def shell_variance(power: FloatArray, shells: Shells, realizations: int) -> tuple[FloatArray, FloatArray]:
@@ -56,11 +54,14 @@ def anisotropy_db(power: FloatArray, shells: Shells, realizations: int, spacing:
     Raises
     ------
     RefusalError
-        If no shell of that band has two independent frequencies, or most of the band holds only rounding.
+        If no shell of that band has two independent frequencies, the spectrum ends within the band,
+        or most of it holds only rounding.
     """
     deviation, freedom = shell_variance(power, shells, realizations)
     nu = shells.radius * spacing
-    band = (nu >= BAND[0]) & (nu <= BAND[1])
+    if nu[-1] < BAND[1] * (1 - EDGE):
+        raise RefusalError(f"anisotropy pools shells up to nu = 1; this spectrum ends at nu = {nu[-1]:.3g}")
+    band = in_band(nu, *BAND)
     possible = np.maximum(shells.count[band] / 2 - 1, 0).sum()
     if possible == 0:
         raise RefusalError("no shell with 0.1 <= nu <= 1 has two independent frequencies")

@@ -110,7 +110,7 @@ CATALOGUE: tuple[Definition, ...] = (
         "peak",
         "power",
         "lower",
-        "Largest mean power over the rings round(|f|) = k with 0.5 <= nu <= 2.",
+        "Largest mean power over the whole rings round(|f|) = k, k < fmax, with 0.5 <= nu <= 2.",
         "Schlömer & Deussen 2011",
     ),
     Definition(

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gbnbench.analysis.anisotropy import ROUNDING, anisotropy, anisotropy_db
+from gbnbench.analysis.anisotropy import anisotropy, anisotropy_db
 from gbnbench.analysis.bond_order import bond_order, psi6
 from gbnbench.analysis.catalogue import CATALOGUE
 from gbnbench.analysis.delaunay import Neighbours, neighbours, valence, valence6
@@ -18,6 +18,8 @@ from gbnbench.analysis.distances import mean_distance, min_distance
 from gbnbench.analysis.integration import discrepancies
 from gbnbench.analysis.periodogram import check_fmax, largest_fmax, powers, spectrum_of
 from gbnbench.analysis.profile import (
+    FLOOR_NU,
+    ROUNDING,
     evacuated_energy,
     exponential_fit,
     noise_floor,
@@ -28,7 +30,7 @@ from gbnbench.analysis.profile import (
 from gbnbench.analysis.psa import spectral_statistics
 from gbnbench.analysis.radial import radial_power
 from gbnbench.analysis.rdf import rdf
-from gbnbench.analysis.shells import Shells, exact_shells
+from gbnbench.analysis.shells import EDGE, Shells, exact_shells
 from gbnbench.analysis.zone_plate import zone_plate
 from gbnbench.errors import RefusalError
 from gbnbench.results import Measures, RadialPower, Spectrum
@@ -43,7 +45,7 @@ _Estimate = tuple[float, float]  # value, standard error
 _Entry = tuple[tuple[str, ...], Callable[[], list[_Estimate]]]
 
 LARGEST_NU = 2.0  # what the peak and the pictures need
-MOST_FREQUENCIES = 1 << 21  # of one cube, 16 MB
+MOST_FREQUENCIES = 6_000_000  # of one cube, 48 MB: F = 3 in d = 8
 MOST_TERMS = 1e11  # frequencies times points of one set: about ten seconds of one core
 MOST_KEPT = 1 << 27  # powers of all sets together, 1 GB
 EDGE_RATIO = 5.0  # power at |f| = 1 and 2 over the diagonals beside them that only a border explains
@@ -126,10 +128,12 @@ def analyse(x: ArrayLike, fmax: int | None = None) -> Analysis:
 
 
 def default_fmax(n: int, d: int, realizations: int = 1) -> int:
-    """Harmonics up to nu = 2, fewer where the cube, its time or the powers kept would grow too large."""
-    wanted = math.ceil(LARGEST_NU * math.pow(n, 1 / d))
+    """Harmonics beyond nu = 2, so that its ring is whole; fewer where the cube, its time or memory forbid."""
+    edge = math.pow(n, 1 / d)
+    wanted = math.floor(LARGEST_NU * edge * (1 + EDGE)) + 1
     most = min(MOST_FREQUENCIES, MOST_TERMS / n, MOST_KEPT / realizations)
-    return max(1, min(wanted, largest_fmax(int(most), d)))
+    floor = math.ceil(FLOOR_NU * edge)  # the least that anyone asks for
+    return max(1, min(wanted, max(floor, largest_fmax(int(most), d))))
 
 
 class _Scalars:
@@ -203,12 +207,17 @@ class _Scalars:
             fit = powerlaw_fit(radial)
             return fit.slope, fit.residual_db
 
+        def summit() -> list[_Estimate]:
+            (value, error), (nu, spread) = profile(peak)()
+            # Left-out spectra often peak on the same ring: its width is part of the error.
+            return [(value, error), (nu, math.hypot(spread, self.spectrum.spacing / math.sqrt(12)))]
+
         return [
             (("noise_floor",), profile(lambda r: [noise_floor(r)])),
             (("power_at_1",), profile(lambda r: [power_at_1(r)])),
             (("profile_epsilon", "profile_c", "profile_residual_db"), profile(exponential)),
             (("powerlaw_exponent", "powerlaw_residual_db"), profile(powerlaw)),
-            (("peak", "peak_nu"), profile(peak)),
+            (("peak", "peak_nu"), summit),
             (("anisotropy_db",), directional),
         ]
 
@@ -217,7 +226,7 @@ class _Scalars:
         _, n, d = self.points.shape
 
         def energy() -> list[_Estimate]:
-            each = [evacuated_energy(power, self.shells, n, d, self.fmax) for power in self.powers]
+            each = [evacuated_energy(power, n, d, self.fmax) for power in self.powers]
             return [_mean(np.array(each))]
 
         def psa() -> list[_Estimate]:

@@ -192,7 +192,7 @@ def _listed(x: FloatArray, frequencies: NDArray[np.int64], precision: str) -> Sp
         n=x.shape[1],
         d=d,
         realizations=len(x),
-        fmax=int(np.abs(frequencies).max()),
+        fmax=max(abs(int(frequencies.max())), abs(int(frequencies.min()))),
         frequencies=frequencies,
         precision=precision,
         method="direct sum at listed frequencies",

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gbnbench.analysis.shells import Shells
+from gbnbench.analysis.shells import EDGE, in_band, squared_radius
 from gbnbench.errors import RefusalError
 from gbnbench.results import RadialPower
 from gbnbench.torus import FloatArray
@@ -19,14 +19,38 @@ FLOOR_NU = 0.25
 FIT_BAND = (0.05, 0.6)
 FIT_SHELLS = 3
 PEAK_BAND = (0.5, 2.0)
+ROUNDING = 1e-26  # power at or below which only rounding is left, as off a lattice's harmonics
 DECIBELS = 10 / math.log(10)  # of a natural logarithm
 
 
+def reach(radial: RadialPower) -> float:
+    """Return the nu of the last whole shell, |f| = fmax."""
+    return float(radial.nu[-1])
+
+
+def require(radial: RadialPower, nu: float, what: str) -> None:
+    """Refuse where the spectrum ends within the band that a measure is of."""
+    if reach(radial) < nu * (1 - EDGE):
+        needed = math.ceil(nu * float(radial.frequency[0] / radial.nu[0]) * (1 - EDGE))
+        raise RefusalError(
+            f"{what} needs every shell up to nu = {nu:g}, fmax >= {needed}; this spectrum ends at "
+            f"nu = {reach(radial):.3g}"
+        )
+
+
 def noise_floor(radial: RadialPower) -> float:
-    """Mean power over the frequencies with 0 < nu <= 0.25; over the lowest shell where there are none."""
-    band = radial.nu <= FLOOR_NU
+    """Mean power over the frequencies with 0 < nu <= 0.25; over the lowest shell where there are none.
+
+    Raises
+    ------
+    RefusalError
+        If the spectrum ends within that band.
+    """
+    band = in_band(radial.nu, 0, FLOOR_NU)
     if not band.any():
         return float(radial.power[0])
+    if not (radial.nu > FLOOR_NU * (1 + EDGE)).any():
+        require(radial, FLOOR_NU, "the noise floor")
     return float(np.average(radial.power[band], weights=radial.count[band]))
 
 
@@ -53,15 +77,16 @@ class Fit:
 
 
 def _fit(radial: RadialPower, *, logarithmic: bool) -> Fit:
-    band = (radial.nu >= FIT_BAND[0]) & (radial.nu <= FIT_BAND[1])
+    require(radial, FIT_BAND[1], "a profile fit")
+    band = in_band(radial.nu, *FIT_BAND)
     shells = int(band.sum())
     if shells < FIT_SHELLS:
         raise RefusalError(
             f"a profile fit needs three shells with 0.05 <= nu <= 0.6; this spectrum has {shells}"
         )
     power = radial.power[band]
-    if not (power > 0).all():
-        raise RefusalError("a profile fit needs power above 0 on every shell with 0.05 <= nu <= 0.6")
+    if not (power > ROUNDING).all():
+        raise RefusalError("a profile fit needs power beyond rounding on every shell with 0.05 <= nu <= 0.6")
     abscissa = np.log(radial.nu[band]) if logarithmic else radial.nu[band] ** 2
     design = np.stack([np.ones(shells), abscissa], axis=1)
     target = np.log(power)
@@ -76,7 +101,7 @@ def exponential_fit(radial: RadialPower) -> Fit:
     Raises
     ------
     RefusalError
-        Below three shells, or where a shell has no power.
+        Below three shells, where the spectrum ends within the band, or a shell holds only rounding.
     """
     return _fit(radial, logarithmic=False)
 
@@ -86,23 +111,30 @@ def powerlaw_fit(radial: RadialPower) -> Fit:
     return _fit(radial, logarithmic=True)
 
 
-def evacuated_energy(power: FloatArray, shells: Shells, n: int, d: int, fmax: int) -> float:
+def evacuated_energy(power: FloatArray, n: int, d: int, fmax: int) -> float:
     """-sum of ln P / n over all frequencies with 0 < nu < 1 and P < 1, of one realization, nats a point.
+
+    Parameters
+    ----------
+    power : (2*fmax+1,)*d float64
+        Of one set.
+    n, d, fmax : int
+        Its points, dimension and largest harmonic.
 
     Raises
     ------
     RefusalError
-        If the cube ends below nu = 1, or a power is exactly 0 (its logarithm is infinite).
+        If the cube ends below nu = 1, or a power is 0 to rounding (its logarithm is unknown).
     """
-    edge = n ** (1 / d)
+    edge = math.pow(n, 1 / d) * (1 - EDGE)
     if fmax + 1 < edge:
         raise RefusalError(
             f"evacuated energy needs every frequency with nu < 1: fmax >= {math.ceil(edge) - 1}, here {fmax}"
         )
-    inside = np.append(shells.radius < edge * (1 - 1e-12), False)
-    chosen = power.ravel()[inside[shells.label]]
-    if (chosen == 0).any():
-        raise RefusalError("evacuated energy is infinite: the power of some frequency is exactly 0")
+    r2 = squared_radius(fmax, d)
+    chosen = power.ravel()[(r2 > 0) & (r2 < edge * edge)]
+    if (chosen <= ROUNDING).any():
+        raise RefusalError("evacuated energy is unbounded: the power of some frequency is 0 to rounding")
     return float(-np.sum(np.log(chosen[chosen < 1])) / n)
 
 
@@ -123,13 +155,13 @@ def peak(radial: RadialPower) -> tuple[float, float]:
         )
     count = np.bincount(ring[whole], radial.count[whole])
     total = np.bincount(ring[whole], radial.power[whole] * radial.count[whole])
-    nu = np.arange(len(count)) * spacing
-    if nu[-1] < 1:
+    nu = (np.arange(len(count)) * spacing).astype(np.float64)
+    if nu[-1] < 1 - EDGE:
         raise RefusalError(
             f"the peak needs whole rings of frequencies up to nu = 1 at least; the last here is at "
             f"{nu[-1]:.2f}"
         )
-    band = (nu >= PEAK_BAND[0]) & (nu <= PEAK_BAND[1]) & (count > 0)
+    band = in_band(nu, *PEAK_BAND) & (count > 0)
     mean = np.where(band, total / np.maximum(count, 1), -np.inf)
     k = int(np.argmax(mean))
     return float(mean[k]), float(nu[k])

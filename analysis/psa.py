@@ -134,7 +134,7 @@ def _excess_density(sets: FloatArray, total: int) -> FloatArray:
     width = 0.5 / total
     bins = total // 2 + 1
     r = np.arange(bins) * width
-    g = pair_density(sets, bins, bins * width)
+    g = pair_density(sets, bins, width)
     return np.transpose((2 * math.pi * n * width) * (g - 1) * r)
 
 

@@ -85,24 +85,24 @@ def rdf(x: ArrayLike) -> RadialDistribution:
         raise RefusalError(
             f"rdf has int({BINS_PER_POINT} n) bins, none of which fits the torus at n={n}, d={d}"
         )
-    g = pair_density(sets, bins, bins * width)
+    g = pair_density(sets, bins, width)
     return RadialDistribution(
         np.arange(bins, dtype=np.float64) * (width / unit), np.mean(g, axis=0, dtype=np.float64), g
     )
 
 
-def pair_density(sets: FloatArray, bins: int, reach: float) -> FloatArray:
-    """Density g of pairs in equal bins over [0, reach): (realizations, n, d) -> (realizations, bins)."""
+def pair_density(sets: FloatArray, bins: int, width: float) -> FloatArray:
+    """Density g of pairs in bins of equal width from 0 on: (realizations, n, d) -> (realizations, bins)."""
     n, d = sets.shape[1:]
     if n < 2:
         raise RefusalError("pairs need n >= 2; got n=1")
     index = np.arange(bins, dtype=np.float64)
-    ball = math.pi ** (d / 2) / math.gamma(d / 2 + 1) * (reach / bins) ** d
+    ball = math.pi ** (d / 2) / math.gamma(d / 2 + 1) * width**d
     expected = n * (n - 1) / 2 * ball * ((index + 1) ** d - index**d)
-    return np.asarray(np.array([pair_counts(points, bins, reach) for points in sets]) / expected)
+    return np.asarray(np.array([pair_counts(points, bins, width) for points in sets]) / expected)
 
 
-def pair_counts(x: FloatArray, bins: int, reach: float) -> NDArray[np.int64]:
+def pair_counts(x: FloatArray, bins: int, width: float) -> NDArray[np.int64]:
     """Unordered pairs of one set by toroidal distance.
 
     Parameters
@@ -110,9 +110,9 @@ def pair_counts(x: FloatArray, bins: int, reach: float) -> NDArray[np.int64]:
     x : (n, d) float64
         Points on the unit torus.
     bins : int
-        Equal bins over [0, reach), closed on the left.
-    reach : float
-        In (0, 1/2]; farther pairs are not counted.
+        Equal bins from 0 on, closed on the left; farther pairs are not counted.
+    width : float
+        Of a bin, over 0; all together they reach 1/2 at most.
 
     Returns
     -------
@@ -122,15 +122,19 @@ def pair_counts(x: FloatArray, bins: int, reach: float) -> NDArray[np.int64]:
     Raises
     ------
     InputError
-        If reach leaves (0, 1/2].
+        If the bins reach beyond 1/2.
 
     Notes
     -----
     Points are cut in strips at least as wide as reach and sorted along another axis, so that only pairs in a
     window are looked at; memory does not grow with their number.
     """
-    if not 0 < reach <= 0.5:
-        raise InputError(f"reach must lie in (0, 1/2], where a ball fits the torus; got {reach!r}")
+    reach = bins * width
+    if not 0 < reach <= 0.5 * (1 + 1e-12):
+        raise InputError(f"bins must end within (0, 1/2], where a ball fits the torus; got {reach!r}")
+    per_length = 1 / width
+    if math.isclose(per_length, round(per_length), rel_tol=1e-12):
+        per_length = round(per_length)  # so that a distance which is exactly an edge begins its bin
     counts = np.zeros(bins + 1, dtype=np.int64)
     for rows, columns, drop in _windows(x, reach):
         squared = np.zeros((len(rows), len(columns)))
@@ -142,7 +146,7 @@ def pair_counts(x: FloatArray, bins: int, reach: float) -> NDArray[np.int64]:
         if drop is not None:
             squared[drop] = np.inf
         np.sqrt(squared, out=squared)
-        squared *= bins / reach
+        squared *= per_length
         np.minimum(squared, bins, out=squared)
         counts += np.bincount(squared.astype(np.intp).ravel(), minlength=bins + 1)
     return counts[:bins]

@@ -93,6 +93,16 @@ def annuli(fmax: int, d: int, width: float) -> Shells:
     return _group(np.floor(np.sqrt(r2) / width).astype(np.int64), r2, fmax)
 
 
+EDGE = (
+    1e-12  # relative slack of a band's edges: |f| n^(-1/d) that is exactly an edge may round to either side
+)
+
+
+def in_band(nu: FloatArray, low: float, high: float) -> NDArray[np.bool_]:
+    """Whether low <= nu <= high, both edges included whatever nu rounded to."""
+    return (nu >= low * (1 - EDGE)) & (nu <= high * (1 + EDGE))
+
+
 def ring_of(shells: Shells) -> NDArray[np.int64]:
     """Ring k = round(|f|) of each shell: (size,) int64."""
     return np.rint(shells.radius).astype(np.int64)

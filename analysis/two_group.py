@@ -147,12 +147,14 @@ class TwoGroupProduct:
         )
         columns = p.lanes * p.runtime.group
         factors = [factors_of(dims, fmax) for dims in (leading, d - leading)]
+        # 64 or a power of two beyond, so that one program serves nearly every request.
+        room = max(64, 1 << max(len(group.multiple) for group in factors).bit_length())
         self._chunk = chunk
         self._program = p.program(
             *("tables.cl", "product.cl", "power.cl"),
             ROWS=self.rows,
             COLUMNS=columns,
-            ENTRIES=max(len(group.multiple) for group in factors),
+            ENTRIES=room,
         )
         self.a = Group(p, factors[0], leading, fmax, self.rows, chunk)
         self.b = Group(p, factors[1], d - leading, fmax, columns, chunk)

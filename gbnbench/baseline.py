@@ -9,6 +9,8 @@ from gbnbench.analysis.catalogue import CATALOGUE, judged
 from gbnbench.run import Run, SourceResult
 
 LIMIT = 3.0  # standard errors of the difference
+ROUNDING = 1e-9  # relative difference of two values that is none
+FEW = 8  # sets below which a standard error is itself so uncertain that three of them are no rare event
 
 
 @dataclass(frozen=True)
@@ -53,7 +55,8 @@ def judge(run: Run, baseline: Run) -> tuple[tuple[Change, ...], tuple[str, ...]]
     changes : tuple of Change
         Only where the difference exceeds three standard errors, sqrt(se1**2 + se2**2).
     notes : tuple of str
-        Rows without a partner, and rows that get no verdict because one side has a single realization.
+        Rows without a partner, rows that get no verdict because one side has a single realization, and
+        rows of so few that a verdict may be chance.
     """
     old = {_row(source): source for source in baseline.sources}
     new = {_row(source): source for source in run.sources}
@@ -66,6 +69,10 @@ def judge(run: Run, baseline: Run) -> tuple[tuple[Change, ...], tuple[str, ...]]
         if min(source.realizations, old[row].realizations) < 2:
             notes.append(f"{_say(row)}: no verdict from a single realization")
             continue
+        if (fewest := min(source.realizations, old[row].realizations)) < FEW:
+            notes.append(
+                f"{_say(row)}: {fewest} realizations; below {FEW} chance alone often makes a verdict"
+            )
         changes += _changes(source, old[row])
     return tuple(changes), tuple(notes)
 
@@ -78,12 +85,12 @@ def verdict(before: float, after: float, error: float, better: str) -> tuple[str
     before, after : float
         The values.
     error : float
-        Standard error of their difference; nan gives no verdict, 0 makes any difference count.
+        Standard error of their difference; nan gives no verdict, 0 makes any difference beyond rounding count.
     better : {"lower", "higher"}
         The measure's direction.
     """
     difference = after - before
-    if not math.isfinite(difference) or math.isnan(error) or difference == 0:
+    if not math.isfinite(difference) or math.isnan(error) or math.isclose(before, after, rel_tol=ROUNDING):
         return "", 0.0
     deviations = abs(difference) / error if error > 0 else math.inf
     if deviations <= LIMIT:

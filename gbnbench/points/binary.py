@@ -110,6 +110,10 @@ def _read_archive(path: Path, archive: zipfile.ZipFile, limit: int) -> list[Floa
         raise FormatError(path, "the archive holds no arrays")
     if len(set(names)) < len(names) or not all(name.endswith(".npy") for name in names):
         raise FormatError(path, f"not an .npz of arrays: it holds {', '.join(map(repr, names[:4]))[:80]}")
+    if {"x.npy", "y.npy"} <= set(names):
+        raise FormatError(
+            path, "x and y are arrays of their own; put the points in one (n, d) array 'points'"
+        )
     chosen = next(([m] for key in ("points", "x") for m in members if m.filename == key + ".npy"), members)
     refuse_large(path, sum(m.file_size for m in chosen), limit, "unpacked, the arrays hold")
     sets: list[FloatArray] = []

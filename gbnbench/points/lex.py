@@ -141,7 +141,18 @@ def _take_names(path: Path, block: bytes, before: int) -> tuple[tuple[str, ...],
                 f"column {shown(cells[at])} is no coordinate; the names are x, y, z or x0, x1, ..., once each"
             )
             raise FormatError(path, f"{said}, and set", number)
+    coordinates = [name for name in names if name not in SET_NAMES]
+    if coordinates != sorted(coordinates, key=_axis):
+        number = before + 1 + block.count(b"\n", 0, start)
+        ordered = ", ".join(sorted(coordinates, key=_axis))
+        raise FormatError(path, f"coordinates stand out of order; put the columns as {ordered}", number)
     return names, block[:start] + block[end:]
+
+
+def _axis(name: str) -> tuple[int, int]:
+    """Tell the axis of a column's name: its number, else its letter."""
+    digits = "".join(character for character in name if character.isdigit())
+    return int(digits or 0), "xyzwuvstcdp".find(name[0])
 
 
 def _fast(block: bytes, before: int) -> Tokens | None:

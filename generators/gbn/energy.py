@@ -173,11 +173,12 @@ class Theta(_Evaluation):
         terms = max(1, math.ceil(math.sqrt(-math.log(SMALLEST[precision]) / decay)))
         weight = np.exp(-decay * np.arange(terms + 1.0) ** 2)
         self._weight = chosen.upload(weight.astype(self.real))
-        self._kernels = self._program("gbn_theta.cl", TERMS=terms)
+        self._terms = np.int32(terms)
+        self._kernels = self._program("gbn_theta.cl")
 
     def __call__(self, x: FloatArray) -> Gradient:
         """Evaluate; see ``Field``."""
-        angle = 2 * np.pi * (x - np.floor(x))
+        angle = 2 * np.pi * (x - np.rint(x))  # small on both sides of the border, where neighbours meet
         cosine = self.runtime.upload(self._rows(np.cos(angle)))
         sine = self.runtime.upload(self._rows(np.sin(angle)))
         work, local = self._work()
@@ -190,6 +191,7 @@ class Theta(_Evaluation):
             np.uint32(self.n),
             np.uint32(self.stride),
             self._weight,
+            self._terms,
             self._gradient,
             self._energy,
         )

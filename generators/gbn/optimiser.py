@@ -12,7 +12,7 @@ from gbnbench.generators.gbn.lowband import LowBand
 from gbnbench.torus import FloatArray
 
 PATIENCE = 20  # steps over which a rise of the excess energy halves the step
-PRECONDITION_ABOVE = 2048  # points; below, 300 gradients bring the lowest modes down by themselves
+PRECONDITION_ABOVE = 45  # spacings a side; below, 300 gradients bring the lowest modes down by themselves
 
 
 def largest_curvature(n: int, d: int, sigma: float) -> float:
@@ -76,14 +76,14 @@ def descend(x: FloatArray, field: Field, sigma: float, iterations: int, excess: 
 def accelerate(x: FloatArray, field: Field, sigma: float, gradients: int, excess: float = 0.0) -> FloatArray:
     """Nesterov's method with adaptive restart: 300 gradients do the work of 10,000 steps of descent.
 
-    Parameters and returns are those of ``descend``. Above 2,048 points the lowest band is preconditioned,
-    since its modes are too slow for any step that the middle band allows. The restart is that of
-    O'Donoghue & Candes (2015).
+    Parameters and returns are those of ``descend``. Above 45 spacings a side, 2,048 points in the plane, the
+    lowest band is preconditioned, since its modes are too slow for any step that the middle band allows. The
+    restart is that of O'Donoghue & Candes (2015).
     """
     n, d = x.shape
     side = n ** (1 / d)
     size = step_size(n, d, sigma)
-    band = LowBand(n, d, sigma) if n > PRECONDITION_ABOVE else None
+    band = LowBand(n, d, sigma) if side > PRECONDITION_ABOVE else None
     y, momentum = x, 1.0
     recent: deque[float] = deque(maxlen=PATIENCE + 1)
     for _ in range(gradients):

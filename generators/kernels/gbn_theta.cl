@@ -1,6 +1,6 @@
 /* Energy and gradient of Gaussian Blue Noise by the theta function of each dimension, for boxes of few spacings.
  *
- * Per dimension theta(u) = 1 + 2 sum_{f=1}^{TERMS} w_f cos 2 pi f u (Ahmed, Ren & Wonka 2022, Eq. 23; printed there
+ * Per dimension theta(u) = 1 + 2 sum_{f=1}^{terms} w_f cos 2 pi f u (Ahmed, Ren & Wonka 2022, Eq. 23; printed there
  * over all f, the identity needs twice the sum over f >= 1), by Clenshaw's recurrence in cos 2 pi u, which comes
  * from the points' own cosines and sines: no exp and no cos a pair. e_k = sum_l (prod_a theta - 1), kept without
  * its mean of 1 by p <- p + q + p q, since in high dimension the mean would swallow the digits. The gradient, with
@@ -9,7 +9,8 @@
  * One work-item sums LANES points over all points.
  */
 __kernel void gbn_theta(__global const REAL *cosine, __global const REAL *sine, const uint n, const uint stride,
-                        __constant REAL *weight, __global REAL *gradient, __global REAL *energy)
+                        __constant REAL *weight, const int terms, __global REAL *gradient,
+                        __global REAL *energy)
 {
     const uint k = get_global_id(0) * LANES;
     if (k >= stride) return;
@@ -29,7 +30,7 @@ __kernel void gbn_theta(__global const REAL *cosine, __global const REAL *sine, 
             const REALV s = sk[a] * cl - ck[a] * sl;
             const REALV c2 = c + c;
             REALV b1 = (REALV)0, b2 = (REALV)0, d1 = (REALV)0, d2 = (REALV)0;
-            for (int f = TERMS; f >= 1; f--) {
+            for (int f = terms; f >= 1; f--) {
                 const REAL w = weight[f];
                 const REALV b = w + c2 * b1 - b2;
                 const REALV d = w * (REAL)f + c2 * d1 - d2;

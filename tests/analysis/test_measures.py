@@ -72,7 +72,7 @@ def test_a_set_cut_at_the_border_is_called_so_and_toroidal_ones_are_not():
 
 def test_everything_a_report_draws_is_there_in_the_plane_and_only_what_means_something_elsewhere():
     flat = analyse(np.random.default_rng(5).random((2, 100, 2)))
-    assert flat.spectrum.power.shape == (41, 41)
+    assert flat.spectrum.power.shape == (43, 43)
     assert list(flat.rdf.columns) == ["r", "g"]
     assert list(flat.valence.columns)[:2] == ["degree", "share"]
     assert flat.zone_plate.shape[0] == flat.zone_plate.shape[1]
@@ -82,11 +82,11 @@ def test_everything_a_report_draws_is_there_in_the_plane_and_only_what_means_som
 
 
 def test_the_range_follows_the_request_and_the_means():
-    assert default_fmax(1024, 2) == 64
-    assert default_fmax(4096, 3) == 32
-    assert default_fmax(1, 2) == 2
-    assert (2 * default_fmax(4096, 8) + 1) ** 8 <= 2**21
-    assert default_fmax(10**7, 2) < 100
+    assert default_fmax(1024, 2) == 65  # one beyond nu = 2, whose ring is then whole
+    assert default_fmax(4096, 3) == 33
+    assert default_fmax(1, 2) == 3
+    assert default_fmax(1024, 8) == 3
+    assert default_fmax(10**6, 2) == 250  # no more than the noise floor needs
 
 
 def test_bad_points_are_refused():

@@ -9,7 +9,7 @@ import pytest
 
 from gbnbench.analysis import profile
 from gbnbench.analysis.radial import radial_power
-from gbnbench.analysis.shells import exact_shells
+from gbnbench.analysis.shells import exact_shells, in_band
 from gbnbench.errors import RefusalError
 
 N, FMAX = 400, 40
@@ -69,18 +69,45 @@ def test_evacuated_energy_is_the_sum_of_logarithms_below_one():
     f = np.indices(power.shape) - FMAX
     r2 = (f**2).sum(axis=0)
     expected = -sum(math.log(p) for p, q in zip(power.flat, r2.flat, strict=True) if 0 < q < N and p < 1) / N
-    assert profile.evacuated_energy(power, exact_shells(FMAX, 2), N, 2, FMAX) == pytest.approx(expected)
+    assert profile.evacuated_energy(power, N, 2, FMAX) == pytest.approx(expected)
 
 
 def test_what_a_spectrum_cannot_tell_is_refused():
     small = radial_power(np.ones((5, 5)), exact_shells(2, 2), 1 / 20)
     with pytest.raises(RefusalError, match="three shells"):
-        profile.exponential_fit(radial_power(np.ones((3, 3)), exact_shells(1, 2), 1 / 20))
+        profile.exponential_fit(radial_power(np.ones((5, 5)), exact_shells(2, 2), 1 / 2))
     with pytest.raises(RefusalError, match="nu = 1"):
         profile.peak(small)
     with pytest.raises(RefusalError, match="fmax >= 19"):
-        profile.evacuated_energy(np.ones((37, 37)), exact_shells(18, 2), N, 2, 18)
-    with pytest.raises(RefusalError, match="exactly 0"):
-        profile.evacuated_energy(np.zeros((39, 39)), exact_shells(19, 2), N, 2, 19)
-    with pytest.raises(RefusalError, match="above 0"):
+        profile.evacuated_energy(np.ones((37, 37)), N, 2, 18)
+    with pytest.raises(RefusalError, match="0 to rounding"):
+        profile.evacuated_energy(np.full((39, 39), 1e-30), N, 2, 19)
+    for measure in (profile.noise_floor, profile.exponential_fit, profile.powerlaw_fit):
+        with pytest.raises(RefusalError, match="fmax >= "):
+            measure(radial_power(np.ones((9, 9)), exact_shells(4, 2), 1 / 20))
+    with pytest.raises(RefusalError, match="beyond rounding"):
         profile.powerlaw_fit(radial_power(np.zeros((39, 39)), exact_shells(19, 2), 1 / 20))
+
+
+@pytest.mark.parametrize(("n", "d"), [(512, 2), (2048, 2), (100, 2), (2, 2), (1000, 3), (343, 3), (1024, 4)])
+def test_shells_exactly_on_a_bands_edge_count_whatever_their_nu_rounded_to(n, d):
+    """nu <= q is |f|^2d <= q^2d n^2: decided in whole numbers here."""
+    fmax = math.ceil(n ** (1 / d)) + 2
+    shells = exact_shells(fmax, d)
+    nu = shells.radius * n ** (-1 / d)
+    for a, b in ((1, 4), (3, 5), (1, 20), (1, 10), (1, 1), (1, 2), (2, 1)):
+        squares = [round(r * r) for r in shells.radius.tolist()]
+        at_most = [s**d * b ** (2 * d) <= a ** (2 * d) * n * n for s in squares]
+        at_least = [s**d * b ** (2 * d) >= a ** (2 * d) * n * n for s in squares]
+        assert in_band(nu, 0, a / b).tolist() == at_most
+        assert in_band(nu, a / b, np.inf).tolist() == at_least
+
+
+@pytest.mark.parametrize(("n", "d", "fmax"), [(1024, 8, 2), (400, 2, 19), (512, 3, 7), (512, 3, 9)])
+def test_evacuated_energy_takes_in_the_cubes_corners_and_leaves_out_nu_1(n, d, fmax):
+    power = np.full((2 * fmax + 1,) * d, math.exp(-1))
+    f2 = sum(np.meshgrid(*[np.arange(-fmax, fmax + 1) ** 2] * d, indexing="ij"))
+    inside = np.count_nonzero(
+        (f2 > 0) & (f2.astype(object) ** d < n * n if d < 5 else (f2 > 0) & (f2 < n ** (2 / d)))
+    )
+    assert profile.evacuated_energy(power, n, d, fmax) == pytest.approx(inside / n, rel=1e-12)

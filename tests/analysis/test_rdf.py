@@ -25,7 +25,7 @@ def all_distances(x: np.ndarray) -> np.ndarray:
 def test_counts_every_pair_once(n: int, d: int, reach: float) -> None:
     x = np.random.default_rng(n + d).random((n, d))
     expected = np.histogram(all_distances(x), bins=50, range=(0, reach))[0]
-    np.testing.assert_array_equal(pair_counts(x, 50, reach), expected)
+    np.testing.assert_array_equal(pair_counts(x, 50, reach / 50), expected)
 
 
 @pytest.mark.parametrize("d", [1, 2, 3])
@@ -34,12 +34,12 @@ def test_many_points_against_a_tree(d: int) -> None:
     edges = np.linspace(0, 0.05, 21)
     tree = cKDTree(x, boxsize=1.0)
     cumulative = (tree.count_neighbors(tree, edges) - len(x)) // 2
-    np.testing.assert_array_equal(pair_counts(x, 20, 0.05), np.diff(np.r_[0, cumulative[1:]]))
+    np.testing.assert_array_equal(pair_counts(x, 20, 0.05 / 20), np.diff(np.r_[0, cumulative[1:]]))
 
 
 def test_grid_has_its_shells() -> None:
     # d = 1/16 at 4 neighbours, sqrt(2)/16 at 4, 2/16 at 4, sqrt(5)/16 at 8: half as many pairs a point
-    counts = pair_counts(grid(16, 2), 400, 0.15)
+    counts = pair_counts(grid(16, 2), 400, 0.15 / 400)
     at = {int(r / 16 * 400 / 0.15): k for r, k in ((1, 2), (2**0.5, 2), (2, 2), (5**0.5, 4))}
     assert {i: c / 256 for i, c in enumerate(counts) if c} == at
 
@@ -92,8 +92,8 @@ def test_refusals() -> None:
     for n in (1, 7, 26):
         with pytest.raises(RefusalError, match=f"n={n}"):
             rdf(rng.random((n, 2)))
-    with pytest.raises(InputError, match="reach"):
-        pair_counts(rng.random((10, 2)), 10, 0.6)
+    with pytest.raises(InputError, match="bins must end"):
+        pair_counts(rng.random((10, 2)), 10, 0.06)
 
 
 @settings(deadline=None, max_examples=30)
@@ -102,6 +102,14 @@ def test_counts_do_not_know_the_origin_or_the_order(seed: int, n: int, d: int, r
     rng = np.random.default_rng(seed)
     x = rng.random((n, d))
     y = wrap(x + rng.random(d))[rng.permutation(n)]
-    one, two = pair_counts(x, 9, reach), pair_counts(y, 9, reach)
+    one, two = pair_counts(x, 9, reach / 9), pair_counts(y, 9, reach / 9)
     assert np.abs(np.cumsum(one) - np.cumsum(two)).max() <= 1  # a distance may round across an edge
     assert abs(one.sum() - np.sum(all_distances(x) < reach)) <= 1
+
+
+def test_a_distance_that_is_exactly_an_edge_begins_its_bin():
+    m = 32  # pairs along the axes stand 1/32 = 200/6400 apart, exactly
+    x = np.stack(np.meshgrid(*[np.arange(m) / m] * 2), axis=-1).reshape(-1, 2)
+    counts = pair_counts(x, 1601, 0.5 / 3200)
+    assert counts[200] == 2 * m * m
+    assert counts[199] == 0

@@ -13,7 +13,7 @@ from gbnbench.run import Run, SourceResult
 
 
 def source(
-    label: str, realizations: int = 4, n: int = 16, error: float = 0.1, **values: float
+    label: str, realizations: int = 16, n: int = 16, error: float = 0.1, **values: float
 ) -> SourceResult:
     names = [definition.name for definition in CATALOGUE]
     empty = np.zeros(0)
@@ -60,6 +60,12 @@ def test_rows_pair_by_label_n_and_d() -> None:
     )
 
 
+def test_few_realizations_are_noted() -> None:
+    changes, notes = judge(Run({}, (source("gbn", 4, peak=99.0),)), Run({}, (source("gbn", 16),)))
+    assert [c.measure for c in changes if c.measure == "peak"] == ["peak"]
+    assert notes == ("gbn (n=16, d=2): 4 realizations; below 8 chance alone often makes a verdict",)
+
+
 @pytest.mark.parametrize(("before", "after"), [(1, 4), (4, 1), (1, 1)])
 def test_a_single_realization_gives_no_verdict(before: int, after: int) -> None:
     changes, notes = judge(Run({}, (source("gbn", after, peak=99.0),)), Run({}, (source("gbn", before),)))
@@ -72,5 +78,6 @@ def test_what_is_undefined_gives_no_verdict_and_what_never_varies_counts_at_once
     assert verdict(1.0, 2.0, math.nan, "lower")[0] == ""
     assert verdict(-math.inf, -math.inf, 0.1, "lower")[0] == ""
     assert verdict(1.0, 1.0, 0.0, "lower")[0] == ""
-    assert verdict(1.0, 1.0 + 1e-15, 0.0, "lower") == ("worse", math.inf)
+    assert verdict(1.0, 1.0 + 1e-15, 0.0, "lower")[0] == ""  # rounding
+    assert verdict(1.0, 1.0 + 1e-6, 0.0, "lower") == ("worse", math.inf)
     assert verdict(1.0, 2.0, 0.1, "higher")[0] == "better"

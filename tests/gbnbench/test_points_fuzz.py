@@ -65,6 +65,9 @@ def twin_text(data: bytes, csv: bool) -> Sets:
     if (csv or "," in lines[first]) and all(re.match("[A-Za-z]", c) for c in cells):
         names = [c.lower() for c in cells]
         need(all(re.fullmatch(COORDINATE_NAME, n) for n in names) and len(set(names)) == len(names))
+        axes = [n for n in names if n not in ("set", "realization")]
+        place = [(int(re.sub(r"\D", "", n) or 0), "xyzwuvstcdp".find(n[0])) for n in axes]
+        need(place == sorted(place))
         lines[first] = ""
     rows = [line for line in lines if line and line[0] != "#"]
     tokens = [twin_tokens(row) for row in rows]

@@ -104,3 +104,13 @@ def test_a_flat_kernel_gives_finite_forces():
     at = field(20, 2, 3.0)(x)
     assert np.isfinite(at.gradient).all()
     assert np.isfinite(at.excess)
+
+
+def test_forces_keep_their_digits_across_the_border():
+    """Two points a hair apart on either side of 0: theta must see their distance."""
+    for apart in (1e-9, 1e-13):
+        x = np.array([[apart / 2, 0.3], [1 - apart / 2, 0.3], [0.5, 0.6]])
+        moved = np.array([[0.5 + apart / 2, 0.3], [0.5 - apart / 2, 0.3], [0.0, 0.6]])
+        near, same = (Theta(runtime(), 3, 2, 1.0, "double")(points).gradient for points in (x, moved))
+        rounded = 2.0**-52 / apart  # of 1 - apart/2 itself
+        assert near[0, 0] == pytest.approx(same[0, 0], rel=1e-12 + 4 * rounded, abs=1e-15)

@@ -51,7 +51,9 @@ def test_the_papers_descent_is_slower_by_the_published_factor():
 @pytest.mark.parametrize(("n", "d", "floor"), [(16, 2, 1e-7), (216, 3, 1e-7), (200, 8, 1e-6), (64, 1, 1e-6)])
 def test_other_dimensions_and_small_sets_reach_deep_floors(n, d, floor):
     x = GaussianBlueNoise(gradients=200)(n, d, realization_rng(3, 0))
-    assert profile.noise_floor(radial(periodogram(x, 1 if d == 8 else 4))) < floor
+    assert (
+        profile.noise_floor(radial(periodogram(x, max(1, n // 4) if d == 1 else 1 if d == 8 else 4))) < floor
+    )
 
 
 def test_it_stops_at_the_excess_asked_for():
@@ -71,6 +73,11 @@ def test_the_smallest_sets_spread_out(n):
 def test_the_curvature_is_the_published_one():
     assert largest_curvature(10**6, 2, 1.0) == pytest.approx(4.62, abs=0.01)
     assert step_size(1024, 2, 1.0) == pytest.approx(1.2 / 4.62, rel=0.01)
+
+
+def test_long_boxes_of_few_points_converge_too():
+    x = GaussianBlueNoise()(1024, 1, realization_rng(0, 0))
+    assert profile.power_at_1(radial(periodogram(x, 4))) < 1e-20
 
 
 def test_a_mode_of_the_low_band_is_divided_by_its_own_curvature():
