@@ -85,7 +85,7 @@ def verdict(before: float, after: float, error: float, better: str) -> tuple[str
     before, after : float
         The values.
     error : float
-        Standard error of their difference; nan gives no verdict, 0 makes any difference beyond rounding count.
+        Standard error of their difference; nan gives no verdict, 0 makes all but rounding count.
     better : {"lower", "higher"}
         The measure's direction.
     """
