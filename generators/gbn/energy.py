@@ -20,7 +20,7 @@ from gbnbench.torus import FloatArray
 
 CUTOFF = {"double": 9.0, "float": 6.0}  # sigmas beyond which a pair adds less than the precision
 SMALLEST = {"double": 1e-18, "float": 1e-9}  # weight of the first harmonic left out, over that of f = 0
-BOX = 8  # points bounded together
+BOX = 8  # points bounded together, or as many as a vector holds
 PACKAGE = "gbnbench.generators"
 
 
@@ -115,8 +115,9 @@ class NearestImage(_Evaluation):
     def __init__(self, chosen: Runtime, n: int, d: int, sigma: float, precision: str) -> None:
         super().__init__(chosen, n, d, sigma, precision)
         self.reach = CUTOFF[precision] * sigma / self.side
-        self._kernels = self._program("/exp.cl", "gbn_images.cl", BOX=BOX)
-        self._count = -(-n // BOX)
+        box = max(BOX, self.lanes)  # a work-item's points must lie in one box
+        self._kernels = self._program("/exp.cl", "gbn_images.cl", BOX=box)
+        self._count = -(-n // box)
         self._box = chosen.empty(2 * d * self._count * np.dtype(self.real).itemsize)
         self._order: NDArray[np.intp] | None = None
 

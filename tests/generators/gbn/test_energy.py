@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from gbnbench.analysis.periodogram import periodogram
+from gbnbench.generators.gbn import energy
 from gbnbench.generators.gbn.energy import NearestImage, Theta, field
 from gbnbench.opencl import runtime
 
@@ -114,3 +115,14 @@ def test_forces_keep_their_digits_across_the_border():
         near, same = (Theta(runtime(), 3, 2, 1.0, "double")(points).gradient for points in (x, moved))
         rounded = 2.0**-52 / apart  # of 1 - apart/2 itself
         assert near[0, 0] == pytest.approx(same[0, 0], rel=1e-12 + 4 * rounded, abs=1e-15)
+
+
+@pytest.mark.parametrize("box", [1, 32])
+def test_any_size_of_box_gives_the_same_forces(monkeypatch, box):
+    """Vectors may hold more points than a box is meant to: sixteen floats on some devices."""
+    monkeypatch.setattr(energy, "BOX", box)
+    x = np.random.default_rng(1).random((431, 2))
+    for precision in ("double", "float"):
+        gradient, _ = image_sum(x, 1.0)
+        at = NearestImage(runtime(), 431, 2, 1.0, precision)(x)
+        assert np.abs(at.gradient - gradient).max() <= ALLOWED[precision] * np.abs(gradient).max()
