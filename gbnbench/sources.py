@@ -133,7 +133,7 @@ def _generator(name: str) -> Generator | None:
     if Path(name).exists():
         return None
     close = difflib.get_close_matches(base.lower(), GENERATORS, n=2)
-    near = f"; did you mean {' or '.join(close)}?" if close else ""
+    near = f"; did you mean {' or '.join(close)}?" if close else "."
     raise InputError(
         f"{name!r} is neither a generator nor an existing file or folder{near} "
         f"The generators are {', '.join(GENERATORS)}"
