@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from machine import cpu_seconds, write
@@ -21,7 +22,7 @@ def rows() -> Iterator[tuple[object, ...]]:
             if kind().refusal(n, d) is not None:
                 continue
             seconds = cpu_seconds(lambda g=name, n=n, d=d: generate(g, n=n, d=d))
-            shells = radial(periodogram(generate(name, n=n, d=d), 8))
+            shells = radial(periodogram(generate(name, n=n, d=d), math.ceil(n ** (1 / d) / 4) + 1))
             yield n, d, name, seconds, noise_floor(shells), power_at_1(shells)
 
 
