@@ -50,6 +50,17 @@ class Spectrum:
         """n**(-1/d), so that nu = |f| * spacing."""
         return spacing(self.n, self.d)
 
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Shape of ``power``, as which a spectrum may be indexed and computed with."""
+        return self.power.shape
+
+    def __len__(self) -> int:
+        return len(self.power)
+
+    def __getitem__(self, index: Any) -> Any:
+        return self.power[index]
+
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
         return np.array(self.power, dtype=dtype) if copy else np.asarray(self.power, dtype=dtype)
 

@@ -56,6 +56,9 @@ def test_listed_frequencies_are_exact_at_any_size(d, precision, allowed, largest
     error = np.sqrt(result.power * 301) - exact_amplitudes(x, f).astype(float)
     assert np.sqrt(np.mean(error**2)) <= allowed * np.sqrt(301)
     assert np.array_equal(np.asarray(result), result.power)
+    assert result.shape == (41,) == (len(result),)
+    assert np.array_equal(result[3:5] - result.power[3:5], [0, 0])
+    assert np.array_equal(result - result.power, np.zeros(41))
 
 
 @pytest.mark.parametrize(("d", "m", "fmax"), [(1, 16, 40), (2, 8, 20), (3, 4, 6)])
