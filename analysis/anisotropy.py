@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,6 +16,7 @@ from gbnbench.torus import FloatArray
 if TYPE_CHECKING:
     import pandas as pd
 
+EQUAL = 1e-20  # relative variance that is rounding
 BAND = (0.1, 1.0)  # nu of the shells that the scalar pools
 
 
@@ -55,7 +57,7 @@ def anisotropy_db(power: FloatArray, shells: Shells, realizations: int, spacing:
     ------
     RefusalError
         If no shell of that band has two independent frequencies, the spectrum ends within the band,
-        or most of it holds only rounding.
+        most of it holds only rounding, or the powers of each shell are equal to rounding.
     """
     deviation, freedom = shell_variance(power, shells, realizations)
     nu = shells.radius * spacing
@@ -69,8 +71,10 @@ def anisotropy_db(power: FloatArray, shells: Shells, realizations: int, spacing:
         raise RefusalError(
             "most frequencies with 0.1 <= nu <= 1 hold no power beyond rounding, as a lattice's do"
         )
-    with np.errstate(divide="ignore"):  # -inf where the power of each shell is equal
-        return float(10 * np.log10(deviation[band].sum() / freedom[band].sum()))
+    variance = float(deviation[band].sum() / freedom[band].sum())
+    if variance <= EQUAL:
+        raise RefusalError("the powers of each shell with 0.1 <= nu <= 1 are equal to rounding")
+    return 10 * math.log10(variance)
 
 
 def anisotropy(spectrum: Spectrum) -> pd.DataFrame:

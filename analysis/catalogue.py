@@ -127,7 +127,8 @@ CATALOGUE: tuple[Definition, ...] = (
         "dB",
         "lower",
         "Relative variance of the mean power around each exact shell's own mean, pooled over 0.1 <= nu <= 1, "
-        "in decibels and unbiased against the number of sets M: isotropic noise reads -10 log10(M).",
+        "in decibels and unbiased against the number of sets M: isotropic noise reads -10 log10(M), "
+        "and the height over that line is what is judged.",
         "Ulichney 1988, with the shell's own mean",
     ),
     Definition(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import getpass
 import json
 import os
 import tempfile
@@ -29,6 +31,11 @@ def cache_folder() -> Path:
     for folder in ([Path(asked)] if asked else []) + [Path(platformdirs.user_cache_dir("gbnbench"))]:
         if is_writable(folder):
             return folder
+    own = Path(tempfile.gettempdir()) / f"gbnbench-cache-{getpass.getuser()}"
+    with contextlib.suppress(OSError):
+        own.mkdir(mode=0o700, exist_ok=True)
+        if own.owner() == getpass.getuser() and is_writable(own):  # nobody else's prepared one
+            return own
     return Path(tempfile.mkdtemp(prefix="gbnbench-cache-"))
 
 

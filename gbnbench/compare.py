@@ -126,6 +126,8 @@ def compare(
     if seed < 0:
         raise InputError(f"seed must not be negative; got {seed}")
     earlier = None if baseline is None else store.read_run(baseline)
+    if earlier is not None:
+        _require_common(sources, earlier, baseline)
     device = choose().describe()
     settings: dict[str, Any] = {
         "gbnbench": __version__,
@@ -190,6 +192,14 @@ def _said_where(folder: Path) -> Iterator[None]:
         raise OSError(error.errno, text, error.filename or str(folder)) from error
 
 
+def _require_common(sources: Sequence[Source], earlier: Run, baseline: Path | None) -> None:
+    """Refuse a baseline that no source can be judged against: silence would read as success."""
+    rows = {(source.label, source.n, source.d) for source in earlier.sources}
+    if not any((source.label, source.n, source.d) in rows for source in sources):
+        held = ", ".join(f"{label} (n={n}, d={d})" for label, n, d in sorted(rows))
+        raise InputError(f"the baseline {baseline} has none of these sources; it holds {held}")
+
+
 def _verdicts(changes: Sequence[Change]) -> dict[tuple[str, str], str]:
     return {(change.key, change.measure): change.verdict for change in changes}
 
@@ -219,7 +229,7 @@ def _work(
     total = sum(_pieces(source) for source in sources)
     if not by_key:
         return results, total
-    progress.start(total, total - steps, "checking the device")
+    progress.start(total, total - steps, "checking the device (kernels of a new one are compiled, once)")
     if steps < total:
         progress.say(f"resuming {keeper.path}: {total - steps} of {total} pieces are there")
     failures: list[str] = []
@@ -227,6 +237,7 @@ def _work(
         pool.submit(None, check_device)  # in a child too: what a bad driver kills is not the command
         if checked := pool.next().failure:
             raise DeviceError(f"the OpenCL device cannot be used: {checked}")
+        progress.start(total, total - steps, "making sets")  # what the check took says nothing of the rest
         for key, lacking in missing.items():
             source = by_key[key]
             if not lacking:

@@ -54,7 +54,7 @@ def check_points(x: ArrayLike) -> FloatArray:
     if not inside.all():
         where = tuple(int(i) for i in np.argwhere(~inside)[0])
         raise InputError(
-            f"points must lie in [0, 1); got {points[where]!r} at index {where}. "
+            f"points must lie in [0, 1); got {float(points[where])!r} at index {where}. "
             "On a torus, gbnbench.torus.wrap(x) brings them inside"
         )
     return points

@@ -27,6 +27,11 @@ ONE_THREAD = {
     "OPENBLAS_NUM_THREADS": "1",
     "MKL_NUM_THREADS": "1",
     "VECLIB_MAXIMUM_THREADS": "1",
+    # glibc gives memory back and takes it again all through a compilation of kernels, at half its time.
+    "MALLOC_ARENA_MAX": "1",
+    "MALLOC_TRIM_THRESHOLD_": "4000000000",
+    "MALLOC_TOP_PAD_": "67108864",
+    "MALLOC_MMAP_MAX_": "0",
 }
 HEADER = struct.Struct("<Q")
 

@@ -17,10 +17,14 @@ if TYPE_CHECKING:
 
 EPILOG = """\b
 Examples:
-  gbnbench compare                                  six classics, about a minute
+  gbnbench compare                                  six classics, a minute or so
   gbnbench compare gbn 'gbn[iterations=1000]' mine.txt
   gbnbench compare jittered sobol -n 256,1024,4096  a sweep
   gbnbench compare gbn --baseline runs/before       exit code 1 when worse
+
+\b
+Generators: random, grid, hexagonal, jittered, latin, halton, sobol, lloyd, fpo, gbn;
+an unknown setting, as in gbn[x=1], lists those there are.
 """
 
 

@@ -59,9 +59,6 @@ def analyze(files: tuple[Path, ...], as_json: bool) -> None:
         except GbnbenchError as error:
             failed = True
             click.echo(f"gbnbench: error: {error}", err=True)
-        except OSError as error:
-            failed = True
-            click.echo(f"gbnbench: error: {path}: {error.strerror or error}", err=True)
     if as_json:
         listed = [
             {

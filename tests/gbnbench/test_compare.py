@@ -2,11 +2,12 @@ from __future__ import annotations
 
 import errno
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from gbnbench.compare import Outcome, compare
+from gbnbench.compare import Outcome, _require_common, compare
 from gbnbench.errors import InputError
 from gbnbench.generators.registry import find
 from gbnbench.run import Run
@@ -85,3 +86,12 @@ def test_bad_numbers_are_refused_before_anything_is_written(tmp_path: Path) -> N
         with pytest.raises(InputError, match=next(iter(wrong))):
             compare(sources, tmp_path / "run", **wrong)  # type: ignore[arg-type]
     assert not (tmp_path / "run").exists()
+
+
+def test_a_baseline_with_nothing_in_common_is_refused_before_any_work(tmp_path: Path) -> None:
+    (source,), _ = resolve(["random"], (64,), (2,), 2)
+    before = SimpleNamespace(sources=(SimpleNamespace(label="gbn", n=64, d=2),))
+    with pytest.raises(InputError, match=r"none of these sources; it holds gbn \(n=64, d=2\)"):
+        _require_common([source], before, tmp_path)  # type: ignore[arg-type]
+    same = SimpleNamespace(sources=(SimpleNamespace(label="random", n=64, d=2),))
+    assert _require_common([source], same, tmp_path) is None  # type: ignore[arg-type,func-returns-value]

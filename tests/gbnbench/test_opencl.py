@@ -138,3 +138,18 @@ def test_buffers_come_back_as_they_went_and_too_large_ones_are_refused():
     assert np.array_equal(chosen.download(chosen.upload(array), np.empty(1001)), array)
     with pytest.raises(DeviceError, match="at most"):
         chosen.empty(1 << 60)
+
+
+def test_without_any_writable_home_one_folder_serves_every_process(tmp_path):
+    blocked = tmp_path / "file"
+    blocked.write_text("")
+    places = {
+        "GBNBENCH_CACHE": str(blocked / "a"),
+        "XDG_CACHE_HOME": str(blocked / "b"),
+        "TMPDIR": str(tmp_path),
+    }
+    code = "from gbnbench.cache import cache_folder\nprint(cache_folder())"
+    first, second = (python(code, **places).stdout.strip() for _ in range(2))
+    assert first == second
+    assert Path(first).parent == tmp_path
+    assert Path(first).stat().st_mode & 0o077 == 0

@@ -1,0 +1,20 @@
+"""The page of generators names every generator with every setting and its default."""
+
+from __future__ import annotations
+
+import dataclasses
+from pathlib import Path
+
+import pytest
+
+from gbnbench.generators.registry import GENERATORS
+
+PAGE = (Path(__file__).parents[2] / "docs" / "generators.md").read_text()
+
+
+@pytest.mark.parametrize("name", GENERATORS)
+def test_every_setting_is_on_the_page(name):
+    (row,) = [line for line in PAGE.splitlines() if line.startswith(f"| `{name}` |")]
+    for field in dataclasses.fields(GENERATORS[name]):
+        shown = str(field.default).lower() if isinstance(field.default, bool) else f"{field.default:g}"
+        assert f"`{field.name}` ({shown}" in row.replace("(1.0 ", "(1 "), field.name
