@@ -33,6 +33,9 @@ class Spectrum:
         The list asked for, None for the whole cube.
     precision, method, device : str
         "double" or "float", the evaluation chosen, and where it ran.
+    error_rms, error_bound : float
+        Typical and worst error of the square root of a power, at any frequency asked for: a power P is off by
+        at most 2 sqrt(P) error_bound + error_bound**2.
     """
 
     power: FloatArray
@@ -44,6 +47,8 @@ class Spectrum:
     precision: str = "double"
     method: str = ""
     device: str = ""
+    error_rms: float = math.nan
+    error_bound: float = math.nan
 
     @property
     def spacing(self) -> float:
