@@ -5,7 +5,19 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
+from gbnbench.torus import FloatArray
+
 RESOLVED = 0.01  # relative error of a power that counts as resolved
+UNIT = {"double": 2.0**-53, "float": 2.0**-24}  # half the distance from 1 to the next number
+BITS = {"double": 64, "float": 32}  # of a fixed-point coordinate
+EXACT_FROM = 2.0**-12  # doubles from here up are multiples of 2^-64
+
+# Worst cases in units of rounding. Cosine and sine together: three roundings of a phase up to pi/4, and those
+# of the two series. A complex product: sqrt(5) (Brent, Percival & Zimmermann 2007).
+COSINE = 5.0
+COMPLEX = math.sqrt(5.0)
 
 
 @dataclass(frozen=True)
@@ -27,6 +39,84 @@ class Errors:
     def resolvable(self) -> float:
         """Smallest power that is typically known to 1%."""
         return resolvable_power(self.rms)
+
+
+@dataclass(frozen=True)
+class Coordinates:
+    """How far fixed-point coordinates are from the true ones, at the worst of several sets.
+
+    Attributes
+    ----------
+    coherent : float
+        Sum over points of |w| times the sum over axes of the distance, over the root of the sum of w^2;
+        in turns.
+    scattered : float
+        Root of the sum over points and axes of w^2 times the squared distance, over the same; turns.
+    share : float
+        Sum of |w| over the root of the sum of w^2: sqrt(n) without weights.
+    """
+
+    coherent: float
+    scattered: float
+    share: float
+
+
+def coordinates(x: FloatArray, precision: str, weights: FloatArray | None = None) -> Coordinates:
+    """Measure the rounding of (sets, n, d) points to 64 or, in float, 32 bits of a turn."""
+    n = x.shape[1]
+    if weights is None:
+        share = math.sqrt(n)
+    else:
+        share = float((np.abs(weights).sum(axis=1) / np.sqrt((weights**2).sum(axis=1))).max())
+    if precision == "double" and not ((x > 0) & (x < EXACT_FROM)).any():
+        return Coordinates(0.0, 0.0, share)
+    scaled = x * 2.0 ** BITS[precision]
+    away = np.abs(scaled - np.rint(scaled)) * 2.0 ** -BITS[precision]
+    norm = np.full((1, 1), float(n)) if weights is None else (weights**2).sum(axis=1, keepdims=True)
+    w = 1.0 if weights is None else np.abs(weights)
+    coherent = ((w * away.sum(axis=2)) / np.sqrt(norm)).sum(axis=1).max()
+    scattered = np.sqrt((w**2 * (away**2).sum(axis=2) / norm).sum(axis=1)).max()
+    return Coordinates(float(coherent), float(scattered), share)
+
+
+def sum_errors(
+    precision: str, sums: str, at: Coordinates, fmax: int, products: int, in_registers: int, beyond: int
+) -> Errors:
+    """Errors of a sum over points of cosines and sines.
+
+    Parameters
+    ----------
+    precision, sums : {"double", "float"}
+        Of the terms and the sums in registers, and of what adds those up.
+    at : Coordinates
+        Rounding of the coordinates.
+    fmax : int
+        Largest harmonic on an axis.
+    products : int
+        Complex products that make a term of its cosines and sines, each tabulated once.
+    in_registers, beyond : int
+        Terms of a lane added up one after another, and additions after that.
+
+    Returns
+    -------
+    Errors
+        The bound adds up every rounding at its worst; the typical error is that of independent roundings, its
+        two constants fitted to scattered points.
+    """
+    u, v = UNIT[precision], UNIT[sums]
+    term = (products + 1) * COSINE + products * COMPLEX + 1  # and a weight
+    running = math.sqrt(2.0) * in_registers
+    bound = at.share * (u * (term + running) + v * (2 * math.sqrt(2.0) * beyond + 4))
+    bound += 2 * math.pi * fmax * at.coherent
+    typical = u * math.sqrt(1.2 + 0.05 * in_registers)
+    return Errors(math.hypot(typical, 2 * math.pi * fmax / math.sqrt(6) * at.scattered), bound)
+
+
+def rounded_at_worst(n: int, d: int, precision: str) -> Coordinates:
+    """Assume of coordinates nobody has seen yet: exact in double, as far off as can be in float."""
+    half = 0.0 if precision == "double" else 2.0 ** -(BITS[precision] + 1)
+    share = math.sqrt(n)
+    return Coordinates(share * d * half, math.sqrt(d / 3) * half, share)
 
 
 def power_error(power: float, error: float) -> float:

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gbnbench.analysis.profile import ROUNDING
-from gbnbench.analysis.shells import EDGE, Shells, exact_shells, in_band, ring_of
+from gbnbench.analysis.shells import EDGE, Shells, exact_shells, in_band
 from gbnbench.errors import InputError, RefusalError
-from gbnbench.results import Spectrum
+from gbnbench.results import ShellSpectrum, Spectrum
 from gbnbench.torus import FloatArray
 
 if TYPE_CHECKING:
@@ -20,34 +20,31 @@ EQUAL = 1e-20  # relative variance that is rounding
 BAND = (0.1, 1.0)  # nu of the shells that the scalar pools
 
 
-def shell_variance(power: FloatArray, shells: Shells, realizations: int) -> tuple[FloatArray, FloatArray]:
+def shell_variance(
+    mean: FloatArray, deviation: FloatArray, m: FloatArray, realizations: int
+) -> tuple[FloatArray, FloatArray]:
     """Unbiased relative variance of each shell: numerator and degrees of freedom.
 
     Parameters
     ----------
-    power : (2*fmax+1,)*d float64
-        Power averaged over realizations.
-    shells : Shells
-        Its exact shells.
+    mean, deviation : (size,) float64
+        Mean power of each exact shell, and the sum of (p - mean)^2 over one half space.
+    m : (size,) float64
+        Frequencies of that half space.
     realizations : int
         M, the number of sets averaged.
 
     Returns
     -------
-    deviation : (size,) float64
-        (M m + 1)/(M m) times the sum over the m frequencies of one half space of (p / mean - 1)^2.
+    relative : (size,) float64
+        (M m + 1)/(M m) times the sum over the m frequencies of (p / mean - 1)^2.
     freedom : (size,) float64
         m - 1; 0 for shells of a single pair or with no power beyond rounding, which say nothing.
     """
-    mean = shells.mean(power)
-    m = shells.count / 2
     usable = (m >= 2) & (mean > ROUNDING)
-    scale = np.zeros(shells.size + 1)
-    scale[:-1][usable] = 1 / mean[usable]
-    relative = (power.ravel() * scale[shells.label] - 1) ** 2
-    squares = shells.sum(relative) / 2  # each pair f, -f stands twice in the cube
-    deviation = np.where(usable, (1 + 1 / (realizations * m)) * squares, 0.0)
-    return deviation, np.where(usable, m - 1, 0.0)
+    relative = np.zeros(len(mean))
+    relative[usable] = (1 + 1 / (realizations * m[usable])) * (deviation[usable] / mean[usable] ** 2)
+    return relative, np.where(usable, m - 1, 0.0)
 
 
 def anisotropy_db(power: FloatArray, shells: Shells, realizations: int, spacing: float) -> float:
@@ -59,7 +56,8 @@ def anisotropy_db(power: FloatArray, shells: Shells, realizations: int, spacing:
         If no shell of that band has two independent frequencies, the spectrum ends within the band,
         most of it holds only rounding, or the powers of each shell are equal to rounding.
     """
-    deviation, freedom = shell_variance(power, shells, realizations)
+    mean, spread = shells.moments(power)
+    deviation, freedom = shell_variance(mean, spread, shells.count / 2, realizations)
     nu = shells.radius * spacing
     if nu[-1] < BAND[1] * (1 - EDGE):
         raise RefusalError(f"anisotropy pools shells up to nu = 1; this spectrum ends at nu = {nu[-1]:.3g}")
@@ -101,23 +99,52 @@ def anisotropy(spectrum: Spectrum) -> pd.DataFrame:
     Isotropic noise averaged over M sets reads -10 log10(M) dB at every M, since |F|^2 of one set is
     exponentially distributed. PSA draws its reference at -M dB, right only at M = 10.
     """
-    import pandas as pd
-
     if spectrum.frequencies is not None:
         raise InputError("anisotropy needs a whole cube: periodogram(x, fmax), not listed frequencies")
-    shells = exact_shells(spectrum.fmax, spectrum.d)
-    deviation, freedom = shell_variance(spectrum.power, shells, spectrum.realizations)
-    ring = ring_of(shells)
-    rings = np.arange(1, ring.max() + 1)
-    total_deviation, total_freedom = (np.bincount(ring, w, len(rings) + 1)[1:] for w in (deviation, freedom))
-    m = np.bincount(ring, shells.count, len(rings) + 1)[1:] / 2
-    first = np.bincount(ring, shells.sum(spectrum.power), len(rings) + 1)[1:] / 2
-    second = np.bincount(ring, shells.sum(spectrum.power**2), len(rings) + 1)[1:] / 2
+    return anisotropy_of_shells(shells_of(spectrum))
+
+
+def anisotropy_of_shells(shells: ShellSpectrum) -> pd.DataFrame:
+    """Table of ``anisotropy`` from the mean and spread of exact shells."""
+    import pandas as pd
+
+    m = shells.count / 2
+    deviation, freedom = shell_variance(shells.power, shells.deviation, m, shells.realizations)
+    rings, ring = np.unique(np.rint(shells.frequency).astype(np.int64), return_inverse=True)
+
+    def pooled(values: FloatArray) -> FloatArray:
+        return np.bincount(ring, values, len(rings)).astype(np.float64, copy=False)
+
+    total = pooled(m)
     with np.errstate(divide="ignore", invalid="ignore"):
-        ours = 10 * np.log10(total_deviation / total_freedom)
-        mean = first / m
-        psa = 10 * np.log10((second - m * mean**2) / (m - 1) / mean**2)
+        ours = 10 * np.log10(pooled(deviation) / pooled(freedom))
+        mean = pooled(m * shells.power) / total
+        squares = pooled(shells.deviation + m * shells.power**2)
+        psa = 10 * np.log10((squares - total * mean**2) / (total - 1) / mean**2)
     psa[mean <= ROUNDING] = np.nan
     return pd.DataFrame(
-        {"frequency": rings, "nu": rings * spectrum.spacing, "anisotropy_db": ours, "psa_db": psa}
+        {"frequency": rings, "nu": rings * shells.spacing, "anisotropy_db": ours, "psa_db": psa}
+    )
+
+
+def shells_of(spectrum: Spectrum) -> ShellSpectrum:
+    """Mean and spread of a whole cube's exact shells; ``gbnbench.shells`` finds them without the cube."""
+    whole = spectrum.whole()
+    groups = exact_shells(whole.fmax, whole.d)
+    mean, deviation = groups.moments(whole.power)
+    return ShellSpectrum(
+        frequency=groups.radius,
+        nu=groups.radius * whole.spacing,
+        power=mean,
+        count=groups.count,
+        deviation=deviation,
+        n=whole.n,
+        d=whole.d,
+        realizations=whole.realizations,
+        fmax=whole.fmax,
+        precision=whole.precision,
+        method=whole.method,
+        device=whole.device,
+        error_rms=whole.error_rms,
+        error_bound=whole.error_bound,
     )

@@ -16,7 +16,8 @@ from gbnbench.analysis.catalogue import CATALOGUE
 from gbnbench.analysis.delaunay import Neighbours, neighbours, valence, valence6
 from gbnbench.analysis.distances import mean_distance, min_distance
 from gbnbench.analysis.integration import discrepancies
-from gbnbench.analysis.periodogram import check_fmax, largest_fmax, powers, spectrum_of
+from gbnbench.analysis.limits import check_fmax, largest_fmax
+from gbnbench.analysis.periodogram import each_power
 from gbnbench.analysis.profile import (
     FLOOR_NU,
     ROUNDING,
@@ -143,9 +144,8 @@ class _Scalars:
         self.points = points
         realizations, n, d = points.shape
         self.fmax = check_fmax(default_fmax(n, d, realizations) if fmax is None else fmax, d)
-        self.powers = np.stack(list(powers(points, self.fmax)))
+        self.powers, self.spectrum = each_power(points, self.fmax)
         self.shells: Shells = exact_shells(self.fmax, d)
-        self.spectrum = spectrum_of(self.powers.mean(axis=0), points.shape, self.fmax)
         self.radial = radial_power(self.spectrum.power, self.shells, self.spectrum.spacing)
         self._neighbours: Sequence[Neighbours] | None = None
 

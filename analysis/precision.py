@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gbnbench.errors import DeviceError, InputError
 from gbnbench.opencl import Program, Runtime, runtime
 from gbnbench.torus import FloatArray, fixed_point
 
-SUM_POINTS = 128  # points summed in registers before the sum goes on in double
-GROUP = "gbnbench.analysis"
+SUM_POINTS = 128  # points a lane sums in registers before the sum goes on in double
+PACKAGE = "gbnbench.analysis"
 
 
 @dataclass(frozen=True)
@@ -27,32 +29,54 @@ class Precision:
         Which of the two.
     lanes : int
         Proven vector width.
-    real, turn, sum : type
-        Of tables, of fixed-point coordinates, and of what is added up: double where the device has it.
     """
 
     runtime: Runtime
     double: bool
     lanes: int
-    real: type[np.floating[Any]]
-    turn: type[np.unsignedinteger[Any]]
-    sum: type[np.floating[Any]]
+
+    @property
+    def name(self) -> str:
+        """As the user says it: "double" or "float"."""
+        return "double" if self.double else "float"
+
+    @property
+    def real(self) -> type[np.floating[Any]]:
+        """Type of tables and of sums in registers."""
+        return np.float64 if self.double else np.float32
+
+    @property
+    def turn(self) -> type[np.unsignedinteger[Any]]:
+        """Type of fixed-point coordinates."""
+        return np.uint64 if self.double else np.uint32
+
+    @property
+    def sum(self) -> type[np.floating[Any]]:
+        """Type of what is added up: double where the device has it."""
+        return np.float64 if self.runtime.device.has_double else np.float32
 
     def program(self, *files: str, **defines: object) -> Program:
         """Build kernel files of the analysis for this precision."""
-        definitions = {
-            "DOUBLE": int(self.double),
-            "LANES": self.lanes,
-            "SUM": "double" if self.sum is np.float64 else "float",
-            "SUM_POINTS": SUM_POINTS,
-            **defines,
-        }
-        return self.runtime.program(GROUP, ("/vector.cl", "/turns.cl", *files), definitions)
+        return _program(self, files, tuple(sorted(defines.items())))
 
-    def upload_points(self, x: FloatArray) -> Any:
-        """Upload a row of fixed-point coordinates a dimension, and room for a vector past the last."""
-        rows = fixed_point(x, np.dtype(self.turn).itemsize * 8).T
-        return self.runtime.upload(np.append(rows.ravel(), np.zeros(self.lanes, self.turn)))
+    def turns(self, x: FloatArray, stride: int) -> NDArray[Any]:
+        """Return coordinates of (sets, n, d) points as turns, (sets, d, stride), 0 beyond the last."""
+        sets, n, d = x.shape
+        rows = np.zeros((sets, d, stride), self.turn)
+        rows[:, :, :n] = fixed_point(x, rows.itemsize * 8).transpose(0, 2, 1)
+        return rows
+
+
+@lru_cache(maxsize=64)
+def _program(p: Precision, files: tuple[str, ...], defines: tuple[tuple[str, object], ...]) -> Program:
+    definitions = {
+        "DOUBLE": int(p.double),
+        "LANES": p.lanes,
+        "SUM": "double" if p.sum is np.float64 else "float",
+        "SUM_POINTS": SUM_POINTS,
+        **dict(defines),
+    }
+    return p.runtime.program(PACKAGE, ("/vector.cl", "/turns.cl", *files), definitions)
 
 
 def precision_of(name: str) -> Precision:
@@ -73,14 +97,7 @@ def precision_of(name: str) -> Precision:
         raise DeviceError(
             f'{chosen.device.label} has no double precision; use precision="float" or another device'
         )
-    return Precision(
-        runtime=chosen,
-        double=double,
-        lanes=chosen.lanes(name),
-        real=np.float64 if double else np.float32,
-        turn=np.uint64 if double else np.uint32,
-        sum=np.float64 if chosen.device.has_double else np.float32,
-    )
+    return Precision(chosen, double, chosen.lanes(name))
 
 
 def padded(count: int, step: int) -> int:

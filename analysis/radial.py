@@ -40,7 +40,7 @@ def radial(spectrum: Spectrum, by: str = "shells", width: float = 2.0) -> Radial
     >>> radial(flat).count.tolist()
     [4, 4, 4]
     """
-    return radial_power(spectrum.power, groups_of(spectrum, by, width), spectrum.spacing)
+    return radial_power(spectrum.whole().power, groups_of(spectrum, by, width), spectrum.spacing)
 
 
 def groups_of(spectrum: Spectrum, by: str = "shells", width: float = 2.0) -> Shells:

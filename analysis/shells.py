@@ -43,6 +43,12 @@ class Shells:
         """Mean over each group: (size,) float64."""
         return self.sum(values) / self.count
 
+    def moments(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Mean over each group, and sum of squared departures from it over one half space: two (size,)."""
+        mean = self.mean(values)
+        away = values.ravel() - np.append(mean, 0.0)[self.label]
+        return mean, self.sum(away * away) / 2  # each pair f, -f stands twice in the cube
+
 
 def squared_radius(fmax: int, d: int) -> NDArray[np.int64]:
     """|f|^2 of every frequency of the cube, flattened: ((2*fmax+1)**d,) int64."""

@@ -5,6 +5,8 @@ The names below load their modules when first used, so that importing gbnbench c
 - ``generate(name, n=, d=, seed=, realizations=, **settings)``: point sets from a generator;
 - ``load(path)``, ``save(path, x)``: point-set files;
 - ``periodogram(x, fmax)``: exact power at every integer frequency; ``radial(spectrum)``: its radial mean;
+- ``shells(x, fmax)``: radial power and anisotropy without the cube, in any dimension;
+- ``plan(n, d, fmax)``: which evaluation a spectrum gets, why, and what it costs;
 - ``measures(x)``: every scalar measure with its standard error.
 """
 
@@ -16,7 +18,9 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from gbnbench.analysis.measures import measures
     from gbnbench.analysis.periodogram import periodogram
+    from gbnbench.analysis.plan import plan
     from gbnbench.analysis.radial import radial
+    from gbnbench.analysis.shell_spectrum import shells
     from gbnbench.errors import GbnbenchError
     from gbnbench.generators.registry import generate
     from gbnbench.points import load, save
@@ -29,11 +33,23 @@ _HOMES = {
     "load": "gbnbench.points",
     "measures": "gbnbench.analysis.measures",
     "periodogram": "gbnbench.analysis.periodogram",
+    "plan": "gbnbench.analysis.plan",
     "radial": "gbnbench.analysis.radial",
     "save": "gbnbench.points",
+    "shells": "gbnbench.analysis.shell_spectrum",
 }
 
-__all__ = ["GbnbenchError", "generate", "load", "measures", "periodogram", "radial", "save"]
+__all__ = [
+    "GbnbenchError",
+    "generate",
+    "load",
+    "measures",
+    "periodogram",
+    "plan",
+    "radial",
+    "save",
+    "shells",
+]
 
 
 def __getattr__(name: str) -> Any:

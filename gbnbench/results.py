@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,20 +22,22 @@ class Spectrum:
 
     Attributes
     ----------
-    power : (2*fmax+1,)*d or (m,) float64
+    power : (2*fmax+1,)*d, (fmax+1, 2*fmax+1, ...) or (m,) float64
         1 in expectation for white noise. The cube has DC at its centre, where it equals n, and axis a is
-        coordinate a; (m,) where the frequencies were listed.
+        coordinate a; a half cube begins at f_0 = 0; (m,) where the frequencies were listed.
     n, d, realizations : int
         Points a set, dimension, sets averaged.
     fmax : int
         Largest harmonic on each axis, cycles per unit length.
     frequencies : (m, d) int64 or None
-        The list asked for, None for the whole cube.
+        The list asked for, None for a cube.
     precision, method, device : str
         "double" or "float", the evaluation chosen, and where it ran.
     error_rms, error_bound : float
         Typical and worst error of the square root of a power, at any frequency asked for: a power P is off by
         at most 2 sqrt(P) error_bound + error_bound**2.
+    half, weighted : bool
+        Whether only f_0 >= 0 is there, and whether points had weights.
     """
 
     power: FloatArray
@@ -49,6 +51,22 @@ class Spectrum:
     device: str = ""
     error_rms: float = math.nan
     error_bound: float = math.nan
+    half: bool = False
+    weighted: bool = False
+
+    def whole(self) -> Spectrum:
+        """Spectrum of the whole cube, a half completed by P(-f) = P(f)."""
+        if not self.half:
+            return self
+        cube = np.empty((2 * self.fmax + 1,) * self.d)
+        cube[self.fmax :] = self.power
+        cube[: self.fmax + 1] = np.flip(self.power)
+        return replace(self, power=cube, half=False)
+
+    @property
+    def resolvable(self) -> float:
+        """Smallest power that is typically known to 1%: about (200 error_rms)^2."""
+        return (self.error_rms * (1 + math.sqrt(1.01)) / 0.01) ** 2
 
     @property
     def spacing(self) -> float:
@@ -98,6 +116,65 @@ class RadialPower:
         return pd.DataFrame(
             {"frequency": self.frequency, "nu": self.nu, "power": self.power, "count": self.count}
         )
+
+
+@dataclass(frozen=True)
+class ShellSpectrum:
+    """Mean and spread of power on exact shells of |f|, DC excluded, averaged over realizations before.
+
+    Attributes
+    ----------
+    frequency : (s,) float64
+        Radius |f| of each shell that holds a frequency, ascending, cycles per unit length.
+    nu : (s,) float64
+        frequency * n**(-1/d).
+    power : (s,) float64
+        Mean over the shell.
+    count : (s,) int64
+        Frequencies in the shell, over the whole space.
+    deviation : (s,) float64
+        Sum of (p - mean)^2 over the count/2 frequencies of one half space.
+    n, d, realizations, fmax : int
+        Points a set, dimension, sets averaged, largest harmonic on each axis.
+    precision, method, device : str
+        "double" or "float", the evaluation chosen, and where it ran.
+    error_rms, error_bound : float
+        Typical and worst error of the square root of one frequency's power.
+    """
+
+    frequency: FloatArray
+    nu: FloatArray
+    power: FloatArray
+    count: NDArray[np.int64]
+    deviation: FloatArray
+    n: int
+    d: int
+    realizations: int
+    fmax: int
+    precision: str = "double"
+    method: str = ""
+    device: str = ""
+    error_rms: float = math.nan
+    error_bound: float = math.nan
+
+    @property
+    def spacing(self) -> float:
+        """n**(-1/d), so that nu = |f| * spacing."""
+        return spacing(self.n, self.d)
+
+    def radial(self) -> RadialPower:
+        """Radial power, as ``gbnbench.radial`` makes it of a whole cube."""
+        return RadialPower(self.frequency, self.nu, self.power, self.count)
+
+    def anisotropy(self) -> pd.DataFrame:
+        """Anisotropy of each ring, as ``gbnbench.analysis.anisotropy`` makes it of a whole cube."""
+        from gbnbench.analysis.anisotropy import anisotropy_of_shells
+
+        return anisotropy_of_shells(self)
+
+    def to_frame(self) -> pd.DataFrame:
+        """Columns frequency, nu, power, count, deviation."""
+        return self.radial().to_frame().assign(deviation=self.deviation)
 
 
 @dataclass(frozen=True)

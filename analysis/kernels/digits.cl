@@ -1,22 +1,55 @@
-/* Frequencies of a group of dimensions by base-(2F+1) digits (Ahmed, Ren & Wonka 2022, App. C), as factors.
+/* Frequencies of two groups by base-(2F+1) digits (Ahmed, Ren & Wonka 2022, App. C), as pairs of table entries.
  *
- * Index i in 0 .. base^DIM - 1 has digits g_0 (most significant) .. g_{DIM-1}, and f_a = g_a - F. Indices from the
- * centre up are f = 0 and one half space. exp(i f.x) is the product over dimensions of a coarse and a fine factor,
- * g = split h + l; where split is 1 there is no fine one. One work-item decodes the j-th index into the entries of
- * tables.cl's list that are its factors; beyond count it repeats the first, f = 0.
+ * Index i of a group has digits g_0 (most significant) .. g_{axes-1} of the bases 2 F_a + 1, and f_a = g_a - F_a.
+ * Digits before the axis `at` belong to the leading entry, those behind it to the trailing one; that axis is B h + l,
+ * h leading and |l| <= fine trailing, B = 2 fine + 1. One work-item decodes one index, in order from the centre up
+ * (f = 0, then one half space) or as listed, into its leading entry, counted from the centre, and its trailing one.
+ * `groups` holds for each group its frequencies, axes, at, fine and whether it is listed.
  */
-__kernel void digits(__global ushort *factor, __global const uint *split, __global const int *coarse,
-                     __global const int *fine, const ulong first, const uint count, const uint stride,
-                     const uint dim, const ulong base)
+#define FIELDS 5
+
+__kernel void digits(__global uint *code, __global const uint *groups, __global const uint *largest,
+                     __global const ulong *listed)
 {
-    const uint j = get_global_id(0);
-    if (j >= stride) return;
-    ulong index = first + (j < count ? j : 0);
-    uint slot = 0;
-    for (uint a = dim; a-- > 0;) {
+    uint j = get_global_id(0);
+    __global const uint *group = groups;
+    __global uint *out = code + j;
+    if (j >= group[0]) {
+        j -= group[0];
+        largest += group[1];
+        listed += group[4] ? group[0] : 0;
+        group += FIELDS;
+        if (j >= group[0]) return;
+    }
+    const uint axes = group[1], at = group[2], fine = group[3];
+    ulong index = j;
+    if (group[4]) {
+        index = listed[j];
+    } else {
+        ulong size = 1;
+        for (uint a = 0; a < axes; a++)
+            size *= 2 * largest[a] + 1;
+        index += size / 2;
+    }
+    const uint split = 2 * fine + 1;
+    uint lead = 0, trail = 0, lead_size = 1, trail_size = 1;
+    for (uint a = axes; a-- > 0;) {
+        const uint base = 2 * largest[a] + 1;
         const uint digit = index % base;
         index /= base;
-        factor[slot++ * stride + j] = coarse[a] + digit / split[a];
-        if (split[a] > 1) factor[slot++ * stride + j] = fine[a] + digit % split[a];
+        if (a > at) {
+            trail += digit * trail_size;
+            trail_size *= base;
+        } else if (a < at) {
+            lead += digit * lead_size;
+            lead_size *= base;
+        } else {
+            const uint coarse = (largest[a] - fine + split - 1) / split;
+            const uint shifted = digit + fine + coarse * split - largest[a];
+            trail += shifted % split * trail_size;
+            lead = shifted / split;
+            lead_size = 2 * coarse + 1;
+        }
     }
+    *out = (lead - lead_size / 2) << 16 | trail;
 }

@@ -1,25 +1,90 @@
-/* Power |F|^2 / n of the whole cube from the amplitudes of one quarter of it (product.cl).
+/* Power |F|^2 / norm from amplitudes (product.cl): of a whole cube, or kept by pairs of a block's frequencies.
  *
- * One work-item writes the quarter's (fa, fb), (fa, -fb) and the mirror images of both.
+ * A set has `splits` slots, whose amplitudes are added. Of the cube one work-item takes a row of the leading group
+ * (of `half_rows`, the block's `rows` from first_row on) and `each` frequencies of the trailing one, and writes (fa, fb), (fa, -fb) and the mirror images of both that the
+ * output holds, which begins at the flat index `start`; sets stand `set_size` apart, 0 where they are added up.
  */
-__kernel void power(__global const SUM *amplitude, const uint rows, const uint stride_a, const uint columns,
-                    const uint stride_b, const SUM n, __global SUM *out)
+#if COMPENSATED
+#define KEPT 2
+#else
+#define KEPT 1
+#endif
+
+static SUM power_of(__global const SUM *at, const ulong slot_size, const uint splits, const SUM norm)
 {
-    const uint j = get_global_id(0);
+    SUM re = 0, im = 0;
+    for (uint s = 0; s < splits; s++) {
+        re += at[s * slot_size];
+        im += at[s * slot_size + 1];
+    }
+#if COMPENSATED
+    SUM rest_re = 0, rest_im = 0;
+    for (uint s = 0; s < splits; s++) {
+        rest_re += at[s * slot_size + 4];
+        rest_im += at[s * slot_size + 5];
+    }
+    re += rest_re;
+    im += rest_im;
+#endif
+    return (re * re + im * im) / norm;
+}
+
+__kernel void cube_power(__global const SUM *amplitude, const uint half_rows, const uint first_row, const uint rows,
+                         const uint columns, const uint stride, const uint each, const uint splits, const uint sets,
+                         __global const SUM *norm, const uint first_set, __global SUM *out, const ulong start,
+                         const ulong set_size)
+{
     const uint i = get_global_id(1);
-    if (i >= rows || j >= columns) return;
-    const ulong plane = (ulong)stride_a * stride_b;
-    __global const SUM *at = amplitude + (ulong)i * stride_b + j;
-    const SUM same = (at[0] * at[0] + at[plane] * at[plane]) / n;
-    const SUM opposite = (at[2 * plane] * at[2 * plane] + at[3 * plane] * at[3 * plane]) / n;
+    const uint first = get_global_id(0) * each;
+    const uint end = first + each < columns ? first + each : columns;
+    if (i >= rows) return;
+    const ulong slot_size = (ulong)((rows + ROWS - 1) / ROWS) * stride * (4 * ROWS * KEPT);
     const ulong width = 2 * (ulong)columns - 1;
-    const ulong height = 2 * (ulong)rows - 1;
-    const ulong last = height * width - 1;
-    const ulong row = (rows - 1 + i) * width;
-    const ulong plus = row + columns - 1 + j;
-    const ulong minus = row + columns - 1 - j;
-    out[plus] = same;
-    out[last - plus] = same;
-    out[minus] = opposite;
-    out[last - minus] = opposite;
+    const ulong last = (2 * (ulong)half_rows - 1) * width - 1;
+    const ulong centre = (half_rows - 1 + (ulong)first_row + i) * width + columns - 1;
+    for (uint s = 0; s < sets; s++) {
+        __global const SUM *at = amplitude + s * splits * slot_size
+            + (ulong)(i / ROWS) * stride * (4 * ROWS * KEPT) + i % ROWS * (4 * KEPT);
+        __global SUM *to = out + (first_set + s) * set_size;
+        const uint add = set_size == 0 && first_set + s > 0;
+        for (uint j = first; j < end; j++) {
+            const SUM same = power_of(at + (ulong)j * (4 * ROWS * KEPT), slot_size, splits, norm[first_set + s]);
+            const SUM opposite = power_of(at + (ulong)j * (4 * ROWS * KEPT) + 2, slot_size, splits, norm[first_set + s]);
+            const ulong plus = centre + j, minus = centre - j;
+            const SUM there = same + (add ? to[plus - start] : 0);
+            const SUM here = opposite + (add ? to[(minus < start ? last - minus : minus) - start] : 0);
+            to[plus - start] = there;
+            if (last - plus >= start) to[last - plus - start] = there;
+            if (minus >= start) to[minus - start] = here;
+            if (last - minus >= start) to[last - minus - start] = here;
+        }
+    }
+}
+
+/* Of a block's pairs (i, j) within a row tile's bounds, F(fa, fb) and F(fa, -fb) side by side. */
+__kernel void pair_power(__global const SUM *amplitude, __global const uint *bounds, const uint rows,
+                         const uint stride, const uint each, const uint splits, const uint sets,
+                         __global const SUM *norm, const uint first_set, __global SUM *out)
+{
+    const uint i = get_global_id(1);
+    if (i >= rows) return;
+    const uint tile = i / ROWS;
+    uint first = get_global_id(0) * each;
+    uint end = first + each;
+    first = first < bounds[2 * tile] ? bounds[2 * tile] : first;
+    end = end > bounds[2 * tile + 1] ? bounds[2 * tile + 1] : end;
+    const ulong slot_size = (ulong)((rows + ROWS - 1) / ROWS) * stride * (4 * ROWS * KEPT);
+    for (uint s = 0; s < sets; s++) {
+        __global const SUM *at = amplitude + s * splits * slot_size
+            + (ulong)tile * stride * (4 * ROWS * KEPT) + i % ROWS * (4 * KEPT);
+        const SUM scale = norm[first_set + s];
+        for (uint j = first; j < end; j++) {
+            __global const SUM *here = at + (ulong)j * (4 * ROWS * KEPT);
+            __global SUM *to = out + ((ulong)i * stride + j) * 2;
+            const SUM same = power_of(here, slot_size, splits, scale);
+            const SUM opposite = power_of(here + 2, slot_size, splits, scale);
+            to[0] = first_set + s ? to[0] + same : same;
+            to[1] = first_set + s ? to[1] + opposite : opposite;
+        }
+    }
 }

@@ -1,11 +1,11 @@
 /* Amplitudes F(fa, fb) and F(fa, -fb) from two groups' tables as a real product, tile by tile.
  *
  * With alpha = 2 pi fa.xa and beta = 2 pi fb.xb the four sums over points of cos alpha cos beta, sin sin,
- * sin cos and cos sin give both amplitudes; Hermitian symmetry gives the other two quadrants. One work-item holds
- * ROWS rows of the leading group by LANES columns of the trailing one in registers, sums SUM_POINTS points at a
- * time, and adds each such sum to the amplitudes in double where the device has it (the type SUM). Rows are
- * written out by macro, since an array of accumulators would live in memory. Tables come packed in tiles of ROWS and
- * of COLUMNS, those of a work-group (tables.cl).
+ * sin cos and cos sin give both amplitudes; Hermitian symmetry gives the other two quadrants. One work-item takes
+ * ROWS frequencies of the leading group with `each` of the trailing one, no others than those between the row tile's
+ * two `bounds`; its lanes are points. It sums SUM_POINTS points a lane in registers, and adds such sums in SUM, with
+ * their rounding kept beside them where COMPENSATED. Rows are written out by macro, since an array of accumulators
+ * would live in memory. Layout of amplitudes: [slot][row tile][column][row][4], of tables see tables.cl.
  */
 #if ROWS == 2
 #define EACH_ROW(DO) DO(0) DO(1)
@@ -13,59 +13,77 @@
 #define EACH_ROW(DO) DO(0) DO(1) DO(2)
 #elif ROWS == 4
 #define EACH_ROW(DO) DO(0) DO(1) DO(2) DO(3)
-#elif ROWS == 6
-#define EACH_ROW(DO) DO(0) DO(1) DO(2) DO(3) DO(4) DO(5)
 #endif
 
 #define CLEAR(r) REALV cc##r = (REALV)0, ss##r = (REALV)0, sc##r = (REALV)0, cs##r = (REALV)0;
 
-#define MULTIPLY(r)                                         \
-    {                                                       \
-        const REAL ca = row[r], sa = row[ROWS + r];         \
-        cc##r += ca * cb;                                   \
-        ss##r += sa * sb;                                   \
-        sc##r += sa * cb;                                   \
-        cs##r += ca * sb;                                   \
+#define MULTIPLY(r)                                                                              \
+    {                                                                                            \
+        const REALV ca = LOADV(row, 2 * LANES * r), sa = LOADV(row, 2 * LANES * r + LANES);      \
+        cc##r += ca * cb;                                                                        \
+        ss##r += sa * sb;                                                                        \
+        sc##r += sa * cb;                                                                        \
+        cs##r += ca * sb;                                                                        \
     }
 
-#define ADD(r) add_up(cc##r, ss##r, sc##r, cs##r, tile + (ulong)r * stride_b, plane);
+#define ADD(r) add_up(SUM_OF(cc##r), SUM_OF(ss##r), SUM_OF(sc##r), SUM_OF(cs##r), at + r * 4 * KEPT, started);
 
-static void add_up(REALV cc, REALV ss, REALV sc, REALV cs, __global SUM *out, ulong plane)
+#if COMPENSATED
+#define KEPT 2
+#else
+#define KEPT 1
+#endif
+
+static void put(__global SUM *at, const SUM value, const uint started)
 {
-    REAL part[4 * LANES];
-    STOREV(cc, part, 0);
-    STOREV(ss, part, LANES);
-    STOREV(sc, part, 2 * LANES);
-    STOREV(cs, part, 3 * LANES);
-    for (int v = 0; v < LANES; v++) {
-        const SUM tcc = part[v], tss = part[LANES + v], tsc = part[2 * LANES + v], tcs = part[3 * LANES + v];
-        out[v] += tcc - tss;
-        out[plane + v] += tsc + tcs;
-        out[2 * plane + v] += tcc + tss;
-        out[3 * plane + v] += tsc - tcs;
-    }
+#if COMPENSATED
+    const SUM old = started ? at[0] : 0, rest = started ? at[4] : 0;
+    const SUM sum = old + value;
+    const SUM part = sum - old;
+    at[0] = sum;
+    at[4] = rest + ((old - (sum - part)) + (value - part));
+#else
+    at[0] = started ? at[0] + value : value;
+#endif
 }
 
-__kernel void product(__global const REAL *restrict table_a, __global const REAL *restrict table_b,
-                      const uint stride_a, const uint stride_b, __global SUM *restrict amplitude,
-                      const uint points, const uint length)
+static void add_up(const SUM cc, const SUM ss, const SUM sc, const SUM cs, __global SUM *at, const uint started)
 {
-    const uint j = get_global_id(0) * LANES;
-    const uint i = get_global_id(1) * ROWS;
-    if (j >= stride_b || i >= stride_a) return;
-    const ulong plane = (ulong)stride_a * stride_b;
-    __global SUM *tile = amplitude + (ulong)i * stride_b + j;
-    __global const REAL *row = table_a + (ulong)i * length * 2;
-    __global const REAL *column = table_b + (ulong)(j / COLUMNS) * length * 2 * COLUMNS + j % COLUMNS;
-    for (uint first = 0; first < points; first += SUM_POINTS) {
-        const uint last = first + SUM_POINTS < points ? first + SUM_POINTS : points;
-        EACH_ROW(CLEAR)
-        for (uint k = first; k < last; k++) {
-            const REALV cb = LOADV(column, 0), sb = LOADV(column, COLUMNS);
-            EACH_ROW(MULTIPLY)
-            row += 2 * ROWS;
-            column += 2 * COLUMNS;
+    put(at, cc - ss, started);
+    put(at + 1, sc + cs, started);
+    put(at + 2, cc + ss, started);
+    put(at + 3, sc - cs, started);
+}
+
+__kernel void product(__global const REAL *restrict table, const ulong offset, const ulong slot_size,
+                      const uint length, __global const uint *bounds, const uint columns, const uint each,
+                      __global SUM *restrict amplitude, const uint again)
+{
+    const uint tile = get_global_id(1), tiles = get_global_size(1);
+    uint j = get_global_id(0) * each;
+    uint end = j + each;
+    j = j < bounds[2 * tile] ? bounds[2 * tile] : j;
+    end = end > bounds[2 * tile + 1] ? bounds[2 * tile + 1] : end;
+    if (j >= end) return;
+    const uint first = j;
+    __global const REAL *slot = table + get_global_id(2) * slot_size;
+    __global SUM *out = amplitude + ((ulong)get_global_id(2) * tiles + tile) * columns * (4 * ROWS * KEPT);
+    for (uint begin = 0; begin < length; begin += SUM_POINTS * LANES) {
+        const uint steps = (length - begin < SUM_POINTS * LANES ? length - begin : SUM_POINTS * LANES) / LANES;
+        const uint started = again || begin > 0;
+        for (j = first; j < end; j++) {
+            __global const REAL *row = slot + ((ulong)tile * length + begin) * (2 * ROWS);
+            __global const REAL *column = slot + offset
+                + ((ulong)(j / COLUMNS) * length + begin) * (2 * COLUMNS) + j % COLUMNS * (2 * LANES);
+            __global SUM *at = out + (ulong)j * (4 * ROWS * KEPT);
+            EACH_ROW(CLEAR)
+            for (uint k = 0; k < steps; k++) {
+                const REALV cb = LOADV(column, 0), sb = LOADV(column, LANES);
+                EACH_ROW(MULTIPLY)
+                row += 2 * ROWS * LANES;
+                column += 2 * COLUMNS * LANES;
+            }
+            EACH_ROW(ADD)
         }
-        EACH_ROW(ADD)
     }
 }

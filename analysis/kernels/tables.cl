@@ -1,39 +1,62 @@
-/* Tables of cos and sin of 2 pi f.x for a group's frequencies and a chunk of points, packed for product.cl.
+/* Tables of cos and sin of 2 pi f.x for both groups of frequencies and a run of points, packed for product.cl.
  *
- * Frequencies stand in tiles of some width; a tile holds, point after point, so many cosines and then as many sines,
- * so that the product reads every table from end to end. One work-item takes LANES points: it finds the cosine and
- * sine of every factor by its exact phase, then each frequency as the complex product of its factors (digits.cl),
- * which costs a tenth of a sine and cosine of its own and rounds by half a unit more. A tile is length points long,
- * a multiple of LANES; what stands there beyond the last point is never read.
+ * A group is divided once more: exp(i f.x) is the complex product of a leading and a trailing entry (digits.cl).
+ * One work-item takes LANES points and one group: it finds the entries of one half space of either part by their
+ * exact phases, the other half of the trailing ones as conjugates, and each frequency as a product of two, which
+ * costs a tenth of a sine and cosine of its own. The first group is weighted; points beyond the last have weight 0.
+ * Layout: [tile of frequencies][LANES points][frequency in the tile][cos, sin][lane]. `groups` holds for each group
+ * its first coordinate and their number, leading entries, trailing ones of the half space, where its multiples and
+ * codes begin, frequencies, and frequencies in a tile.
  */
-__kernel void tables(__global const ushort *factor, __global const TURN *multiple, __global const uint *axis,
-                     const uint factors, const uint entries, __global const TURN *x, __global REAL *table,
-                     const uint width, const uint stride, const ulong n, const ulong begin, const uint length)
+#define FIELDS 8
+
+__kernel void tables(__global const TURN *x, __global const REAL *weight, const uint stride, const uint dim,
+                     const uint weight_stride, __global const TURN *multiple,
+                     __global const uint *code, __global const uint *groups, const ulong offset, const ulong slot_size,
+                     __global REAL *table, const uint begin, const uint length, const uint splits)
 {
     const uint k = get_global_id(0) * LANES;
     if (k >= length) return;
+    const uint which = get_global_id(1);
+    const uint slot = get_global_id(2);
+    const uint set = slot / splits;
+    const uint point = begin + slot % splits * length + k;
+    __global const uint *group = groups + which * FIELDS;
+    const uint coordinates = group[1], leading = group[2], trailing = group[3], count = group[6], width = group[7];
+    __global const TURN *at = x + ((ulong)set * dim + group[0]) * stride + point;
+    __global const TURN *factor = multiple + group[4];
+    __global const uint *pair = code + group[5];
+
     REALV cosine[ENTRIES], sine[ENTRIES];
-    for (uint e = 0; e < entries; e++)
-        cos_sin_of_turn(multiple[e] * LOADV_TURNS(x, axis[e] * n + begin + k), &cosine[e], &sine[e]);
+    const REALV one = (REALV)1;
+    const REALV scale = which ? one : LOADV(weight, (ulong)set * weight_stride + point);
+    for (uint e = 0; e < leading + trailing; e++) {
+        TURNV phase = (TURNV)0;
+        for (uint a = 0; a < coordinates; a++)
+            phase += factor[e * coordinates + a] * LOADV_TURNS(at, (ulong)a * stride);
+        REALV c = one, s = (REALV)0;
+        if (e != 0 && e != leading) cos_sin_of_turn(phase, &c, &s);
+        if (e < leading) {
+            cosine[e] = c * scale;
+            sine[e] = s * scale;
+        } else {
+            const uint centre = leading + trailing - 1, away = e - leading;
+            cosine[centre + away] = cosine[centre - away] = c;
+            sine[centre - away] = -s;
+            sine[centre + away] = s;
+        }
+    }
+
+    __global REAL *out = table + slot * slot_size + which * offset + (ulong)k * 2 * width;
     uint row = 0;
-    __global REAL *tile = table + (ulong)k * 2 * width;
-    for (uint j = 0; j < stride; j++) {
-        REALV c = (REALV)1, s = (REALV)0;
-        if (factors > 0) {
-            c = cosine[factor[j]];
-            s = sine[factor[j]];
-        }
-        for (uint g = 1; g < factors; g++) {
-            const uint e = factor[g * stride + j];
-            const REALV t = c * cosine[e] - s * sine[e];
-            s = s * cosine[e] + c * sine[e];
-            c = t;
-        }
-        SPREAD(c, tile + row, 2 * width);
-        SPREAD(s, tile + width + row, 2 * width);
+    for (uint j = 0; j < count; j++) {
+        const uint u = pair[j] >> 16, v = leading + (pair[j] & 0xffff);
+        const REALV cu = cosine[u], su = sine[u], cv = cosine[v], sv = sine[v];
+        STOREV(cu * cv - su * sv, out, 2 * LANES * row);
+        STOREV(su * cv + cu * sv, out, 2 * LANES * row + LANES);
         if (++row == width) {
             row = 0;
-            tile += (ulong)length * 2 * width;
+            out += (ulong)length * 2 * width;
         }
     }
 }

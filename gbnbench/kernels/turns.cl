@@ -9,11 +9,24 @@
 #define RADIANS (6.283185307179586f / 4294967296.0f)
 #endif
 
+/* Signed turns as reals, rounded once. No CPU before AVX-512 converts vectors of 64-bit integers: the high and the low
+ * half are put behind the exponents of 2^84 and 2^52, which leaves one rounding, that of their sum. */
+#if DOUBLE && LANES > 1
+static REALV real_of_turn(STURNV t)
+{
+    const TURNV high = (AS_TURNV(t) >> (TURN)32) ^ (TURN)0x4530000080000000;
+    const TURNV low = (AS_TURNV(t) & (TURN)0xffffffff) | (TURN)0x4330000000000000;
+    return (AS_REALV(high) - 19342822341709703277445120.0) + AS_REALV(low);
+}
+#else
+#define real_of_turn TO_REALV
+#endif
+
 static void cos_sin_of_turn(TURNV phase, REALV *cosine, REALV *sine)
 {
     const TURN eighth = (TURN)1 << (TURN_BITS - 3);
     TURNV quarter = (phase + eighth) >> (TURN_BITS - 2);
-    REALV t = TO_REALV(AS_STURNV(phase - (quarter << (TURN_BITS - 2)))) * (REAL)RADIANS;
+    REALV t = real_of_turn(AS_STURNV(phase - (quarter << (TURN_BITS - 2)))) * (REAL)RADIANS;
     REALV u = t * t;
 #if DOUBLE
     REALV s = t - t * u * (1.0 / 6 - u * (1.0 / 120 - u * (1.0 / 5040 - u * (1.0 / 362880

@@ -1,6 +1,15 @@
 """OpenCL made safe: device choice, proven vector widths, programs built once, buffers held."""
 
-from gbnbench.opencl.device import DEVICE_VARIABLE, Device, choose, devices
+from gbnbench.opencl.device import DEVICE_VARIABLE, Device, choose, devices, devices_present
 from gbnbench.opencl.runtime import Program, Runtime, runtime
 
-__all__ = ["DEVICE_VARIABLE", "Device", "Program", "Runtime", "choose", "devices", "runtime"]
+__all__ = [
+    "DEVICE_VARIABLE",
+    "Device",
+    "Program",
+    "Runtime",
+    "choose",
+    "devices",
+    "devices_present",
+    "runtime",
+]

@@ -136,6 +136,14 @@ def devices() -> tuple[Device, ...]:
     return tuple(found)
 
 
+def devices_present() -> bool:
+    """Whether there is any device; where there is none, spectra are left to numpy."""
+    try:
+        return bool(devices())
+    except DeviceError:
+        return False
+
+
 def choose(selector: str | None = None) -> Device:
     """Pick a device.
 

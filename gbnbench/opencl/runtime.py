@@ -68,6 +68,11 @@ class Runtime:
             return VectorWidths(1, 1 if self.device.has_double else 0)
         return vector_widths(self.device)
 
+    @cached_property
+    def largest_buffer(self) -> int:
+        """Bytes of the largest buffer that the device gives."""
+        return int(handle(self.device.position).max_mem_alloc_size)
+
     def lanes(self, precision: str) -> int:
         """Vector width for precision, "float" or "double".
 
@@ -137,10 +142,10 @@ class Runtime:
         DeviceError
             If the device has no such memory.
         """
-        limit = int(handle(self.device.position).max_mem_alloc_size)
-        if nbytes > limit:
+        if nbytes > self.largest_buffer:
             raise DeviceError(
-                f"{self.device.label} gives buffers of at most {limit} bytes; {nbytes} were needed"
+                f"{self.device.label} gives buffers of at most {self.largest_buffer} bytes; "
+                f"{nbytes} were needed"
             )
         return self._cl.Buffer(self.context, self._cl.mem_flags.READ_WRITE, max(int(nbytes), 1))
 

@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gbnbench.analysis.periodogram import check_fmax, largest_fmax, periodogram, powers
+from gbnbench.analysis.limits import check_fmax, check_harmonic, largest_fmax
+from gbnbench.analysis.periodogram import each_power, periodogram
 from gbnbench.errors import InputError
 
 
@@ -80,7 +81,8 @@ def test_the_centre_is_n_axis_a_is_coordinate_a_and_the_mean_is_over_sets():
     assert spectrum.power[5, 5] == pytest.approx(50)
     assert spectrum.power[5 + 4, 5] == pytest.approx(50)
     assert spectrum.power[5, 5 + 4] < 40
-    each = np.stack(list(powers(x, 5)))
+    each, mean = each_power(x, 5)
+    assert np.array_equal(mean.power, each.mean(axis=0))
     assert spectrum.power == pytest.approx(each.mean(axis=0), rel=1e-14)
     assert spectrum.power == pytest.approx(
         np.mean([periodogram(one, 5).power for one in x], axis=0), rel=1e-14
@@ -152,3 +154,9 @@ def test_largest_fmax_is_the_largest(d):
         f = largest_fmax(count, d)
         assert f == 1 or (2 * f + 1) ** d <= count
         assert (2 * f + 3) ** d > count
+
+
+def test_what_cannot_be_counted_is_an_error_in_words():
+    with pytest.raises(InputError, match="more than 2\\^63"):
+        check_harmonic(2, 30)
+    assert check_harmonic(1, 39) == 1

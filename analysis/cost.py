@@ -1,0 +1,106 @@
+"""What an evaluation will cost and how far off it may be, before there are any points."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from gbnbench.analysis.accuracy import Errors, rounded_at_worst
+from gbnbench.analysis.cube import covered
+from gbnbench.analysis.digits import cheapest_division, half_size
+from gbnbench.analysis.listed import listed_errors, run_length
+from gbnbench.analysis.precision import Precision, padded
+from gbnbench.analysis.request import Request
+from gbnbench.analysis.streamed import BLOCK_COLUMNS, BLOCK_ROWS, pairs, two_groups
+from gbnbench.analysis.two_group import TABLE_BYTES, Slots, deal, product_errors, rows_of
+from gbnbench.opencl.speed import launch_seconds, peak
+
+# Multiply-adds, measured on CPUs: of a pair of frequencies and a point (four, and what a tile wastes), of an
+# entry of a table, a cosine and sine, a power written, and a pair reduced to its shell.
+TILE, ENTRY, COSINE, WRITTEN, SHELL = 5.0, 40.0, 200.0, 20.0, 550.0
+CALL_SECONDS = 4e-4  # of a request, whatever it asks
+NUMPY_RATE = 4e9  # multiply-adds a second of one core
+
+
+@dataclass(frozen=True)
+class Cost:
+    """What an evaluation takes.
+
+    Attributes
+    ----------
+    flops : float
+        Additions and multiplications of all it does.
+    bytes : int
+        Memory at its largest.
+    seconds : float
+        Expected, on all cores of the device.
+    """
+
+    flops: float
+    bytes: int
+    seconds: float
+
+
+def device_cost(p: Precision, request: Request) -> Cost:
+    """Cost on an OpenCL device, from its measured multiply-add peak."""
+    n, sets = request.n, request.realizations
+    rows = rows_of(p)
+    itemsize = np.dtype(p.real).itemsize
+    points = sets * n * request.d * 2 * itemsize
+    launches = 2.0
+    if request.what == "listed":
+        work = request.frequencies * (COSINE + 2 * request.d) * n * sets
+        held = request.frequencies * 64
+    elif request.what == "shells":
+        a, b = two_groups(request.d, request.fmax, request.high)
+        count = pairs(a, b, request.low, request.high)
+        blocks = max(1.0, count / (BLOCK_ROWS * BLOCK_COLUMNS))
+        work = (
+            (TILE * count + ENTRY * blocks * min(BLOCK_ROWS + BLOCK_COLUMNS, len(a.order) + len(b.order)))
+            * n
+            * sets
+        )
+        work += SHELL * count
+        launches = 3 * blocks * max(1.0, n * sets / 1024)
+        held = 3 * (8 << 20) + TABLE_BYTES + (64 << 20)
+    else:
+        divided = cheapest_division(request.d, request.fmax, rows)
+        a_count, b_count = half_size(divided.leading), half_size(divided.trailing)
+        slots = _slots(p, request)
+        work = (TILE * padded(a_count, rows) * b_count + ENTRY * (a_count + b_count)) * n * sets
+        launches = 3.0 * slots.launches(n) * -(-sets // slots.sets)
+        cube = math.prod(covered(divided, request.d))
+        work += WRITTEN * cube * sets
+        held = 3 * 8 * cube + TABLE_BYTES
+    device = p.runtime.device
+    cores = device.compute_units if device.is_cpu else 1
+    seconds = CALL_SECONDS + launches * launch_seconds() + 2 * work / peak(p.name) / cores
+    return Cost(2 * work, int(held + points), seconds)
+
+
+def device_errors(p: Precision, request: Request) -> Errors:
+    """Errors before the points are known: coordinates exact in double, rounded in float."""
+    n, d, f = request.n, request.d, request.fmax
+    at = rounded_at_worst(n, d, p.name)
+    if request.what == "listed":
+        return listed_errors(p, n, f, run_length(p, request.frequencies, n), at)
+    return product_errors(p, n, _slots(p, request), f, at)
+
+
+def _slots(p: Precision, request: Request) -> Slots:
+    """Deal out the points as for a cube."""
+    divided = cheapest_division(request.d, request.fmax, rows_of(p))
+    a, b = half_size(divided.leading), half_size(divided.trailing)
+    return deal(p, request.n, request.realizations, padded(a, rows_of(p)), padded(b, p.runtime.group))
+
+
+def numpy_cost(request: Request, precision: str) -> Cost:
+    """Cost of plain numpy."""
+    n, d, f, sets = request.n, request.d, request.fmax, request.realizations
+    each = 60.0 if request.what == "listed" else 1.0
+    work = each * request.frequencies * n * sets
+    held = 16 * request.frequencies if request.what == "listed" else 24 * (2 * f + 1) ** d
+    seconds = CALL_SECONDS + work / NUMPY_RATE / (2 if precision == "float" else 1)
+    return Cost(2 * work, int(held + n * d * 64), seconds)

@@ -1,0 +1,297 @@
+"""Which evaluation a spectrum gets, and why: the cheapest that is exact to what was asked for."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from gbnbench.analysis import nufft, separable
+from gbnbench.analysis.accuracy import Errors, rms_for
+from gbnbench.analysis.cost import CALL_SECONDS, NUMPY_RATE, Cost, device_cost, device_errors, numpy_cost
+from gbnbench.analysis.evaluation import DIRECT, NUFFT, PRODUCT, SEPARABLE, STREAMED, Evaluation
+from gbnbench.analysis.limits import check_fmax
+from gbnbench.analysis.precision import precision_of
+from gbnbench.analysis.request import Request, shell_request
+from gbnbench.errors import InputError
+from gbnbench.opencl import devices_present
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """An evaluation with its cost and errors, and what speaks against it ("" for the one chosen)."""
+
+    evaluation: Evaluation
+    cost: Cost
+    errors: Errors
+    against: str = ""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """The evaluation chosen for a request, and those that were not.
+
+    Attributes
+    ----------
+    request : Request
+        What is asked for.
+    chosen : Candidate
+        What will be done.
+    why : str
+        In a sentence.
+    others : tuple of Candidate
+        The rest, each with what speaks against it.
+    """
+
+    request: Request
+    chosen: Candidate
+    why: str
+    others: tuple[Candidate, ...] = field(default=())
+
+    @property
+    def method(self) -> str:
+        """Name of the evaluation chosen."""
+        return self.chosen.evaluation.method
+
+    @property
+    def precision(self) -> str:
+        """Its precision."""
+        return self.chosen.evaluation.precision
+
+    @property
+    def flops(self) -> float:
+        """Its arithmetic operations."""
+        return self.chosen.cost.flops
+
+    @property
+    def bytes(self) -> int:
+        """Its memory."""
+        return self.chosen.cost.bytes
+
+    @property
+    def seconds(self) -> float:
+        """Its expected time."""
+        return self.chosen.cost.seconds
+
+    @property
+    def errors(self) -> Errors:
+        """Its errors, for points not seen yet."""
+        return self.chosen.errors
+
+    def explain(self) -> str:
+        """Say in a few lines what will be done, why, what it costs and how exact it is."""
+        evaluation, cost, errors = self.chosen.evaluation, self.chosen.cost, self.errors
+        lines = [
+            str(self.request),
+            f"  {evaluation.label}, on {evaluation.device}",
+            f"  because {self.why}",
+            f"  {_si(cost.flops)}flop, {_si(cost.bytes)}B, about {cost.seconds:.2g} s",
+            f"  error of sqrt(P): {errors.rms:.1e} typically, {errors.bound:.1e} at worst; "
+            f"P = {errors.resolvable:.1e} is known to 1%",
+        ]
+        lines += [
+            f"  not {other.evaluation.label}, about {other.cost.seconds:.2g} s: {other.against}"
+            for other in self.others
+        ]
+        return "\n".join(lines)
+
+    def __str__(self) -> str:
+        return self.explain()
+
+
+def plan(
+    n: int,
+    d: int,
+    fmax: int,
+    precision: str | None = None,
+    *,
+    realizations: int = 1,
+    frequencies: int | None = None,
+    half: bool = False,
+    shells: bool = False,
+    band: Sequence[float] | None = None,
+    corners: bool = False,
+    floor: float | None = None,
+) -> Plan:
+    """Choose how a spectrum will be evaluated, before there are any points.
+
+    Parameters
+    ----------
+    n, d : int
+        Points a set and dimension.
+    fmax : int
+        Largest harmonic on each axis.
+    precision : {"double", "float"}, optional
+        As in ``gbnbench.periodogram``.
+    realizations : int
+        Sets.
+    frequencies : int, optional
+        How many are listed, instead of a cube.
+    half : bool
+        Half a cube.
+    shells, band, corners : bool, (low, high) optional, bool
+        As in ``gbnbench.shells``, instead of a cube.
+    floor : float, optional
+        Smallest power that must be known to 1%.
+
+    Returns
+    -------
+    Plan
+        ``explain()`` says all of it in words.
+
+    Raises
+    ------
+    InputError
+        As ``gbnbench.periodogram`` and ``gbnbench.shells``: what cannot fit is refused with what would.
+
+    Examples
+    --------
+    >>> print(plan(1024, 2, 64).method)
+    two-group product
+    """
+    for name, value in (("n", n), ("d", d), ("realizations", realizations)):
+        if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < 1:
+            raise InputError(f"{name} must be an integer of at least 1; got {value!r}")
+    if frequencies is not None:
+        request = Request("listed", n, d, int(fmax), realizations, frequencies)
+    elif shells or band is not None or corners:
+        request = shell_request(n, d, fmax, realizations, band, corners)
+    else:
+        f = check_fmax(fmax, d)
+        request = Request("half cube" if half else "cube", n, d, f, realizations, (2 * f + 1) ** d)
+    return planned(request, precision, floor)
+
+
+def choose(request: Request, precision: str | None, floor: float | None) -> Evaluation:
+    """Choose an evaluation; costs are weighed only where a floor leaves a choice.
+
+    Raises
+    ------
+    InputError
+        If precision is unknown, or nothing resolves the floor.
+    DeviceError
+        If the device lacks the precision.
+    """
+    if floor is not None:
+        return planned(request, precision, floor).chosen.evaluation
+    wanted = precision or "double"
+    exact = {"listed": DIRECT, "shells": STREAMED}.get(request.what, PRODUCT)
+    if precision_known(wanted) and devices_present():
+        precision_of(wanted)  # or say what is missing
+        return Evaluation(exact, wanted)
+    return Evaluation(SEPARABLE, wanted)
+
+
+def planned(request: Request, precision: str | None, floor: float | None) -> Plan:
+    """Weigh every evaluation that could serve a request; raises as ``choose``."""
+    if floor is not None and not 0 < floor < math.inf:
+        raise InputError(f"floor must be a positive power, such as 1e-12; got {floor!r}")
+    if precision is not None:
+        precision_known(precision)
+    weighed = [_weighed(candidate, precision, floor) for candidate in candidates(request, floor)]
+    fitting = sorted((c for c in weighed if not c.against), key=lambda c: c.cost.seconds)
+    if not fitting:
+        if floor is None:
+            precision_of(precision or "double")  # says what the device lacks
+        best = min(c.errors.resolvable for c in weighed if precision in (None, c.evaluation.precision))
+        raise InputError(
+            f"floor={floor:g} is out of reach: the least power known to 1% here is {best:.1g}"
+            + ("" if precision != "float" else '; precision="double" reaches deeper')
+        )
+    chosen, *slower = fitting
+    others = [replace(c, against="slower") for c in slower]
+    others += [c for c in weighed if c.against]
+    why = (
+        f"{chosen.evaluation.precision} was asked for"
+        if precision is not None and floor is None
+        else "it is exact, and no floor was given that would allow less"
+        if floor is None
+        else f"it is the cheapest that knows P = {floor:g} to 1%"
+    )
+    if chosen.evaluation.method == SEPARABLE:
+        why += ", and there is no OpenCL device"
+    return Plan(request, chosen, why, tuple(others))
+
+
+def _weighed(candidate: Candidate, precision: str | None, floor: float | None) -> Candidate:
+    """Say what speaks against a candidate: another precision, an error too large, or not being exact."""
+    evaluation = candidate.evaluation
+    against = ""
+    if floor is None:
+        if evaluation.tolerance:
+            against = f"knows only P = {candidate.errors.resolvable:.1e} to 1%; give a floor to allow that"
+        elif evaluation.precision != (precision or "double"):
+            against = f"knows only P = {candidate.errors.resolvable:.1e} to 1%"
+            if precision is not None:
+                against = f"{precision} was asked for"
+    elif precision is not None and evaluation.precision != precision:
+        against = f"{precision} was asked for"
+    elif candidate.errors.resolvable > floor * (1 + 1e-9):
+        against = f"knows only P = {candidate.errors.resolvable:.1e} to 1%"
+    return replace(candidate, against=against)
+
+
+def candidates(request: Request, floor: float | None) -> list[Candidate]:
+    """Every evaluation that this machine has for a request, with costs and errors."""
+    found: list[Candidate] = []
+    if devices_present():
+        method = {"listed": DIRECT, "shells": STREAMED}.get(request.what, PRODUCT)
+        for name in ("double", "float"):
+            if name == "double" and not precision_of("float").runtime.device.has_double:
+                continue
+            p = precision_of(name)
+            found.append(
+                Candidate(Evaluation(method, name), device_cost(p, request), device_errors(p, request))
+            )
+    elif request.what != "shells" or request.d == 1 or _cube_fits(request):
+        for name in ("double", "float"):
+            n, d, f = request.n, request.d, request.fmax
+            errors = separable.separable_errors(n, d, f, name, listed=request.what == "listed")
+            found.append(Candidate(Evaluation(SEPARABLE, name), numpy_cost(request, name), errors))
+    else:
+        raise InputError(
+            f"{request} do not fit in memory as a cube, and without an OpenCL device there is no streaming. "
+            "Install one: gbnbench devices tells how"
+        )
+    if request.what in ("cube", "half cube") and request.d <= nufft.DIMENSIONS and nufft.available():
+        found += _nufft(request, floor)
+    return found
+
+
+def _nufft(request: Request, floor: float | None) -> list[Candidate]:
+    n, d, f = request.n, request.d, request.fmax
+    tightest = nufft.nufft_errors(n, d, f, nufft.TIGHTEST)
+    tolerance = nufft.TIGHTEST
+    if floor is not None and rms_for(floor) > tightest.rms:
+        tolerance = max(nufft.TIGHTEST, nufft.nufft_tolerance(rms_for(floor), n, d, f))
+    errors = nufft.nufft_errors(n, d, f, tolerance)
+    seconds = request.realizations * nufft.nufft_seconds(n, d, f, tolerance)
+    room = nufft.nufft_bytes(n, d, f, tolerance)
+    cost = Cost(seconds * NUMPY_RATE, room, CALL_SECONDS + seconds)
+    return [Candidate(Evaluation(NUFFT, "double", tolerance), cost, errors)]
+
+
+def _cube_fits(request: Request) -> bool:
+    try:
+        check_fmax(request.fmax, request.d)
+    except InputError:
+        return False
+    return True
+
+
+def precision_known(precision: object) -> bool:
+    """Whether precision is "double" or "float"; raises InputError otherwise."""
+    if precision not in ("double", "float"):
+        raise InputError(f'precision must be "double" or "float"; got {precision!r}')
+    return True
+
+
+def _si(value: float) -> str:
+    """Three digits and an SI prefix: 1.23 G."""
+    for prefix in ("", "k", "M", "G", "T", "P"):
+        if value < 999.5:
+            return f"{value:.3g} {prefix}"
+        value /= 1000
+    return f"{value:.3g} E"

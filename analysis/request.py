@@ -1,0 +1,88 @@
+"""What a spectrum may be asked for: a cube of frequencies or its half, shells of |f|, or a list."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from gbnbench.analysis.limits import check_harmonic
+from gbnbench.analysis.streamed import pairs, two_groups
+from gbnbench.errors import InputError
+
+
+@dataclass(frozen=True)
+class Request:
+    """What is asked for.
+
+    Attributes
+    ----------
+    what : {"cube", "half cube", "shells", "listed"}
+        Which frequencies.
+    n, d, fmax, realizations : int
+        Points a set, dimension, largest harmonic on an axis, sets.
+    frequencies : int
+        How many are wanted, over the whole space.
+    low, high : int
+        Of |f|^2, for shells.
+    """
+
+    what: str
+    n: int
+    d: int
+    fmax: int
+    realizations: int
+    frequencies: int
+    low: int = 0
+    high: int = 0
+
+    def __str__(self) -> str:
+        sets = "" if self.realizations == 1 else f", {self.realizations} sets"
+        reach = (
+            f"|f|^2 from {max(self.low, 1)} to {self.high}"
+            if self.what == "shells"
+            else f"|f_a| <= {self.fmax}"
+        )
+        return (
+            f"{self.what}: {self.frequencies:,} frequencies, {reach}, of {self.n:,} points, d={self.d}{sets}"
+        )
+
+
+def shell_request(
+    n: int, d: int, fmax: int, realizations: int, band: Sequence[float] | None, corners: bool
+) -> Request:
+    """Request for the shells of a ball, a band or, with its corners, of a whole cube.
+
+    Raises
+    ------
+    InputError
+        If fmax or band are not what they must be, or no frequency lies in the band.
+    """
+    f = check_harmonic(fmax, d)
+    low, high = 1, d * f * f if corners else f * f
+    if band is not None:
+        try:
+            least, most = (float(edge) for edge in band)
+        except (TypeError, ValueError):
+            raise InputError(
+                f"band must be two numbers, the least and the largest |f|; got {band!r}"
+            ) from None
+        if not 0 <= least <= most < math.inf:
+            raise InputError(f"band must be 0 <= low <= high, cycles per unit length; got {band!r}")
+        if most > math.sqrt(high) * (1 + 1e-12):
+            raise InputError(
+                f"band ends at |f| = {most:g}, beyond the whole shells of fmax={f}; "
+                f"ask for fmax={math.ceil(most)}"
+            )
+        low = max(low, math.ceil(least * least * (1 - 1e-12)))
+        high = min(high, math.floor(most * most * (1 + 1e-12)))
+    if high >= 1 << 32:
+        raise InputError(
+            f"|f|^2 up to {high} does not fit in 32 bits; the largest fmax here is "
+            f"{math.isqrt((1 << 32) // d)}"
+        )
+    if low > high:
+        raise InputError(f"no integer frequency has |f| in {band!r}")
+    a, b = two_groups(d, f, high)
+    count = 4 * pairs(a, b, low, high) if d > 1 else 2 * (math.isqrt(high) - math.isqrt(low - 1))
+    return Request("shells", n, d, f, realizations, count, low, high)
