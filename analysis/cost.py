@@ -2,24 +2,27 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from gbnbench.analysis.accuracy import Errors, rounded_at_worst
-from gbnbench.analysis.cube import covered
-from gbnbench.analysis.digits import cheapest_division, half_size
+from gbnbench.analysis.digits import cheapest_division, half_size, whole_axes
+from gbnbench.analysis.gridded import DEGREE, WIDTH, griddable, gridded_errors
 from gbnbench.analysis.listed import listed_errors, run_length
 from gbnbench.analysis.precision import Precision, padded
 from gbnbench.analysis.request import Request
 from gbnbench.analysis.streamed import BLOCK_COLUMNS, BLOCK_ROWS, pairs, two_groups
 from gbnbench.analysis.two_group import TABLE_BYTES, Slots, deal, product_errors, rows_of
+from gbnbench.analysis.window import nodes_for
 from gbnbench.opencl.speed import launch_seconds, peak
 
-# Multiply-adds, measured on CPUs: of a pair of frequencies and a point (four, and what a tile wastes), of an
-# entry of a table, a cosine and sine, a power written, and a pair reduced to its shell.
+# Multiply-adds, measured on CPUs: of a pair of frequencies and a point (four, and what a tile wastes), an
+# entry of a table, a cosine and sine, a power written, and a pair reduced to its shell; of a frequency
+# carried from a point to a node, and folded there.
 TILE, ENTRY, COSINE, WRITTEN, SHELL = 5.0, 40.0, 200.0, 20.0, 550.0
+SPREAD, CARRIED = 7.0, 60.0
+LAUNCHES_MORE = 2e7  # of a gridded product's further launches and its sort
 CALL_SECONDS = 4e-4  # of a request, whatever it asks
 NUMPY_RATE = 4e9  # multiply-adds a second of one core
 
@@ -43,10 +46,37 @@ class Cost:
     seconds: float
 
 
-def device_cost(p: Precision, request: Request) -> Cost:
+def cube_work(p: Precision, request: Request, gridded: bool) -> float:
+    """Count multiply-adds of a cube, with what goes with them: comparable between the two products."""
+    n, d, f = request.n, request.d, request.fmax
+    if gridded:
+        trailing = half_size(whole_axes(d, f)[1:])
+        nodes = nodes_for(f, p.lanes)
+        reached = WIDTH[p.name] + p.lanes
+        carried = n * (ENTRY * trailing + reached * (SPREAD * trailing + 2 * DEGREE[p.name]))
+        each = carried + trailing * nodes * (CARRIED + TILE / 2 * (f + 1))
+    else:
+        divided = cheapest_division(d, f, rows_of(p))
+        a, b = half_size(divided.leading), half_size(divided.trailing)
+        each = (TILE * padded(a, rows_of(p)) * b + ENTRY * (a + b)) * n
+    return request.realizations * float(each + WRITTEN * (2 * f + 1) ** d / 2)
+
+
+def can_be_gridded(request: Request, precision: str) -> bool:
+    """Whether the gridded product can serve a request."""
+    return request.what in ("cube", "half cube") and griddable(request.d, request.fmax, precision)
+
+
+def gridded_is_cheaper(p: Precision, request: Request) -> bool:
+    """Whether the gridded product of a cube beats the plain one by more than its launches cost."""
+    if not can_be_gridded(request, p.name):
+        return False
+    return cube_work(p, request, gridded=True) + LAUNCHES_MORE < cube_work(p, request, gridded=False)
+
+
+def device_cost(p: Precision, request: Request, gridded: bool = False) -> Cost:
     """Cost on an OpenCL device, from its measured multiply-add peak."""
     n, sets = request.n, request.realizations
-    rows = rows_of(p)
     itemsize = np.dtype(p.real).itemsize
     points = sets * n * request.d * 2 * itemsize
     launches = 2.0
@@ -57,35 +87,29 @@ def device_cost(p: Precision, request: Request) -> Cost:
         a, b = two_groups(request.d, request.fmax, request.high)
         count = pairs(a, b, request.low, request.high)
         blocks = max(1.0, count / (BLOCK_ROWS * BLOCK_COLUMNS))
-        work = (
-            (TILE * count + ENTRY * blocks * min(BLOCK_ROWS + BLOCK_COLUMNS, len(a.order) + len(b.order)))
-            * n
-            * sets
-        )
-        work += SHELL * count
+        entries = blocks * min(BLOCK_ROWS + BLOCK_COLUMNS, len(a.order) + len(b.order))
+        work = (TILE * count + ENTRY * entries) * n * sets + SHELL * count
         launches = 3 * blocks * max(1.0, n * sets / 1024)
         held = 3 * (8 << 20) + TABLE_BYTES + (64 << 20)
     else:
-        divided = cheapest_division(request.d, request.fmax, rows)
-        a_count, b_count = half_size(divided.leading), half_size(divided.trailing)
+        work = cube_work(p, request, gridded)
         slots = _slots(p, request)
-        work = (TILE * padded(a_count, rows) * b_count + ENTRY * (a_count + b_count)) * n * sets
-        launches = 3.0 * slots.launches(n) * -(-sets // slots.sets)
-        cube = math.prod(covered(divided, request.d))
-        work += WRITTEN * cube * sets
-        held = 3 * 8 * cube + TABLE_BYTES
+        launches = 8.0 if gridded else 3.0 * slots.launches(n) * -(-sets // slots.sets)
+        held = 3 * 8 * (2 * request.fmax + 1) ** request.d + 2 * TABLE_BYTES
     device = p.runtime.device
     cores = device.compute_units if device.is_cpu else 1
     seconds = CALL_SECONDS + launches * launch_seconds() + 2 * work / peak(p.name) / cores
     return Cost(2 * work, int(held + points), seconds)
 
 
-def device_errors(p: Precision, request: Request) -> Errors:
+def device_errors(p: Precision, request: Request, gridded: bool = False) -> Errors:
     """Errors before the points are known: coordinates exact in double, rounded in float."""
     n, d, f = request.n, request.d, request.fmax
     at = rounded_at_worst(n, d, p.name)
     if request.what == "listed":
         return listed_errors(p, n, f, run_length(p, request.frequencies, n), at)
+    if gridded:
+        return gridded_errors(p, f, min(n, 2 * n * WIDTH[p.name] // nodes_for(f, p.lanes) + 1), at)
     return product_errors(p, n, _slots(p, request), f, at)
 
 

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
 from gbnbench.analysis.accuracy import Errors, coordinates
 from gbnbench.analysis.digits import Division, cheapest_division, half_size, size
-from gbnbench.analysis.precision import Precision
+from gbnbench.analysis.precision import Precision, padded
 from gbnbench.analysis.two_group import Group, TwoGroupProduct, product_errors, rows_of
+from gbnbench.opencl import Program
 from gbnbench.torus import FloatArray
 
 AMPLITUDE_BYTES = 256 << 20  # of the rows that one pass over the points takes
@@ -51,52 +53,106 @@ def cube_powers(
     """
     sets, n, d = x.shape
     divided = cheapest_division(d, fmax, rows_of(p))
-    shape = covered(divided, d)
-    start = shape[0] // 2 * math.prod(shape[1:]) if half else 0
-    count = math.prod(shape) - start
-    out = p.runtime.empty(count * (1 if mean else sets) * np.dtype(p.sum).itemsize)
-    norms = p.runtime.upload(norms_of(weights, sets, n).astype(p.sum))
-    bound = rms = 0.0
-    at = coordinates(x, p.name, weights)
+    at, rms, bound = coordinates(x, p.name, weights), 0.0, 0.0
+    writer: CubeWriter | None = None
     for first_row, rows in row_blocks(p, divided):
         product = TwoGroupProduct(p, n, d, sets, rows, Group(divided.trailing))
-        columns = product.b.count
-        each = GPU_COLUMNS if p.runtime.group > 1 else columns
-        for first, batch in product.batches(x, weights):
-            product.program.run(
-                "cube_power",
-                (-(-columns // each), rows.count),
-                (1, 1),
-                product.amplitude,
-                np.uint32(half_size(divided.leading)),
-                np.uint32(first_row),
-                np.uint32(rows.count),
-                np.uint32(columns),
-                np.uint32(product.columns),
-                np.uint32(each),
-                np.uint32(product.slots.splits),
-                np.uint32(batch),
-                norms,
-                np.uint32(first),
-                out,
-                np.uint64(start),
-                np.uint64(0 if mean else count),
+        if writer is None:
+            writer = CubeWriter(p, divided, fmax, norms_of(weights, sets, n), d, half=half, mean=mean)
+        for first, count in product.batches(x, weights):
+            writer.add(
+                product.program, product.amplitude, product.slots.splits, first, count, first_row, rows.count
             )
         errors = product_errors(p, n, product.slots, fmax, at)
         rms, bound = max(rms, errors.rms), max(bound, errors.bound)
-    if half:
-        shape = (shape[0] - shape[0] // 2, *shape[1:])
-    power = p.runtime.download(out, np.empty((1 if mean else sets, *shape), p.sum))
-    inner = tuple(
-        slice(0, fmax + 1) if half and a == 0 else slice(have // 2 - fmax, have // 2 + fmax + 1)
-        for a, have in enumerate(shape)
-    )
-    power = np.ascontiguousarray(power[(slice(None), *inner)], np.float64)
-    if not mean:
-        return power, Errors(rms, bound)
-    if sets > 1:
-        power /= sets
-    return power[0], Errors(rms, bound)
+    assert writer is not None  # noqa: S101 - there is a row
+    return writer.result(), Errors(rms, bound)
+
+
+class CubeWriter:
+    """A cube of power on the device, to which batches of amplitudes are added.
+
+    Parameters
+    ----------
+    p : Precision
+        Where and how.
+    divided : Division
+        The axes' two groups.
+    fmax : int
+        Largest harmonic on each axis.
+    norms : (sets,) float64
+        By which each set's squared amplitudes are divided.
+    d : int
+        Dimension.
+    half, mean : bool
+        As in ``cube_powers``.
+    gains : (rows,) float64, optional
+        By which squared amplitudes of a leading frequency are divided besides.
+    """
+
+    def __init__(
+        self,
+        p: Precision,
+        divided: Division,
+        fmax: int,
+        norms: FloatArray,
+        d: int,
+        half: bool,
+        mean: bool,
+        gains: FloatArray | None = None,
+    ) -> None:
+        self._p, self._fmax, self._d, self._half, self._mean = p, fmax, d, half, mean
+        self._sets = len(norms)
+        self._rows, self._columns = half_size(divided.leading), half_size(divided.trailing)
+        shape = covered(divided, d)
+        self._start = shape[0] // 2 * math.prod(shape[1:]) if half else 0
+        self._count = math.prod(shape) - self._start
+        self._shape = (shape[0] - shape[0] // 2, *shape[1:]) if half else shape
+        self._out = p.runtime.empty(self._count * (1 if mean else self._sets) * np.dtype(p.sum).itemsize)
+        self._norms = p.runtime.upload(norms.astype(p.sum))
+        self._gains = p.runtime.upload((np.ones(self._rows) if gains is None else gains).astype(p.sum))
+
+    def add(
+        self, program: Program, amplitude: Any, splits: int, first: int, count: int, first_row: int, rows: int
+    ) -> None:
+        """Add so many sets from the first on, or write them where each is wanted, at some leading rows."""
+        each = GPU_COLUMNS if self._p.runtime.group > 1 else self._columns
+        program.run(
+            "cube_power",
+            (-(-self._columns // each), rows),
+            (1, 1),
+            amplitude,
+            np.uint32(self._rows),
+            np.uint32(first_row),
+            np.uint32(rows),
+            np.uint32(self._columns),
+            np.uint32(padded(self._columns, self._p.runtime.group)),
+            np.uint32(each),
+            np.uint32(splits),
+            np.uint32(count),
+            self._norms,
+            self._gains,
+            np.uint32(first),
+            self._out,
+            np.uint64(self._start),
+            np.uint64(0 if self._mean else self._count),
+        )
+
+    def result(self) -> FloatArray:
+        """Download the cube, without what was covered beyond its edge."""
+        fmax, sets = self._fmax, 1 if self._mean else self._sets
+        power = self._p.runtime.download(self._out, np.empty((sets, *self._shape), self._p.sum))
+        inner = tuple(
+            slice(0, fmax + 1) if self._half and a == 0 else slice(have // 2 - fmax, have // 2 + fmax + 1)
+            for a, have in enumerate(self._shape)
+        )
+        power = np.ascontiguousarray(power[(slice(None), *inner)], np.float64)
+        if not self._mean:
+            return power
+        if self._sets > 1:
+            power /= self._sets
+        mean: FloatArray = power[0]
+        return mean
 
 
 def row_blocks(p: Precision, divided: Division) -> Iterator[tuple[int, Group]]:

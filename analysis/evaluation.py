@@ -10,12 +10,14 @@ from numpy.typing import NDArray
 from gbnbench.analysis import nufft, separable
 from gbnbench.analysis.accuracy import Errors
 from gbnbench.analysis.cube import cube_powers
+from gbnbench.analysis.gridded import gridded_powers
 from gbnbench.analysis.listed import listed_power
 from gbnbench.analysis.precision import precision_of
 from gbnbench.torus import FloatArray
 
 NUMPY = "numpy, no OpenCL device"
-PRODUCT, STREAMED, DIRECT = "two-group product", "streamed two-group product", "direct sum"
+PRODUCT, GRIDDED = "two-group product", "gridded product"
+STREAMED, DIRECT = "streamed two-group product", "direct sum"
 NUFFT, SEPARABLE = "non-uniform FFT", "numpy product"
 
 
@@ -59,6 +61,8 @@ class Evaluation:
         """Power of a cube, as ``cube_powers`` returns it."""
         if self.method == PRODUCT:
             return cube_powers(precision_of(self.precision), x, fmax, weights, half, mean)
+        if self.method == GRIDDED:
+            return gridded_powers(precision_of(self.precision), x, fmax, weights, half, mean)
         sets, n, d = x.shape
         shape = (fmax + 1 if half else 2 * fmax + 1, *[2 * fmax + 1] * (d - 1))
         out = np.zeros((1 if mean else sets, *shape))

@@ -25,6 +25,7 @@ def periodogram(
     weights: ArrayLike | None = None,
     half: bool = False,
     floor: float | None = None,
+    method: str | None = None,
 ) -> Spectrum:
     """Exact power at every integer frequency with |f_a| <= fmax, or at those listed.
 
@@ -47,6 +48,10 @@ def periodogram(
     floor : float, optional
         Smallest power that must be known to 1%: lets the cheapest evaluation be chosen that resolves it,
         float or, in up to three dimensions, a non-uniform FFT (``gbnbench.plan`` tells which and why).
+
+    method : str, optional
+        An evaluation by name instead of the cheapest: "two-group product", "gridded product",
+        "non-uniform FFT", "numpy product", or "direct sum" for listed frequencies.
 
     Returns
     -------
@@ -89,10 +94,10 @@ def periodogram(
     if frequencies is not None:
         if half:
             raise InputError("half is of a cube; list only the frequencies wanted")
-        return _listed(points, check_frequencies(frequencies, d), precision, w, floor)
+        return _listed(points, check_frequencies(frequencies, d), precision, w, floor, method)
     f = check_fmax(fmax, d)
     request = Request("half cube" if half else "cube", n, d, f, sets, (2 * f + 1) ** d)
-    evaluation = choose(request, precision, floor)
+    evaluation = choose(request, precision, floor, method)
     power, errors = evaluation.cube(points, f, w, half=half, mean=True)
     return _spectrum(power, request, evaluation, errors, half=half, weighted=w is not None)
 
@@ -127,11 +132,12 @@ def _listed(
     precision: str | None,
     weights: FloatArray | None,
     floor: float | None,
+    method: str | None,
 ) -> Spectrum:
     sets, n, d = x.shape
     fmax = max(abs(int(frequencies.max())), abs(int(frequencies.min())))
     request = Request("listed", n, d, fmax, sets, len(frequencies))
-    evaluation = choose(request, precision, floor)
+    evaluation = choose(request, precision, floor, method)
     power, errors = evaluation.listed(x, frequencies, weights)
     weighted = weights is not None
     return _spectrum(power, request, evaluation, errors, frequencies=frequencies, weighted=weighted)

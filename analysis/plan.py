@@ -10,8 +10,17 @@ import numpy as np
 
 from gbnbench.analysis import nufft, separable
 from gbnbench.analysis.accuracy import Errors, rms_for
-from gbnbench.analysis.cost import CALL_SECONDS, NUMPY_RATE, Cost, device_cost, device_errors, numpy_cost
-from gbnbench.analysis.evaluation import DIRECT, NUFFT, PRODUCT, SEPARABLE, STREAMED, Evaluation
+from gbnbench.analysis.cost import (
+    CALL_SECONDS,
+    NUMPY_RATE,
+    Cost,
+    can_be_gridded,
+    device_cost,
+    device_errors,
+    gridded_is_cheaper,
+    numpy_cost,
+)
+from gbnbench.analysis.evaluation import DIRECT, GRIDDED, NUFFT, PRODUCT, SEPARABLE, STREAMED, Evaluation
 from gbnbench.analysis.limits import check_fmax
 from gbnbench.analysis.precision import precision_of
 from gbnbench.analysis.request import Request, shell_request
@@ -164,33 +173,39 @@ def plan(
     return planned(request, precision, floor)
 
 
-def choose(request: Request, precision: str | None, floor: float | None) -> Evaluation:
+def choose(
+    request: Request, precision: str | None, floor: float | None, method: str | None = None
+) -> Evaluation:
     """Choose an evaluation; costs are weighed only where a floor leaves a choice.
 
     Raises
     ------
     InputError
-        If precision is unknown, or nothing resolves the floor.
+        If precision is unknown, nothing resolves the floor, or there is no such method for the request.
     DeviceError
         If the device lacks the precision.
     """
-    if floor is not None:
-        return planned(request, precision, floor).chosen.evaluation
+    if floor is not None or method is not None:
+        return planned(request, precision, floor, method).chosen.evaluation
     wanted = precision or "double"
     exact = {"listed": DIRECT, "shells": STREAMED}.get(request.what, PRODUCT)
     if precision_known(wanted) and devices_present():
-        precision_of(wanted)  # or say what is missing
-        return Evaluation(exact, wanted)
+        p = precision_of(wanted)  # or say what is missing
+        return Evaluation(GRIDDED if gridded_is_cheaper(p, request) else exact, wanted)
     return Evaluation(SEPARABLE, wanted)
 
 
-def planned(request: Request, precision: str | None, floor: float | None) -> Plan:
+def planned(request: Request, precision: str | None, floor: float | None, method: str | None = None) -> Plan:
     """Weigh every evaluation that could serve a request; raises as ``choose``."""
     if floor is not None and not 0 < floor < math.inf:
         raise InputError(f"floor must be a positive power, such as 1e-12; got {floor!r}")
     if precision is not None:
         precision_known(precision)
-    weighed = [_weighed(candidate, precision, floor) for candidate in candidates(request, floor)]
+    possible = candidates(request, floor, method)
+    if method is not None and method not in {c.evaluation.method for c in possible}:
+        names = ", ".join(dict.fromkeys(c.evaluation.method for c in possible))
+        raise InputError(f"method must be one of those for this request: {names}; got {method!r}")
+    weighed = [_weighed(candidate, precision, floor, method) for candidate in possible]
     fitting = sorted((c for c in weighed if not c.against), key=lambda c: c.cost.seconds)
     if not fitting:
         if floor is None:
@@ -203,24 +218,29 @@ def planned(request: Request, precision: str | None, floor: float | None) -> Pla
     chosen, *slower = fitting
     others = [replace(c, against="slower") for c in slower]
     others += [c for c in weighed if c.against]
-    why = (
-        f"{chosen.evaluation.precision} was asked for"
-        if precision is not None and floor is None
-        else "it is exact, and no floor was given that would allow less"
-        if floor is None
-        else f"it is the cheapest that knows P = {floor:g} to 1%"
-    )
+    if method is not None:
+        why = f"{method} was asked for"
+    elif floor is not None:
+        why = f"it is the cheapest that knows P = {floor:g} to 1%"
+    elif precision is not None:
+        why = f"{precision} was asked for"
+    else:
+        why = "it is exact, and no floor was given that would allow less"
     if chosen.evaluation.method == SEPARABLE:
         why += ", and there is no OpenCL device"
     return Plan(request, chosen, why, tuple(others))
 
 
-def _weighed(candidate: Candidate, precision: str | None, floor: float | None) -> Candidate:
+def _weighed(
+    candidate: Candidate, precision: str | None, floor: float | None, method: str | None
+) -> Candidate:
     """Say what speaks against a candidate: another precision, an error too large, or not being exact."""
     evaluation = candidate.evaluation
     against = ""
-    if floor is None:
-        if evaluation.tolerance:
+    if method is not None and evaluation.method != method:
+        against = f"{method} was asked for"
+    elif floor is None:
+        if evaluation.tolerance and method is None:
             against = f"knows only P = {candidate.errors.resolvable:.1e} to 1%; give a floor to allow that"
         elif evaluation.precision != (precision or "double"):
             against = f"knows only P = {candidate.errors.resolvable:.1e} to 1%"
@@ -233,24 +253,26 @@ def _weighed(candidate: Candidate, precision: str | None, floor: float | None) -
     return replace(candidate, against=against)
 
 
-def candidates(request: Request, floor: float | None) -> list[Candidate]:
+def candidates(request: Request, floor: float | None, method: str | None = None) -> list[Candidate]:
     """Every evaluation that this machine has for a request, with costs and errors."""
     found: list[Candidate] = []
     if devices_present():
-        method = {"listed": DIRECT, "shells": STREAMED}.get(request.what, PRODUCT)
+        exact = {"listed": DIRECT, "shells": STREAMED}.get(request.what, PRODUCT)
         for name in ("double", "float"):
             if name == "double" and not precision_of("float").runtime.device.has_double:
                 continue
             p = precision_of(name)
-            found.append(
-                Candidate(Evaluation(method, name), device_cost(p, request), device_errors(p, request))
-            )
-    elif request.what != "shells" or request.d == 1 or _cube_fits(request):
+            costs = device_cost(p, request), device_errors(p, request)
+            found.append(Candidate(Evaluation(exact, name), *costs))
+            if gridded_is_cheaper(p, request) or (method == GRIDDED and can_be_gridded(request, name)):
+                costs = device_cost(p, request, gridded=True), device_errors(p, request, gridded=True)
+                found.append(Candidate(Evaluation(GRIDDED, name), *costs))
+    if method == SEPARABLE or (not found and (request.what != "shells" or _cube_fits(request))):
         for name in ("double", "float"):
             n, d, f = request.n, request.d, request.fmax
             errors = separable.separable_errors(n, d, f, name, listed=request.what == "listed")
             found.append(Candidate(Evaluation(SEPARABLE, name), numpy_cost(request, name), errors))
-    else:
+    if not found:
         raise InputError(
             f"{request} do not fit in memory as a cube, and without an OpenCL device there is no streaming. "
             "Install one: gbnbench devices tells how"

@@ -155,16 +155,17 @@ def shell_moments(
         limits = p.runtime.upload(bounds)
         errors = product_errors(p, n, product.slots, fmax, at)
         rms, bound = max(rms, errors.rms), max(bound, errors.bound)
-        each = 1 if product.width > 1 else product.columns
+        width = product.frequencies.columns
+        each = 1 if p.runtime.group > 1 else width
         for first, batch in product.batches(x, weights):
             product.program.run(
                 "pair_power",
-                (-(-product.columns // each), leading.count),
+                (-(-width // each), leading.count),
                 (1, 1),
                 product.amplitude,
                 limits,
                 np.uint32(leading.count),
-                np.uint32(product.columns),
+                np.uint32(width),
                 np.uint32(each),
                 np.uint32(product.slots.splits),
                 np.uint32(batch),
@@ -179,7 +180,7 @@ def shell_moments(
             power,
             limits,
             np.uint32(leading.count),
-            np.uint32(product.columns),
+            np.uint32(width),
             p.runtime.upload(a.square[rows].astype(np.uint32)),
             p.runtime.upload(b.square[columns].astype(np.uint32)),
             np.uint32(low),

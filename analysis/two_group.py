@@ -19,6 +19,7 @@ from gbnbench.analysis.accuracy import Coordinates, Errors, sum_errors
 from gbnbench.analysis.digits import Axes, even_division, half_size, half_space, multiples
 from gbnbench.analysis.precision import SUM_POINTS, Precision, padded
 from gbnbench.errors import RefusalError
+from gbnbench.opencl import Program
 from gbnbench.torus import FloatArray
 
 TABLE_BYTES = 4 << 20  # of both groups' tables together: what stays in cache
@@ -26,6 +27,7 @@ LEAST_ITEMS = 4  # work-items a core, so that cores end together
 GPU_ITEMS = 256  # work-items a multiprocessor
 COMPENSATED_FROM = 32  # sums added one after another, from which on their rounding is kept
 MOST_ENTRIES = 1 << 15  # of one part of a group
+DIGITS_GROUP = 64  # indices that a work-group decodes
 
 
 @dataclass(frozen=True)
@@ -86,69 +88,26 @@ class Slots:
         return -(-self.length // (SUM_POINTS * lanes)) * self.launches(n)
 
 
-class TwoGroupProduct:
-    """Buffers and programs for sets of n points in d dimensions and two groups of frequencies.
+class Frequencies:
+    """Two groups' frequencies on the device, ready to be tabulated and multiplied.
 
     Parameters
     ----------
     p : Precision
         Where and how.
-    n, d, sets : int
-        Points a set, dimension, how many sets there will be.
+    d : int
+        Dimension.
     a, b : Group
         Leading and trailing group.
-    bounds : (row tiles, 2) uint32, optional
-        For each tile of rows of the leading group the first and the end of the trailing frequencies wanted.
     """
 
-    def __init__(
-        self,
-        p: Precision,
-        n: int,
-        d: int,
-        sets: int,
-        a: Group,
-        b: Group,
-        bounds: NDArray[np.uint32] | None = None,
-    ) -> None:
-        self.p, self.n, self.d, self.a, self.b = p, n, d, a, b
-        self.rows = rows_of(p)
-        self.width = p.runtime.group
+    def __init__(self, p: Precision, d: int, a: Group, b: Group) -> None:
+        self.p, self.d, self.a, self.b = p, d, a, b
+        self.rows, self.width = rows_of(p), p.runtime.group
         self.tiles = -(-a.count // self.rows)
         self.columns = padded(b.count, self.width)
-        self.slots = deal(p, n, sets, self.tiles * self.rows, self.columns)
-        self.stride = padded(n, self.slots.span)
-        self.compensated = self.slots.sums(n, p.lanes) > COMPENSATED_FROM
-        self.kept = 8 if self.compensated else 4
-        if bounds is None:
-            bounds = np.tile(np.array([0, b.count], np.uint32), (self.tiles, 1))
-        self._bounds = p.runtime.upload(bounds)
         # 64 or a power of two beyond, so that one program serves nearly every request.
-        entries = 1 << (max(64, self._describe()) - 1).bit_length()
-        self.program = p.program(
-            *("tables.cl", "product.cl", "power.cl"),
-            ROWS=self.rows,
-            COLUMNS=self.width,
-            ENTRIES=entries,
-            COMPENSATED=int(self.compensated),
-        )
-        itemsize = np.dtype(p.real).itemsize
-        self._offset = self.tiles * self.rows * self.slots.length * 2
-        self._slot_size = self._offset + self.columns * self.slots.length * 2
-        self._table = p.runtime.empty(self._slot_size * self.slots.count * itemsize)
-        self.amplitude = p.runtime.empty(self.amplitude_bytes)
-
-    @property
-    def amplitude_bytes(self) -> int:
-        """Size of the amplitudes of one batch."""
-        return (
-            self.slots.count
-            * self.tiles
-            * self.rows
-            * self.columns
-            * self.kept
-            * np.dtype(self.p.sum).itemsize
-        )
+        self.entries = 1 << (max(64, self._describe()) - 1).bit_length()
 
     def _describe(self) -> int:
         """List what the kernels need to know of each group, and decode; return the entries of a point."""
@@ -183,7 +142,7 @@ class TwoGroupProduct:
         self._code = p.runtime.empty(4 * (self.a.count + self.b.count))
         largest = [axis.largest for axis in (*self.a.axes, *self.b.axes)]
         listed = [group.order for group in (self.a, self.b) if group.order is not None]
-        local = p.runtime.group
+        local = DIGITS_GROUP
         p.program("digits.cl").run(
             "digits",
             (padded(self.a.count + self.b.count, local),),
@@ -194,6 +153,153 @@ class TwoGroupProduct:
             p.runtime.upload(np.concatenate(listed) if listed else np.zeros(1, np.uint64)),
         )
         return entries
+
+    def program(self, compensated: bool = False, folded: bool = False) -> Program:
+        """Build the kernels for these groups."""
+        return self.p.program(
+            *("tables.cl", "product.cl", "power.cl"),
+            ROWS=self.rows,
+            COLUMNS=self.width,
+            ENTRIES=self.entries,
+            COMPENSATED=int(compensated),
+            FOLDED=int(folded),
+            BY_POINT=0,
+        )
+
+    def program_by_point(self) -> Program:
+        """Build the tables' kernel in the layout that spread.cl reads."""
+        return self.p.program("tables.cl", ENTRIES=self.entries, BY_POINT=1)
+
+    def table_sizes(self, length: int) -> tuple[int, int]:
+        """Count the numbers of a slot's leading and trailing table of so many points."""
+        return self.tiles * self.rows * length * 2, self.columns * length * 2
+
+    def tabulate(
+        self,
+        program: Program,
+        groups: tuple[int, int],
+        points: Points,
+        tables: tuple[Any, Any],
+        slots: Slots,
+        sizes: tuple[int, int],
+        sets: int,
+        begin: int = 0,
+    ) -> None:
+        """Tabulate groups (first, how many) at a run of each set's points, slots of such sizes apart."""
+        local = self.p.runtime.group
+        program.run(
+            "tables",
+            (padded(slots.length // self.p.lanes, local), groups[1], sets * slots.splits),
+            (local, 1, 1),
+            points.turns,
+            points.weight,
+            np.uint32(points.stride),
+            np.uint32(self.d),
+            np.uint32(points.weight_stride),
+            self._multiple,
+            self._code,
+            self._groups,
+            np.uint32(groups[0]),
+            tables[0],
+            np.uint64(sizes[0]),
+            tables[1],
+            np.uint64(sizes[1]),
+            np.uint32(begin),
+            np.uint32(slots.length),
+            np.uint32(slots.splits),
+        )
+
+    def multiply(
+        self,
+        program: Program,
+        tables: tuple[Any, Any],
+        sizes: tuple[int, int],
+        length: int,
+        slots: int,
+        bounds: Any,
+        amplitude: Any,
+        again: bool = False,
+    ) -> None:
+        """Sum the products of both tables over their points; a table of size 0 a slot is shared by all."""
+        blocks = min(self.columns, -(-items_of(self.p) // (self.tiles * slots)))
+        each = 1 if self.width > 1 else -(-self.columns // blocks)
+        program.run(
+            "product",
+            (padded(-(-self.columns // each), self.width), self.tiles, slots),
+            (self.width, 1, 1),
+            tables[0],
+            np.uint64(sizes[0]),
+            tables[1],
+            np.uint64(sizes[1]),
+            np.uint32(length),
+            bounds,
+            np.uint32(self.columns),
+            np.uint32(each),
+            amplitude,
+            np.uint32(again),
+        )
+
+    def all_columns(self) -> Any:
+        """Bounds by which every row tile takes every column."""
+        return self.p.runtime.upload(np.tile(np.array([0, self.b.count], np.uint32), (self.tiles, 1)))
+
+
+@dataclass(frozen=True)
+class Points:
+    """A batch of sets on the device.
+
+    Attributes
+    ----------
+    turns, weight
+        Buffers of fixed-point coordinates and of weights, 0 beyond the last point.
+    stride, weight_stride : int
+        Points from one coordinate to the next; from one set's weights to the next's, 0 where they share them.
+    """
+
+    turns: Any
+    weight: Any
+    stride: int
+    weight_stride: int
+
+
+class TwoGroupProduct:
+    """Buffers and programs for sets of n points in d dimensions and two groups of frequencies.
+
+    Parameters
+    ----------
+    p : Precision
+        Where and how.
+    n, d, sets : int
+        Points a set, dimension, how many sets there will be.
+    a, b : Group
+        Leading and trailing group.
+    bounds : (row tiles, 2) uint32, optional
+        For each tile of rows of the leading group the first and the end of the trailing frequencies wanted.
+    """
+
+    def __init__(
+        self,
+        p: Precision,
+        n: int,
+        d: int,
+        sets: int,
+        a: Group,
+        b: Group,
+        bounds: NDArray[np.uint32] | None = None,
+    ) -> None:
+        self.p, self.n = p, n
+        self.frequencies = Frequencies(p, d, a, b)
+        rows, columns = self.frequencies.tiles * self.frequencies.rows, self.frequencies.columns
+        self.slots = deal(p, n, sets, rows, columns)
+        self.stride = padded(n, self.slots.span)
+        compensated = self.slots.sums(n, p.lanes) > COMPENSATED_FROM
+        self._bounds = self.frequencies.all_columns() if bounds is None else p.runtime.upload(bounds)
+        self.program = self.frequencies.program(compensated)
+        self._sizes = self.frequencies.table_sizes(self.slots.length)
+        real, total = np.dtype(p.real).itemsize, np.dtype(p.sum).itemsize
+        self._tables = tuple(p.runtime.empty(size * self.slots.count * real) for size in self._sizes)
+        kept = 8 if compensated else 4
+        self.amplitude = p.runtime.empty(self.slots.count * rows * columns * kept * total)
 
     def batches(self, x: FloatArray, weights: FloatArray | None = None) -> Iterator[tuple[int, int]]:
         """Leave the amplitudes of batch after batch on the device.
@@ -216,54 +322,21 @@ class TwoGroupProduct:
         shared = p.runtime.upload(weight[:1])
         for first in range(0, len(x), slots.sets):
             batch = slice(first, first + slots.sets)
-            turns = p.runtime.upload(p.turns(x[batch], self.stride))
             own = shared if len(weight) == 1 else p.runtime.upload(weight[batch])
+            turns = p.runtime.upload(p.turns(x[batch], self.stride))
+            points = Points(turns, own, self.stride, 0 if own is shared else self.stride)
             count = len(x[batch])
             for begin in range(0, self.stride, slots.span):
-                self._tabulate(turns, own, 0 if own is shared else self.stride, count, begin)
-                self._multiply(count, again=begin > 0)
+                self.frequencies.tabulate(
+                    *(self.program, (0, 2), points, self._tables, slots), self._sizes, count, begin
+                )
+                self.frequencies.multiply(
+                    *(self.program, self._tables, self._sizes, slots.length, count * slots.splits),
+                    bounds=self._bounds,
+                    amplitude=self.amplitude,
+                    again=begin > 0,
+                )
             yield first, count
-
-    def _tabulate(self, turns: Any, weight: Any, weight_stride: int, sets: int, begin: int) -> None:
-        slots, local = self.slots, self.p.runtime.group
-        self.program.run(
-            "tables",
-            (padded(slots.length // self.p.lanes, local), 2, sets * slots.splits),
-            (local, 1, 1),
-            turns,
-            weight,
-            np.uint32(self.stride),
-            np.uint32(self.d),
-            np.uint32(weight_stride),
-            self._multiple,
-            self._code,
-            self._groups,
-            np.uint64(self._offset),
-            np.uint64(self._slot_size),
-            self._table,
-            np.uint32(begin),
-            np.uint32(slots.length),
-            np.uint32(slots.splits),
-        )
-
-    def _multiply(self, sets: int, again: bool) -> None:
-        count = sets * self.slots.splits
-        blocks = min(self.columns, -(-items_of(self.p) // (self.tiles * count)))
-        each = 1 if self.width > 1 else -(-self.columns // blocks)
-        self.program.run(
-            "product",
-            (padded(-(-self.columns // each), self.width), self.tiles, count),
-            (self.width, 1, 1),
-            self._table,
-            np.uint64(self._offset),
-            np.uint64(self._slot_size),
-            np.uint32(self.slots.length),
-            self._bounds,
-            np.uint32(self.columns),
-            np.uint32(each),
-            self.amplitude,
-            np.uint32(again),
-        )
 
 
 def rows_of(p: Precision) -> int:

@@ -2,7 +2,7 @@
  *
  * A set has `splits` slots, whose amplitudes are added. Of the cube one work-item takes a row of the leading group
  * (of `half_rows`, the block's `rows` from first_row on) and `each` frequencies of the trailing one, and writes (fa, fb), (fa, -fb) and the mirror images of both that the
- * output holds, which begins at the flat index `start`; sets stand `set_size` apart, 0 where they are added up.
+ * output holds; a row's amplitudes count gain^-1/2 times. The output begins at the flat index `start`; sets stand `set_size` apart, 0 where they are added up.
  */
 #if COMPENSATED
 #define KEPT 2
@@ -12,14 +12,14 @@
 
 static SUM power_of(__global const SUM *at, const ulong slot_size, const uint splits, const SUM norm)
 {
-    SUM re = 0, im = 0;
-    for (uint s = 0; s < splits; s++) {
+    SUM re = at[0], im = at[1];
+    for (uint s = 1; s < splits; s++) {
         re += at[s * slot_size];
         im += at[s * slot_size + 1];
     }
 #if COMPENSATED
-    SUM rest_re = 0, rest_im = 0;
-    for (uint s = 0; s < splits; s++) {
+    SUM rest_re = at[4], rest_im = at[5];
+    for (uint s = 1; s < splits; s++) {
         rest_re += at[s * slot_size + 4];
         rest_im += at[s * slot_size + 5];
     }
@@ -31,8 +31,8 @@ static SUM power_of(__global const SUM *at, const ulong slot_size, const uint sp
 
 __kernel void cube_power(__global const SUM *amplitude, const uint half_rows, const uint first_row, const uint rows,
                          const uint columns, const uint stride, const uint each, const uint splits, const uint sets,
-                         __global const SUM *norm, const uint first_set, __global SUM *out, const ulong start,
-                         const ulong set_size)
+                         __global const SUM *norm, __global const SUM *gain, const uint first_set,
+                         __global SUM *out, const ulong start, const ulong set_size)
 {
     const uint i = get_global_id(1);
     const uint first = get_global_id(0) * each;
@@ -47,9 +47,11 @@ __kernel void cube_power(__global const SUM *amplitude, const uint half_rows, co
             + (ulong)(i / ROWS) * stride * (4 * ROWS * KEPT) + i % ROWS * (4 * KEPT);
         __global SUM *to = out + (first_set + s) * set_size;
         const uint add = set_size == 0 && first_set + s > 0;
+        const SUM scale = norm[first_set + s] * gain[first_row + i];
         for (uint j = first; j < end; j++) {
-            const SUM same = power_of(at + (ulong)j * (4 * ROWS * KEPT), slot_size, splits, norm[first_set + s]);
-            const SUM opposite = power_of(at + (ulong)j * (4 * ROWS * KEPT) + 2, slot_size, splits, norm[first_set + s]);
+            __global const SUM *here_at = at + (ulong)j * (4 * ROWS * KEPT);
+            const SUM same = power_of(here_at, slot_size, splits, scale);
+            const SUM opposite = power_of(here_at + 2, slot_size, splits, scale);
             const ulong plus = centre + j, minus = centre - j;
             const SUM there = same + (add ? to[plus - start] : 0);
             const SUM here = opposite + (add ? to[(minus < start ? last - minus : minus) - start] : 0);

@@ -6,6 +6,9 @@
  * two `bounds`; its lanes are points. It sums SUM_POINTS points a lane in registers, and adds such sums in SUM, with
  * their rounding kept beside them where COMPENSATED. Rows are written out by macro, since an array of accumulators
  * would live in memory. Layout of amplitudes: [slot][row tile][column][row][4], of tables see tables.cl.
+ *
+ * Where FOLDED, points are the nodes m = 0 .. M/2 of a grid, and columns hold four parts: cosines and sines carried to m
+ * and to M - m added up, which go with cos alpha, and their differences, which go with sin alpha (spread.cl).
  */
 #if ROWS == 2
 #define EACH_ROW(DO) DO(0) DO(1)
@@ -21,8 +24,8 @@
     {                                                                                            \
         const REALV ca = LOADV(row, 2 * LANES * r), sa = LOADV(row, 2 * LANES * r + LANES);      \
         cc##r += ca * cb;                                                                        \
-        ss##r += sa * sb;                                                                        \
-        sc##r += sa * cb;                                                                        \
+        ss##r += sa * so;                                                                        \
+        sc##r += sa * co;                                                                        \
         cs##r += ca * sb;                                                                        \
     }
 
@@ -32,6 +35,11 @@
 #define KEPT 2
 #else
 #define KEPT 1
+#endif
+#if FOLDED
+#define PARTS 4
+#else
+#define PARTS 2
 #endif
 
 static void put(__global SUM *at, const SUM value, const uint started)
@@ -55,8 +63,8 @@ static void add_up(const SUM cc, const SUM ss, const SUM sc, const SUM cs, __glo
     put(at + 3, sc - cs, started);
 }
 
-__kernel void product(__global const REAL *restrict table, const ulong offset, const ulong slot_size,
-                      const uint length, __global const uint *bounds, const uint columns, const uint each,
+__kernel void product(__global const REAL *restrict leading, const ulong leading_size,
+                      __global const REAL *restrict trailing, const ulong trailing_size, const uint length, __global const uint *bounds, const uint columns, const uint each,
                       __global SUM *restrict amplitude, const uint again)
 {
     const uint tile = get_global_id(1), tiles = get_global_size(1);
@@ -66,22 +74,28 @@ __kernel void product(__global const REAL *restrict table, const ulong offset, c
     end = end > bounds[2 * tile + 1] ? bounds[2 * tile + 1] : end;
     if (j >= end) return;
     const uint first = j;
-    __global const REAL *slot = table + get_global_id(2) * slot_size;
+    __global const REAL *row_slot = leading + get_global_id(2) * leading_size;
+    __global const REAL *column_slot = trailing + get_global_id(2) * trailing_size;
     __global SUM *out = amplitude + ((ulong)get_global_id(2) * tiles + tile) * columns * (4 * ROWS * KEPT);
     for (uint begin = 0; begin < length; begin += SUM_POINTS * LANES) {
         const uint steps = (length - begin < SUM_POINTS * LANES ? length - begin : SUM_POINTS * LANES) / LANES;
         const uint started = again || begin > 0;
         for (j = first; j < end; j++) {
-            __global const REAL *row = slot + ((ulong)tile * length + begin) * (2 * ROWS);
-            __global const REAL *column = slot + offset
-                + ((ulong)(j / COLUMNS) * length + begin) * (2 * COLUMNS) + j % COLUMNS * (2 * LANES);
+            __global const REAL *row = row_slot + ((ulong)tile * length + begin) * (2 * ROWS);
+            __global const REAL *column = column_slot
+                + ((ulong)(j / COLUMNS) * length + begin) * (PARTS * COLUMNS) + j % COLUMNS * (PARTS * LANES);
             __global SUM *at = out + (ulong)j * (4 * ROWS * KEPT);
             EACH_ROW(CLEAR)
             for (uint k = 0; k < steps; k++) {
                 const REALV cb = LOADV(column, 0), sb = LOADV(column, LANES);
+#if FOLDED
+                const REALV co = LOADV(column, 2 * LANES), so = LOADV(column, 3 * LANES);
+#else
+                const REALV co = cb, so = sb;
+#endif
                 EACH_ROW(MULTIPLY)
                 row += 2 * ROWS * LANES;
-                column += 2 * COLUMNS * LANES;
+                column += PARTS * COLUMNS * LANES;
             }
             EACH_ROW(ADD)
         }

@@ -4,7 +4,8 @@
  * One work-item takes LANES points and one group: it finds the entries of one half space of either part by their
  * exact phases, the other half of the trailing ones as conjugates, and each frequency as a product of two, which
  * costs a tenth of a sine and cosine of its own. The first group is weighted; points beyond the last have weight 0.
- * Layout: [tile of frequencies][LANES points][frequency in the tile][cos, sin][lane]. `groups` holds for each group
+ * Layout: [tile of frequencies][LANES points][frequency in the tile][cos, sin][lane], where BY_POINT for spread.cl
+ * [LANES frequencies][point][cos, sin][lane]. `groups` holds for each group
  * its first coordinate and their number, leading entries, trailing ones of the half space, where its multiples and
  * codes begin, frequencies, and frequencies in a tile.
  */
@@ -12,12 +13,13 @@
 
 __kernel void tables(__global const TURN *x, __global const REAL *weight, const uint stride, const uint dim,
                      const uint weight_stride, __global const TURN *multiple,
-                     __global const uint *code, __global const uint *groups, const ulong offset, const ulong slot_size,
-                     __global REAL *table, const uint begin, const uint length, const uint splits)
+                     __global const uint *code, __global const uint *groups, const uint first_group,
+                     __global REAL *leading_table, const ulong leading_size, __global REAL *trailing_table,
+                     const ulong trailing_size, const uint begin, const uint length, const uint splits)
 {
     const uint k = get_global_id(0) * LANES;
     if (k >= length) return;
-    const uint which = get_global_id(1);
+    const uint which = first_group + get_global_id(1);
     const uint slot = get_global_id(2);
     const uint set = slot / splits;
     const uint point = begin + slot % splits * length + k;
@@ -47,16 +49,30 @@ __kernel void tables(__global const TURN *x, __global const REAL *weight, const 
         }
     }
 
-    __global REAL *out = table + slot * slot_size + which * offset + (ulong)k * 2 * width;
+#if BY_POINT
+    __global REAL *out = trailing_table + slot * trailing_size + (ulong)k * 2 * LANES;
+#else
+    __global REAL *out = (which ? trailing_table + slot * trailing_size : leading_table + slot * leading_size)
+        + (ulong)k * 2 * width;
+#endif
     uint row = 0;
     for (uint j = 0; j < count; j++) {
         const uint u = pair[j] >> 16, v = leading + (pair[j] & 0xffff);
         const REALV cu = cosine[u], su = sine[u], cv = cosine[v], sv = sine[v];
+#if BY_POINT
+        SPREAD(cu * cv - su * sv, out + row, 2 * LANES);
+        SPREAD(su * cv + cu * sv, out + LANES + row, 2 * LANES);
+        if (++row == LANES) {
+            row = 0;
+            out += (ulong)length * 2 * LANES;
+        }
+#else
         STOREV(cu * cv - su * sv, out, 2 * LANES * row);
         STOREV(su * cv + cu * sv, out, 2 * LANES * row + LANES);
         if (++row == width) {
             row = 0;
             out += (ulong)length * 2 * width;
         }
+#endif
     }
 }

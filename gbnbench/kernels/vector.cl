@@ -28,6 +28,7 @@
 #define LOADV(p, i) ((p)[i])
 #define LOADV_TURNS(p, i) ((p)[i])
 #define STOREV(v, p, i) ((p)[i] = (v))
+#define SPREAD(v, p, step) ((p)[0] = (v))
 #define SUM_OF(v) ((SUM)(v))
 #define TO_REALV JOIN(convert_, REAL)
 #define AS_STURNV JOIN(as_, STURN)
@@ -41,9 +42,9 @@
 #define TWO_OF(p, i) (p)[i], (p)[(i) + 1]
 #define FOUR_OF(p, i) TWO_OF(p, i), TWO_OF(p, (i) + 2)
 #define EIGHT_OF(p, i) FOUR_OF(p, i), FOUR_OF(p, (i) + 4)
-#define TO_TWO(v, p, i) (p)[i] = v.s0, (p)[(i) + 1] = v.s1
-#define TO_FOUR(v, p, i) TO_TWO(v.lo, p, i), TO_TWO(v.hi, p, (i) + 2)
-#define TO_EIGHT(v, p, i) TO_FOUR(v.lo, p, i), TO_FOUR(v.hi, p, (i) + 4)
+#define TO_TWO(v, p, i, step) (p)[(i) * (step)] = v.s0, (p)[((i) + 1) * (step)] = v.s1
+#define TO_FOUR(v, p, i, step) TO_TWO(v.lo, p, i, step), TO_TWO(v.hi, p, (i) + 2, step)
+#define TO_EIGHT(v, p, i, step) TO_FOUR(v.lo, p, i, step), TO_FOUR(v.hi, p, (i) + 4, step)
 #define TWO_SUMMED(v) ((SUM)v.s0 + (SUM)v.s1)
 #define FOUR_SUMMED(v) (TWO_SUMMED(v.lo) + TWO_SUMMED(v.hi))
 #define EIGHT_SUMMED(v) (FOUR_SUMMED(v.lo) + FOUR_SUMMED(v.hi))
@@ -61,12 +62,14 @@
 #define SUMMED EIGHT_SUMMED
 #else
 #define COMPONENTS(p, i) EIGHT_OF(p, i), EIGHT_OF(p, (i) + 8)
-#define SCATTER(v, p, i) TO_EIGHT(v.lo, p, i), TO_EIGHT(v.hi, p, (i) + 8)
+#define SCATTER(v, p, i, step) TO_EIGHT(v.lo, p, i, step), TO_EIGHT(v.hi, p, (i) + 8, step)
 #define SUMMED(v) (EIGHT_SUMMED(v.lo) + EIGHT_SUMMED(v.hi))
 #endif
 #define LOADV(p, i) ((REALV)(COMPONENTS(p, i)))
 #define LOADV_TURNS(p, i) ((TURNV)(COMPONENTS(p, i)))
-#define STOREV(v, p, i) do { const REALV stored = (v); SCATTER(stored, (p) + (i), 0); } while (0)
+#define STOREV(v, p, i) do { const REALV stored = (v); SCATTER(stored, (p) + (i), 0, 1); } while (0)
+/* lane l to p[l * step] */
+#define SPREAD(v, p, step) do { const REALV stored = (v); SCATTER(stored, p, 0, step); } while (0)
 /* sum of the lanes in the type SUM; define SUM before use */
 #define SUM_OF(v) SUMMED(v)
 #define TO_REALV JOIN(convert_, REALV)

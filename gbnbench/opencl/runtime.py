@@ -158,6 +158,10 @@ class Runtime:
         """Copy an array into the head of an existing buffer."""
         self._cl.enqueue_copy(self.queue, buffer, np.ascontiguousarray(array))
 
+    def clear(self, buffer: Any, nbytes: int) -> None:
+        """Fill the head of a buffer with zeros."""
+        self._cl.enqueue_fill_buffer(self.queue, buffer, np.uint32(0), 0, nbytes)
+
     def finish(self) -> None:
         """Wait for all that was enqueued."""
         self.queue.finish()
