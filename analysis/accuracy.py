@@ -68,15 +68,19 @@ def coordinates(x: FloatArray, precision: str, weights: FloatArray | None = None
         share = math.sqrt(n)
     else:
         share = float((np.abs(weights).sum(axis=1) / np.sqrt((weights**2).sum(axis=1))).max())
-    if precision == "double" and not ((x > 0) & (x < EXACT_FROM)).any():
-        return Coordinates(0.0, 0.0, share)
-    scaled = x * 2.0 ** BITS[precision]
+    inexact = np.nonzero(x < EXACT_FROM) if precision == "double" else np.nonzero(np.ones(x.shape, bool))
+    scaled = x[inexact] * 2.0 ** BITS[precision]
     away = np.abs(scaled - np.rint(scaled)) * 2.0 ** -BITS[precision]
-    norm = np.full((1, 1), float(n)) if weights is None else (weights**2).sum(axis=1, keepdims=True)
-    w = 1.0 if weights is None else np.abs(weights)
-    coherent = ((w * away.sum(axis=2)) / np.sqrt(norm)).sum(axis=1).max()
-    scattered = np.sqrt((w**2 * (away**2).sum(axis=2) / norm).sum(axis=1)).max()
-    return Coordinates(float(coherent), float(scattered), share)
+    if not away.any():
+        return Coordinates(0.0, 0.0, share)
+    norm: FloatArray | float = float(n)
+    if weights is not None:
+        dealt = np.broadcast_to(weights, (len(x), n))
+        away *= np.abs(dealt[inexact[0], inexact[1]])
+        norm = (dealt**2).sum(axis=1)
+    coherent = np.bincount(inexact[0], away, len(x)) / np.sqrt(norm)
+    scattered = np.sqrt(np.bincount(inexact[0], away**2, len(x)) / norm)
+    return Coordinates(float(coherent.max()), float(scattered.max()), share)
 
 
 def sum_errors(

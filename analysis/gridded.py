@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +20,7 @@ from gbnbench.analysis.accuracy import BITS, UNIT, Coordinates, Errors, coordina
 from gbnbench.analysis.cube import CubeWriter, norms_of
 from gbnbench.analysis.digits import Division, whole_axes
 from gbnbench.analysis.precision import SUM_POINTS, Precision, padded
-from gbnbench.analysis.two_group import Frequencies, Group, Points, Slots
+from gbnbench.analysis.two_group import Points, Slots, whole_frequencies
 from gbnbench.analysis.window import Window, nodes_for, window
 from gbnbench.torus import FloatArray
 
@@ -96,7 +97,7 @@ def gridded_powers(
     sets, n, d = x.shape
     grid = Grid(p, n, d, sets, fmax)
     norms, axes = norms_of(weights, sets, n), whole_axes(d, fmax)
-    gains = grid.window.transform(fmax, grid.nodes) ** 2
+    gains = transform_at(p, fmax) ** 2
     divided = Division(axes[:1], axes[1:], 0, 0)
     writer = CubeWriter(p, divided, fmax, norms, d, half=half, mean=mean, gains=gains)
     crowd = 0
@@ -132,7 +133,7 @@ class Grid:
     def __init__(self, p: Precision, n: int, d: int, sets: int, fmax: int) -> None:
         self._p, self._d = p, d
         axes = whole_axes(d, fmax)
-        f = self._frequencies = Frequencies(p, d, Group(axes[:1]), Group(axes[1:]))
+        f = self._frequencies = whole_frequencies(p, d, axes[:1], axes[1:])
         self.window = window(WIDTH[p.name], DEGREE[p.name])
         self.nodes = nodes_for(fmax, p.lanes)
         self.program, self._by_point = f.program(folded=True), f.program_by_point()
@@ -147,23 +148,16 @@ class Grid:
         self._slots = Slots(self.sets, 1, self._chunk)
         self._point_size = per_point * self._chunk
         self._grid_size = f.table_sizes(self.nodes)[1]
-        leading, folded = f.table_sizes(self._folded)
-        self._trailing_size = 2 * folded
+        self._trailing_size = 2 * f.table_sizes(self._folded)[1]
         self._points = p.runtime.empty(self._point_size * self.sets * real)
-        self._leading = p.runtime.empty(leading * real)
+        self._leading = node_table(p, d, fmax)
         self._grid = p.runtime.empty(self._grid_size * self.sets * real)
         self._trailing = p.runtime.empty(self._trailing_size * self.sets * real)
         self.amplitude = p.runtime.empty(
             self.sets * f.tiles * f.rows * f.columns * 4 * np.dtype(p.sum).itemsize
         )
-        self._ones = p.runtime.upload(np.ones(max(self._stride, self.nodes), p.real))
-        self._coefficients = p.runtime.upload(padded_coefficients(self.window, p.lanes).astype(p.real))
-        self._bounds = f.all_columns()
-        at_nodes = np.zeros((1, d, self._folded), p.turn)
-        at_nodes[0, 0] = node_turns(self.nodes, BITS[p.name])[: self._folded]
-        points = Points(p.runtime.upload(at_nodes), self._ones, self._folded, 0)
-        whole = Slots(1, 1, self._folded)
-        f.tabulate(self.program, (0, 1), points, (self._leading, self._points), whole, (0, 0), 1)
+        self._ones = p.runtime.upload(np.ones(self._stride, p.real))
+        self._coefficients = window_buffer(p)
 
     def carry(self, held: Sorted, weights: FloatArray | None, kept: bool) -> None:
         """Carry a batch's cosines and sines to the nodes, and fold the grid in two."""
@@ -185,11 +179,13 @@ class Grid:
             DEGREE=self.window.degree,
             KEPT_SUMS=int(kept),
         )
-        p.runtime.clear(self._grid, self._grid_size * count * np.dtype(p.real).itemsize)
         rest = self._grid
         if kept:
             rest = p.runtime.empty(self._grid_size * count * np.dtype(p.real).itemsize)
-            p.runtime.clear(rest, self._grid_size * count * np.dtype(p.real).itemsize)
+        once = n <= self._chunk
+        if not once:
+            for sums in {self._grid, rest}:
+                p.runtime.clear(sums, self._grid_size * count * np.dtype(p.real).itemsize)
         for begin in range(0, n, self._chunk):
             tables, sizes = (self._leading, self._points), (0, self._point_size)
             f.tabulate(self._by_point, (1, 1), points, tables, self._slots, sizes, count, begin)
@@ -215,6 +211,7 @@ class Grid:
                 rest,
                 np.uint64(self._grid_size),
                 np.uint32(groups),
+                np.uint32(once),
             )
         program.run(
             "fold",
@@ -245,9 +242,38 @@ class Grid:
         """Leave the amplitudes of a batch that was carried."""
         self._frequencies.multiply(
             *(self.program, (self._leading, self._trailing), (0, self._trailing_size), self._folded, count),
-            bounds=self._bounds,
+            bounds=self._frequencies.all_columns,
             amplitude=self.amplitude,
         )
+
+
+@lru_cache(maxsize=8)
+def transform_at(p: Precision, fmax: int) -> FloatArray:
+    """Transform of the window at f = 0 .. fmax."""
+    return window(WIDTH[p.name], DEGREE[p.name]).transform(fmax, nodes_for(fmax, p.lanes))
+
+
+@lru_cache(maxsize=4)
+def window_buffer(p: Precision) -> Any:
+    """Coefficients of the window on the device."""
+    shape = window(WIDTH[p.name], DEGREE[p.name])
+    return p.runtime.upload(padded_coefficients(shape, p.lanes).astype(p.real))
+
+
+@lru_cache(maxsize=4)
+def node_table(p: Precision, d: int, fmax: int) -> Any:
+    """Table of the first axis at the nodes, kept from call to call as a transform's twiddle factors are."""
+    axes = whole_axes(d, fmax)
+    f = whole_frequencies(p, d, axes[:1], axes[1:])
+    nodes = nodes_for(fmax, p.lanes)
+    folded = padded(nodes // 2 + 1, p.lanes)
+    at_nodes = np.zeros((1, d, folded), p.turn)
+    at_nodes[0, 0] = node_turns(nodes, BITS[p.name])[:folded]
+    ones = p.runtime.upload(np.ones(folded, p.real))
+    points = Points(p.runtime.upload(at_nodes), ones, folded, 0)
+    table = p.runtime.empty(f.table_sizes(folded)[0] * np.dtype(p.real).itemsize)
+    f.tabulate(f.program(folded=True), (0, 1), points, (table, table), Slots(1, 1, folded), (0, 0), 1)
+    return table
 
 
 def padded_coefficients(shape: Window, lanes: int) -> FloatArray:
@@ -259,9 +285,10 @@ def gridded_errors(p: Precision, fmax: int, crowd: int, at: Coordinates) -> Erro
     """Errors of sqrt(power) where at most ``crowd`` points reach a node."""
     shape = window(WIDTH[p.name], DEGREE[p.name])
     nodes = nodes_for(fmax, p.lanes)
-    magnified = shape.amplification(fmax, nodes)
-    runs = -(-crowd // (SUM_POINTS // 2))
-    in_run = min(crowd, SUM_POINTS // 2)
+    transform = transform_at(p, fmax)
+    magnified = float(transform[0] / transform.min())
+    runs = -(-crowd // SUM_POINTS)
+    in_run = min(crowd, SUM_POINTS)
     beyond = 2 if crowd > KEPT_FROM else runs
     # The points' table and the window; then the nodes' table and their sum.
     sums = "double" if p.sum is np.float64 else "float"

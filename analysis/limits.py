@@ -7,11 +7,17 @@ import os
 
 import numpy as np
 
+from gbnbench.analysis.profile import FLOOR_NU
+from gbnbench.analysis.shells import EDGE
 from gbnbench.errors import InputError
 
 MEMORY_SHARE = 0.5  # of the machine's memory that one cube may take
 BYTES = 24  # a frequency: on the device, on the host, and room to work with it
 LARGEST_COUNT = 1 << 63
+LARGEST_NU = 2.0  # what the peak and the pictures need
+MOST_FREQUENCIES = 6_000_000  # of one cube, 48 MB: F = 3 in d = 8
+MOST_TERMS = 1e11  # frequencies times points of one set: about ten seconds of one core
+MOST_KEPT = 1 << 27  # powers of all sets together, 1 GB
 
 
 def memory() -> int:
@@ -77,3 +83,12 @@ def largest_fmax(count: int, d: int) -> int:
     while (2 * f + 3) ** d <= count:  # or down
         f += 1
     return f
+
+
+def default_fmax(n: int, d: int, realizations: int = 1) -> int:
+    """Harmonics beyond nu = 2, so that its ring is whole; fewer where the cube, its time or memory forbid."""
+    edge = math.pow(n, 1 / d)
+    wanted = math.floor(LARGEST_NU * edge * (1 + EDGE)) + 1
+    most = min(MOST_FREQUENCIES, MOST_TERMS / n, MOST_KEPT / realizations)
+    floor = math.ceil(FLOOR_NU * edge)  # the least that anyone asks for
+    return max(1, min(wanted, max(floor, largest_fmax(int(most), d))))

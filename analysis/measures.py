@@ -16,10 +16,9 @@ from gbnbench.analysis.catalogue import CATALOGUE
 from gbnbench.analysis.delaunay import Neighbours, neighbours, valence, valence6
 from gbnbench.analysis.distances import mean_distance, min_distance
 from gbnbench.analysis.integration import discrepancies
-from gbnbench.analysis.limits import check_fmax, largest_fmax
+from gbnbench.analysis.limits import check_fmax, default_fmax
 from gbnbench.analysis.periodogram import each_power
 from gbnbench.analysis.profile import (
-    FLOOR_NU,
     ROUNDING,
     evacuated_energy,
     exponential_fit,
@@ -31,7 +30,7 @@ from gbnbench.analysis.profile import (
 from gbnbench.analysis.psa import spectral_statistics
 from gbnbench.analysis.radial import radial_power
 from gbnbench.analysis.rdf import rdf
-from gbnbench.analysis.shells import EDGE, Shells, exact_shells
+from gbnbench.analysis.shells import Shells, exact_shells
 from gbnbench.analysis.zone_plate import zone_plate
 from gbnbench.errors import RefusalError
 from gbnbench.results import Measures, RadialPower, Spectrum
@@ -45,10 +44,6 @@ Result = TypeVar("Result")
 _Estimate = tuple[float, float]  # value, standard error
 _Entry = tuple[tuple[str, ...], Callable[[], list[_Estimate]]]
 
-LARGEST_NU = 2.0  # what the peak and the pictures need
-MOST_FREQUENCIES = 6_000_000  # of one cube, 48 MB: F = 3 in d = 8
-MOST_TERMS = 1e11  # frequencies times points of one set: about ten seconds of one core
-MOST_KEPT = 1 << 27  # powers of all sets together, 1 GB
 EDGE_RATIO = 5.0  # power at |f| = 1 and 2 over the diagonals beside them that only a border explains
 
 
@@ -126,15 +121,6 @@ def analyse(x: ArrayLike, fmax: int | None = None) -> Analysis:
         measures=scalars.measures(),
         warnings=_warnings(scalars.radial, points.shape[2]),
     )
-
-
-def default_fmax(n: int, d: int, realizations: int = 1) -> int:
-    """Harmonics beyond nu = 2, so that its ring is whole; fewer where the cube, its time or memory forbid."""
-    edge = math.pow(n, 1 / d)
-    wanted = math.floor(LARGEST_NU * edge * (1 + EDGE)) + 1
-    most = min(MOST_FREQUENCIES, MOST_TERMS / n, MOST_KEPT / realizations)
-    floor = math.ceil(FLOOR_NU * edge)  # the least that anyone asks for
-    return max(1, min(wanted, max(floor, largest_fmax(int(most), d))))
 
 
 class _Scalars:

@@ -94,7 +94,7 @@ class Plan:
         evaluation, cost, errors = self.chosen.evaluation, self.chosen.cost, self.errors
         lines = [
             str(self.request),
-            f"  {evaluation.label}, on {evaluation.device}",
+            f"  {evaluation.label}, on {evaluation.device.partition(' (')[0]}",
             f"  because {self.why}",
             f"  {_si(cost.flops)}flop, {_si(cost.bytes)}B, about {cost.seconds:.2g} s",
             f"  error of sqrt(P): {errors.rms:.1e} typically, {errors.bound:.1e} at worst; "

@@ -6,6 +6,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from gbnbench.analysis.limits import check_harmonic
 from gbnbench.analysis.streamed import pairs, two_groups
 from gbnbench.errors import InputError
@@ -83,6 +85,14 @@ def shell_request(
         )
     if low > high:
         raise InputError(f"no integer frequency has |f| in {band!r}")
-    a, b = two_groups(d, f, high)
-    count = 4 * pairs(a, b, low, high) if d > 1 else 2 * (math.isqrt(high) - math.isqrt(low - 1))
-    return Request("shells", n, d, f, realizations, count, low, high)
+    return Request("shells", n, d, f, realizations, _count(d, f, low, high), low, high)
+
+
+def _count(d: int, fmax: int, low: int, high: int) -> int:
+    """Frequencies with low <= |f|^2 <= high, over the whole space."""
+    if d == 1:
+        return 2 * (math.isqrt(high) - math.isqrt(low - 1))
+    a, b = two_groups(d, fmax, high)
+    # A pair stands for (fa, fb), (fa, -fb) and their mirror images, which are two where either is 0.
+    alone = sum(int(np.count_nonzero((g.square >= low) & (g.square <= high))) for g in (a, b))
+    return 4 * pairs(a, b, low, high) - 2 * alone

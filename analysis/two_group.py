@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -239,9 +240,16 @@ class Frequencies:
             np.uint32(again),
         )
 
+    @cached_property
     def all_columns(self) -> Any:
         """Bounds by which every row tile takes every column."""
         return self.p.runtime.upload(np.tile(np.array([0, self.b.count], np.uint32), (self.tiles, 1)))
+
+
+@lru_cache(maxsize=8)
+def whole_frequencies(p: Precision, d: int, leading: Axes, trailing: Axes) -> Frequencies:
+    """Two whole groups' frequencies, kept from call to call as a transform's twiddle factors are."""
+    return Frequencies(p, d, Group(leading), Group(trailing))
 
 
 @dataclass(frozen=True)
@@ -288,12 +296,13 @@ class TwoGroupProduct:
         bounds: NDArray[np.uint32] | None = None,
     ) -> None:
         self.p, self.n = p, n
-        self.frequencies = Frequencies(p, d, a, b)
+        whole = a.order is None and b.order is None
+        self.frequencies = whole_frequencies(p, d, a.axes, b.axes) if whole else Frequencies(p, d, a, b)
         rows, columns = self.frequencies.tiles * self.frequencies.rows, self.frequencies.columns
         self.slots = deal(p, n, sets, rows, columns)
         self.stride = padded(n, self.slots.span)
         compensated = self.slots.sums(n, p.lanes) > COMPENSATED_FROM
-        self._bounds = self.frequencies.all_columns() if bounds is None else p.runtime.upload(bounds)
+        self._bounds = self.frequencies.all_columns if bounds is None else p.runtime.upload(bounds)
         self.program = self.frequencies.program(compensated)
         self._sizes = self.frequencies.table_sizes(self.slots.length)
         real, total = np.dtype(p.real).itemsize, np.dtype(p.sum).itemsize

@@ -66,7 +66,7 @@ class Spectrum:
     @property
     def resolvable(self) -> float:
         """Smallest power that is typically known to 1%: about (200 error_rms)^2."""
-        return (self.error_rms * (1 + math.sqrt(1.01)) / 0.01) ** 2
+        return _resolvable(self.error_rms)
 
     @property
     def spacing(self) -> float:
@@ -86,6 +86,11 @@ class Spectrum:
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
         return np.array(self.power, dtype=dtype) if copy else np.asarray(self.power, dtype=dtype)
+
+
+def _resolvable(rms: float) -> float:
+    """Power whose square root may be off by rms, and the power yet by no more than 1%."""
+    return (rms * (1 + math.sqrt(1.01)) / 0.01) ** 2
 
 
 @dataclass(frozen=True)
@@ -175,6 +180,11 @@ class ShellSpectrum:
     def to_frame(self) -> pd.DataFrame:
         """Columns frequency, nu, power, count, deviation."""
         return self.radial().to_frame().assign(deviation=self.deviation)
+
+    @property
+    def resolvable(self) -> float:
+        """Smallest power of one frequency that is typically known to 1%."""
+        return _resolvable(self.error_rms)
 
 
 @dataclass(frozen=True)

@@ -1,12 +1,12 @@
 /* The trailing group's cosines and sines, carried from points to the nodes of a grid on the first axis (window.py).
  *
  * One work-item takes LANES neighbouring nodes of one set: it finds the window's values at its nodes for up to RUN
- * points at a time, of those whose support reaches them, and adds to each node the points' cosines and sines by them,
+ * neighbouring points at a time, of those whose support reaches them, and adds to each node the points' cosines and sines by them,
  * NODES nodes and LANES frequencies side by side. Points are sorted by cell, where each cell's begin is told by
- * `starts`; this launch takes those from `begin` on, for which there are tables. The rounding of the nodes' sums is
+ * `starts`; this launch takes those from `begin` on, for which there are tables, and begins at 0 where `fresh`. The rounding of the nodes' sums is
  * kept beside them where KEPT_SUMS. Layout of points: [LANES frequencies][point][cos, sin][lane]; of nodes as tables.cl.
  */
-#define RUN (SUM_POINTS / 2)
+#define RUN SUM_POINTS
 #if LANES < 4
 #define NODES LANES
 #else
@@ -59,7 +59,8 @@ __kernel void spread(__global const REAL *restrict table, const ulong slot_size,
                      const uint columns, __global const REAL *place, __global const uint *starts,
                      __global const REAL *coefficients, const uint stride, const uint nodes, const uint first_node,
                      __global const REAL *weight, const uint weight_stride, __global REAL *restrict out,
-                     __global REAL *restrict kept, const ulong grid_size, const uint groups)
+                     __global REAL *restrict kept, const ulong grid_size, const uint groups,
+                     const uint fresh)
 {
     if (get_global_id(0) >= groups) return;
     const uint node = (first_node + get_global_id(0) * LANES) % nodes;
@@ -70,8 +71,16 @@ __kernel void spread(__global const REAL *restrict table, const ulong slot_size,
     __global const uint *start = starts + (ulong)set * (nodes + 1);
     const uint row = WIDTH + 2 * LANES;
     REAL values[RUN * LANES];
-    uint which[RUN];
-    uint held = 0;
+    uint held = 0, first_held = 0;
+    if (fresh) {
+        for (uint j = 0; j < columns; j++) {
+            const ulong to = ((ulong)(j / COLUMNS) * nodes * COLUMNS + (ulong)node * COLUMNS + j % COLUMNS * LANES) * 2;
+            STOREV((REALV)0, grid + to, 0);
+            STOREV((REALV)0, grid + to, LANES);
+            STOREV((REALV)0, rest + to, 0);
+            STOREV((REALV)0, rest + to, LANES);
+        }
+    }
     /* from the first cell whose points reach the first node to the last that reach the last, and one step to end */
     for (uint step = 0; step < WIDTH + LANES; step++) {
         const uint cell = (node + nodes + step - WIDTH / 2) % nodes;
@@ -83,24 +92,24 @@ __kernel void spread(__global const REAL *restrict table, const ulong slot_size,
         /* the window's cell at the first node is WIDTH - 1 - step; LANES zeros stand on either side */
         __global const REAL *of = coefficients + (WIDTH - 1 + LANES - step);
         while (k < end || (last && held > 0)) {
-            while (k < end && held < RUN) {
+            if (held == 0) first_held = k;
+            while (k < end && held < RUN && k == first_held + held) {
                 const REAL s = place[(ulong)set * stride + k] - (REAL)0.5;
                 REALV value = LOADV(of, 0);
                 for (uint p = 1; p <= DEGREE; p++)
                     value = value * s + LOADV(of, p * row);
                 value *= weight[(ulong)set * weight_stride + k];
                 STOREV(value, values, held * LANES);
-                which[held] = k - begin;
                 held++;
                 k++;
             }
-            if (held < RUN && !last) break;
+            if (k == end && held < RUN && !last) break;
             for (uint j = 0; j < columns; j += LANES) {
-                __global const REAL *column = slot + (ulong)j * length * 2;
+                __global const REAL *column = slot + ((ulong)j * length + (first_held - begin) * LANES) * 2;
                 for (uint first = 0; first < LANES; first += NODES) {
                     EACH_NODE(CLEAR)
                     for (uint h = 0; h < held; h++) {
-                        __global const REAL *at = column + which[h] * (2 * LANES);
+                        __global const REAL *at = column + h * (2 * LANES);
                         const REALV cosines = LOADV(at, 0), sines = LOADV(at, LANES);
                         EACH_NODE(TAKE)
                     }

@@ -10,7 +10,8 @@ import pytest
 
 import gbnbench
 from gbnbench.analysis.catalogue import BY_NAME, CATALOGUE
-from gbnbench.analysis.measures import analyse, default_fmax, measures
+from gbnbench.analysis.limits import default_fmax
+from gbnbench.analysis.measures import analyse, measures
 from gbnbench.errors import InputError
 
 POINTS = Path(__file__).parents[2].parent / "shared" / "points"
