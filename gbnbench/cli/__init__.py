@@ -13,6 +13,7 @@ from gbnbench.cli.compare import compare
 from gbnbench.cli.machine import devices, doctor
 from gbnbench.cli.points import analyze, generate
 from gbnbench.cli.report import report
+from gbnbench.cli.spectrum import spectrum
 from gbnbench.errors import GbnbenchError
 
 BAD, STOPPED, PIPE = 2, 130, 141  # exit codes; 0 is done, 1 is worse than a baseline or a failed check
@@ -33,7 +34,7 @@ def gbnbench() -> None:
     """
 
 
-for _command in (compare, generate, analyze, report, devices, doctor):
+for _command in (compare, generate, analyze, spectrum, report, devices, doctor):
     gbnbench.add_command(_command)
 
 

@@ -44,9 +44,15 @@ def generate(name: str, n: int, d: int, realizations: int, seed: int, out: Path)
 @click.command()
 @click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="FILE...")
 @click.option("--json", "as_json", is_flag=True, help="Print a list of {path, set, n, d, measures}.")
+@click.option("--explain", is_flag=True, help="Say how the spectra would be found, at what cost; do nothing.")
 @options.device
-def analyze(files: tuple[Path, ...], as_json: bool) -> None:
+def analyze(files: tuple[Path, ...], as_json: bool, explain: bool) -> None:
     """Measure every set in every FILE, one row a set."""
+    if explain and as_json:
+        raise click.UsageError("--explain and --json do not go together: leave one out")
+    if explain:
+        _explain(files)
+        return
     from gbnbench.analysis.measures import measures
     from gbnbench.points import read
 
@@ -73,6 +79,25 @@ def analyze(files: tuple[Path, ...], as_json: bool) -> None:
         click.echo(json.dumps(listed, indent=2, allow_nan=False))
     elif rows:
         _table(rows)
+    if failed:
+        click.get_current_context().exit(2)
+
+
+def _explain(files: tuple[Path, ...]) -> None:
+    """Print, for each file, the plan of its sets' spectra."""
+    from gbnbench.asked import Asked
+    from gbnbench.points import read
+
+    failed = False
+    for path in files:
+        try:
+            shapes = [x.shape for x in read(path)]
+            for n, d in dict.fromkeys(shapes):
+                times = shapes.count((n, d))
+                click.echo(f"{path}{f', {times} sets, each' * (times > 1)}:\n{Asked().plan(n, d, 1)}")
+        except GbnbenchError as error:
+            failed = True
+            click.echo(f"gbnbench: error: {error}", err=True)
     if failed:
         click.get_current_context().exit(2)
 

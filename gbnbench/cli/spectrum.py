@@ -1,0 +1,127 @@
+"""``gbnbench spectrum``: the power of point-set files at just the frequencies asked for."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import click
+
+from gbnbench.cli import options
+
+EPILOG = """\b
+Examples:
+  gbnbench spectrum mine.txt                        what it is like: floor, peak, lowest shells
+  gbnbench spectrum mine.txt -o mine.png            its picture; .csv .npz .npy hold the numbers
+  gbnbench spectrum sets/*.txt --shells -o radial.csv
+  gbnbench spectrum mine.txt --band 0,8 --floor 1e-6
+  gbnbench spectrum mine.txt --at frequencies.txt --weights weights.txt
+  gbnbench spectrum --explain --shells -n 4096 -d 10 --fmax 3
+"""
+
+
+class Band(click.ParamType[tuple[float, float]]):
+    """Two numbers parted by a comma."""
+
+    name = "low,high"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[float, float]:
+        """Read the text once; click hands back what is read already."""
+        if isinstance(value, tuple):
+            return value
+        try:
+            low, high = (float(word) for word in str(value).split(","))
+        except ValueError:
+            self.fail(f"must be the least and the largest |f|, such as 2,8; got {value!r}", param, ctx)
+        if not 0 <= low <= high < math.inf:
+            self.fail(f"must be 0 <= LOW <= HIGH, cycles per unit length; got {value!r}", param, ctx)
+        return low, high
+
+
+@click.command(epilog=EPILOG)
+@click.argument("files", nargs=-1, type=click.Path(path_type=Path), metavar="FILE...")
+@click.option(
+    "--fmax", type=click.IntRange(1),
+    help="Largest harmonic on each axis.  [default: just beyond nu = 2, or as affordable]",
+)  # fmt: skip
+@click.option("--half", is_flag=True, help="Half the cube, f0 >= 0: the rest mirrors it.")
+@click.option("--shells", is_flag=True, help="Radial power and anisotropy, without the cube.")
+@click.option("--band", type=Band(), metavar="LOW,HIGH", help="Only shells of these |f|.")
+@click.option("--corners", is_flag=True, help="Shells beyond fmax too, as far as the cube holds them.")
+@click.option("--at", type=click.Path(path_type=Path), metavar="LIST", help="Only the frequencies in this "
+              "file, a row each.")  # fmt: skip
+@click.option("--weights", type=click.Path(path_type=Path), metavar="LIST", help="Weights of the points, one "
+              "a line.")  # fmt: skip
+@click.option("--precision", type=click.Choice(["double", "float"]), help="[default: double]")
+@click.option("--floor", type=float, metavar="P", help="Smallest power to be known to 1%; the cheapest way "
+              "there is chosen.")  # fmt: skip
+@click.option("--each", is_flag=True, help="A spectrum of each set, not their mean; OUT gets numbers.")
+@click.option("--explain", is_flag=True, help="Say what would be done, why, at what cost and error; do "
+              "nothing.")  # fmt: skip
+@click.option("-n", "n", type=click.IntRange(1), help="Points a set, with --explain and no FILE.  "
+              "[default: 1024]")  # fmt: skip
+@click.option("-d", "d", type=click.IntRange(1), help="Dimension, likewise.  [default: 2]")
+@click.option("--realizations", type=click.IntRange(1), help="Sets, likewise.  [default: 1]")
+@click.option(
+    "-o", "--out", type=click.Path(path_type=Path, dir_okay=False),
+    help="File to write, replacing any: .npz .npy .csv .png .pdf.",
+)  # fmt: skip
+@options.device
+def spectrum(
+    files: tuple[Path, ...],
+    fmax: int | None,
+    half: bool,
+    shells: bool,
+    band: tuple[float, float] | None,
+    corners: bool,
+    at: Path | None,
+    weights: Path | None,
+    precision: str | None,
+    floor: float | None,
+    each: bool,
+    explain: bool,
+    n: int | None,
+    d: int | None,
+    realizations: int | None,
+    out: Path | None,
+) -> None:
+    """Exact power of the point sets in every FILE, averaged over sets: only what is asked for.
+
+    Without options it is the whole cube of frequencies; --half, --shells (or --band, --corners) and --at
+    ask for less.
+    """
+    asked_for = {"--fmax": fmax, "--half": half, "--shells": shells, "--band": band, "--corners": corners}
+    _refuse_both("--at", at, **asked_for)
+    _refuse_both("--half", half, **{"--shells": shells, "--band": band, "--corners": corners})
+    sizes = {"-n": n, "-d": d, "--realizations": realizations}
+    if files:
+        _refuse_both("FILE", files, **sizes)
+    elif not explain:
+        raise click.UsageError("name a FILE of points; or plan without one: --explain -n 1024 -d 2")
+    from gbnbench.asked import Asked
+    from gbnbench.cli import spectrum_work as work
+    from gbnbench.inputs import read_frequencies
+
+    if out is not None and not explain:
+        work.check_place(out, [*files, *filter(None, (at, weights))])
+    sets = work.read_sets(files, each=each)
+    columns = sets[0].x.shape[2] if sets else d
+    listed = None if at is None else read_frequencies(at, columns)
+    asked = Asked(fmax, half, shells or corners or band is not None, band, corners, listed, precision, floor)
+    if not explain:
+        work.find(asked, sets, weights, out, each=each)
+    elif sets:
+        work.explain(asked, sets)
+    else:
+        d = (d or 2) if listed is None else listed.shape[1]
+        click.echo(asked.plan(n or 1024, d, realizations or 1))
+
+
+def _refuse_both(name: str, given: object, **others: object) -> None:
+    """Refuse options that ask for different things."""
+    clash = [other for other, value in others.items() if value not in (None, False)]
+    if given not in (None, False) and clash:
+        raise click.UsageError(f"{name} and {clash[0]} do not go together: leave one out")

@@ -1,0 +1,91 @@
+"""What ``gbnbench spectrum`` prints: a headline, how exact it is, the numbers of note, the first rows."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gbnbench.analysis.accuracy import resolvable_power
+from gbnbench.analysis.anisotropy import shells_of
+from gbnbench.analysis.profile import noise_floor, peak, power_at_1
+from gbnbench.errors import RefusalError
+from gbnbench.results import ShellSpectrum, Spectrum
+from gbnbench.spectra import columns
+
+ROWS = 16  # printed
+
+
+def told(result: Spectrum | ShellSpectrum, label: str) -> str:
+    """Say what a file would hold, the numbers of note and the first rows."""
+    lines = [headline(result, label), f"  {exactness(result)}"]
+    if isinstance(result, Spectrum) and result.frequencies is not None:
+        rows = columns(result)
+    else:
+        shells = shells_of(result) if isinstance(result, Spectrum) else result
+        lines += _of_note(shells)
+        rows = columns(shells)
+        del rows["deviation"]
+        again = np.diff(rows["ring"], prepend=-1) == 0  # a ring's number stands by its first shell
+        rows["ring"] = np.where(again, "", rows["ring"].astype(str))
+        rows["anisotropy_db"] = np.where(again, np.nan, rows["anisotropy_db"])
+    lines += ["", *_aligned({name: values[:ROWS] for name, values in rows.items()})]
+    more = len(rows["power"]) - ROWS
+    return "\n".join([*lines, f"... {more:,} more: -o FILE.csv has all"] if more > 0 else lines)
+
+
+def _of_note(shells: ShellSpectrum) -> list[str]:
+    """Noise floor, power at 1 and peak, of shells that are whole from the first."""
+    if shells.frequency[0] > 1 or shells.frequency[-1] > shells.fmax:
+        return []
+    profile, said = shells.radial(), []
+    try:
+        said += [f"noise floor {noise_floor(profile):.4g}", f"P(|f|=1) {power_at_1(profile):.4g}"]
+        height, nu = peak(profile)
+        said += [f"peak {height:.4g} at nu = {nu:.3g}"]
+    except RefusalError:  # these shells do not reach so far
+        pass
+    return [f"  {', '.join(said)}"] if said else []
+
+
+def headline(result: Spectrum | ShellSpectrum, label: str) -> str:
+    """Name what was found, and of what points."""
+    mean = f", mean of {result.realizations:,} sets" if result.realizations > 1 else ""
+    return f"{_content(result)} of {label} (n={result.n:,}, d={result.d}{mean})"
+
+
+def _content(result: Spectrum | ShellSpectrum) -> str:
+    if isinstance(result, ShellSpectrum):
+        low, high = result.frequency[[0, -1]]
+        many = "s" * (len(result.frequency) > 1)
+        return f"{len(result.frequency):,} shell{many}, |f| from {low:.4g} to {high:.4g},"
+    if result.frequencies is not None:
+        return f"{len(result):,} listed frequencies"
+    return f"{'half ' if result.half else ''}cube |f_a| <= {result.fmax}, {result.power.size:,} frequencies,"
+
+
+def exactness(result: Spectrum | ShellSpectrum) -> str:
+    """Say how it was found and how far off it may be."""
+    return (
+        f"{result.method} in {result.precision}; sqrt(P) is off by {result.error_rms:.1e} typically, "
+        f"{result.error_bound:.1e} at worst; P = {resolvable_power(result.error_rms):.1e} is known to 1%"
+    )
+
+
+def _aligned(rows: dict[str, NDArray[Any]]) -> list[str]:
+    """Lines of right-aligned columns under their heads."""
+    cells = {name: [_cell(value) for value in values.tolist()] for name, values in rows.items()}
+    widths = {name: max(map(len, [name, *values])) for name, values in cells.items()}
+    lines = ["  ".join(name.rjust(width) for name, width in widths.items())]
+    for row in zip(*cells.values(), strict=True):
+        line = "  ".join(cell.rjust(width) for cell, width in zip(row, widths.values(), strict=True))
+        lines.append(line.rstrip())
+    return lines
+
+
+def _cell(value: object) -> str:
+    if isinstance(value, float):
+        return "" if math.isnan(value) else f"{value:.4g}"
+    return str(value)

@@ -1,0 +1,115 @@
+"""Spectra as files: .npz with everything, .npy with the power alone, .csv with a row a frequency or shell."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gbnbench import __version__, archive
+from gbnbench.analysis.anisotropy import anisotropy_of_shells
+from gbnbench.errors import InputError
+from gbnbench.results import ShellSpectrum, Spectrum
+
+DATA = (".npz", ".npy", ".csv")
+MOST_ROWS = 4_000_000  # of a .csv, 150 MB
+
+_ABOUT = ("n", "d", "realizations", "fmax", "precision", "method", "device", "error_rms", "error_bound")
+_SHELL = ("frequency", "nu", "power", "count", "deviation")
+
+
+def check_writable(suffix: str, what: str, rows: int) -> None:
+    """Refuse, before any work, a format that cannot hold a spectrum.
+
+    Parameters
+    ----------
+    suffix : str
+        One of ``DATA``.
+    what : {"cube", "half cube", "shells", "listed"}
+        Which frequencies.
+    rows : int
+        Frequencies or shells.
+
+    Raises
+    ------
+    InputError
+        If it is .npy for shells, whose |f| would be lost, or .csv of more rows than anyone can read.
+    """
+    if suffix == ".npy" and what == "shells":
+        raise InputError("an .npy has no room for the |f| of shells; write .csv or .npz")
+    if suffix == ".csv" and rows > MOST_ROWS:
+        raise InputError(f"a .csv of {rows:,} rows is more than {MOST_ROWS:,}; write .npz or .npy")
+
+
+def encode(suffix: str, result: Spectrum | ShellSpectrum, sources: Sequence[str] = ()) -> bytes:
+    """Make the bytes of a file.
+
+    Parameters
+    ----------
+    suffix : str
+        One of ``DATA``.
+    result : Spectrum or ShellSpectrum
+        What was found.
+    sources : sequence of str
+        Names of the files that the points are from, kept in an .npz.
+
+    Returns
+    -------
+    bytes
+        .npz: every field of the result by its name, ``version`` and ``sources``; of shells also the rings'
+        ``ring`` and ``anisotropy_db``. .npy: ``power``. .csv: ``columns``.
+    """
+    import pandas as pd
+
+    if suffix == ".npz":
+        return archive.to_npz(**_arrays(result, sources))
+    if suffix == ".npy":
+        check_writable(suffix, "shells" if isinstance(result, ShellSpectrum) else "cube", 0)
+        return _npy(result.power)
+    return archive.to_csv(pd.DataFrame(columns(result)))
+
+
+def columns(result: Spectrum | ShellSpectrum) -> dict[str, NDArray[Any]]:
+    """Columns of a table with a row a frequency or shell.
+
+    Returns
+    -------
+    dict of (rows,) arrays
+        Of a cube: f0, f1, ..., power. Of listed frequencies: f0, f1, ..., frequency, nu, power. Of shells:
+        frequency, nu, power, count, deviation, and of the ring that the shell is in, its number ``ring`` and
+        its ``anisotropy_db``, the same for all its shells.
+    """
+    if isinstance(result, ShellSpectrum):
+        rings = anisotropy_of_shells(result)
+        ring = np.rint(result.frequency).astype(np.int64)
+        decibel = rings["anisotropy_db"].to_numpy()[np.searchsorted(rings["frequency"].to_numpy(), ring)]
+        return {**{name: getattr(result, name) for name in _SHELL}, "ring": ring, "anisotropy_db": decibel}
+    if result.frequencies is None:
+        first = np.arange(0 if result.half else -result.fmax, result.fmax + 1)
+        rest = np.arange(-result.fmax, result.fmax + 1)
+        grid = np.meshgrid(first, *[rest] * (result.d - 1), indexing="ij")
+        return {**{f"f{a}": axis.ravel() for a, axis in enumerate(grid)}, "power": result.power.ravel()}
+    found = {f"f{a}": result.frequencies[:, a] for a in range(result.d)}
+    radius = np.sqrt((result.frequencies.astype(np.float64) ** 2).sum(axis=1))
+    return {**found, "frequency": radius, "nu": radius * result.spacing, "power": result.power}
+
+
+def _arrays(result: Spectrum | ShellSpectrum, sources: Sequence[str]) -> dict[str, NDArray[Any]]:
+    about = {name: np.asarray(getattr(result, name)) for name in _ABOUT}
+    about |= {"version": np.asarray(__version__), "sources": np.asarray(list(sources), dtype=np.str_)}
+    if isinstance(result, ShellSpectrum):
+        rings = anisotropy_of_shells(result)
+        found = {"ring": rings["frequency"].to_numpy(), "anisotropy_db": rings["anisotropy_db"].to_numpy()}
+        return {**{name: getattr(result, name) for name in _SHELL}, **found, **about}
+    about |= {name: np.asarray(getattr(result, name)) for name in ("half", "weighted")}
+    listed = {} if result.frequencies is None else {"frequencies": result.frequencies}
+    return {"power": result.power, **listed, **about}
+
+
+def _npy(power: NDArray[Any]) -> bytes:
+    file = io.BytesIO()
+    np.lib.format.write_array(file, np.ascontiguousarray(power), allow_pickle=False)
+    return file.getvalue()
