@@ -43,7 +43,17 @@ def encode(result: SourceResult) -> dict[str, bytes]:
     arrays: dict[str, NDArray[Any]] = {"power": spectrum.power}
     if spectrum.frequencies is not None:
         arrays["frequencies"] = spectrum.frequencies
-    for name in ("n", "d", "realizations", "fmax", "precision", "method", "device"):
+    for name in (
+        "n",
+        "d",
+        "realizations",
+        "fmax",
+        "precision",
+        "method",
+        "device",
+        "error_rms",
+        "error_bound",
+    ):
         arrays[name] = np.asarray(getattr(spectrum, name))
     about = {
         "key": result.key,
@@ -100,6 +110,8 @@ def decode(folder: Path) -> SourceResult:
             precision=str(arrays["precision"]),
             method=str(arrays["method"]),
             device=str(arrays["device"]),
+            error_rms=float(arrays["error_rms"]),
+            error_bound=float(arrays["error_bound"]),
         )
         measures = Measures(
             _numbers_from_json(about["measures"]),

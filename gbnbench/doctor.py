@@ -19,8 +19,8 @@ from gbnbench.opencl import Device, choose, runtime
 from gbnbench.torus import FloatArray, displacement, spacing
 
 # n, d, fmax: none a multiple of a vector, a tile or a chunk.
-PERIODOGRAMS = ((7, 1, 19), (131, 2, 9), (333, 2, 5), (61, 3, 3), (29, 5, 1))
-QUICK_PERIODOGRAMS = ((131, 2, 9), (29, 5, 1))
+PERIODOGRAMS = ((7, 1, 19), (131, 2, 11), (333, 2, 5), (61, 3, 3), (29, 5, 1))
+QUICK_PERIODOGRAMS = ((131, 2, 11), (29, 5, 1))
 # n, d, sigma: the first two by the nearest image, the others by theta.
 ENERGIES = ((613, 2, 0.9), (401, 1, 1.0), (83, 2, 1.0), (53, 3, 0.7), (37, 8, 1.0))
 QUICK_ENERGIES = ((401, 2, 1.0), (53, 3, 0.7))
@@ -117,19 +117,30 @@ def numpy_gradient(x: FloatArray, sigma: float) -> FloatArray:
 
 
 def _periodogram(n: int, d: int, fmax: int, precision: str) -> Iterator[Check]:
+    from gbnbench.analysis.gridded import griddable
     from gbnbench.analysis.periodogram import periodogram
+    from gbnbench.analysis.shell_spectrum import shells
 
     x = np.random.default_rng(n).random((n, d))
     base = 2 * fmax + 1
     f = np.stack(np.unravel_index(np.arange(base**d), (base,) * d), axis=1).astype(np.int64) - fmax
     expected = np.sqrt(numpy_power(x, f))
     size = f"n={n} d={d} F={fmax}"
-    for kernel, power in (
-        ("two-group product", periodogram(x, fmax, precision).power.ravel()),
-        ("listed frequencies", periodogram(x, precision=precision, frequencies=f).power),
-    ):
+    found = {
+        "two-group product": periodogram(x, fmax, precision, method="two-group product").power.ravel(),
+        "listed frequencies": periodogram(x, precision=precision, frequencies=f).power,
+    }
+    if griddable(d, fmax, precision):
+        found["gridded product"] = periodogram(x, fmax, precision, method="gridded product").power.ravel()
+    for kernel, power in found.items():
         error = float(np.max(np.abs(np.sqrt(power) - expected)))
         yield Check(kernel, size, precision, error, AMPLITUDE[precision])
+    if d > 1:
+        streamed = shells(x, fmax, precision, corners=True)
+        _, label = np.unique((f**2).sum(axis=1), return_inverse=True)
+        mean = np.bincount(label, expected**2) / np.bincount(label)
+        error = float(np.max(np.abs(np.sqrt(streamed.power) - np.sqrt(mean[1:]))))
+        yield Check("shells", size, precision, error, AMPLITUDE[precision])
 
 
 def _energy(n: int, d: int, sigma: float, precision: str) -> Iterator[Check]:

@@ -51,23 +51,28 @@ def test_the_environment_variable_chooses(monkeypatch):
 def test_without_any_device_importing_works_and_the_error_says_what_to_install():
     done = python(
         "import gbnbench\n"
-        "try:\n    gbnbench.periodogram([[0.5, 0.5]], 1)\n"
+        "print(gbnbench.periodogram([[0.5, 0.5]], 1).device)\n"
+        "try:\n    gbnbench.generate('gbn', n=4, d=2)\n"
         "except gbnbench.GbnbenchError as error:\n    print(error)",
         OCL_ICD_VENDORS="/nonexistent",
     )
     assert done.returncode == 0, done.stderr
-    assert "no OpenCL device" in done.stdout
+    numpy, refusal = done.stdout.splitlines()
+    assert numpy == "numpy, no OpenCL device"
+    assert "no OpenCL device" in refusal
     assert "pip install" in done.stdout
 
 
 def test_without_pyopencl_the_error_says_what_to_install(tmp_path):
     (tmp_path / "pyopencl.py").write_text("raise ImportError('none here')")
     done = python(
-        "import gbnbench\ntry:\n    gbnbench.periodogram([[0.5, 0.5]], 1)\n"
+        "import gbnbench\nprint(gbnbench.periodogram([[0.5, 0.5]], 1).device)\n"
+        "try:\n    gbnbench.generate('gbn', n=4, d=2)\n"
         "except gbnbench.GbnbenchError as error:\n    print(error)",
         PYTHONPATH=str(tmp_path),
     )
     assert done.returncode == 0, done.stderr
+    assert done.stdout.startswith("numpy, no OpenCL device")
     assert "pyopencl cannot be imported" in done.stdout
     assert "pip install" in done.stdout
 
