@@ -24,6 +24,7 @@ from gbnbench.opencl import Program
 from gbnbench.torus import FloatArray
 
 TABLE_BYTES = 4 << 20  # of both groups' tables together: what stays in cache
+COLUMN_BYTES = 512 << 10  # of the columns that one row tile after another is multiplied with
 LEAST_ITEMS = 4  # work-items a core, so that cores end together
 GPU_ITEMS = 256  # work-items a multiprocessor
 COMPENSATED_FROM = 32  # sums added one after another, from which on their rounding is kept
@@ -222,11 +223,16 @@ class Frequencies:
         again: bool = False,
     ) -> None:
         """Sum the products of both tables over their points; a table of size 0 a slot is shared by all."""
-        blocks = min(self.columns, -(-items_of(self.p) // (self.tiles * slots)))
-        each = 1 if self.width > 1 else -(-self.columns // blocks)
+        if self.width > 1:
+            each, items = 1, (padded(self.columns, self.width), self.tiles)
+        else:
+            blocks = min(self.columns, -(-items_of(self.p) // (self.tiles * slots)))
+            of_a_column = sizes[1] // self.columns * np.dtype(self.p.real).itemsize
+            each = max(1, min(-(-self.columns // blocks), COLUMN_BYTES // of_a_column))
+            items = (self.tiles, -(-self.columns // each))
         program.run(
             "product",
-            (padded(-(-self.columns // each), self.width), self.tiles, slots),
+            (*items, slots),
             (self.width, 1, 1),
             tables[0],
             np.uint64(sizes[0]),

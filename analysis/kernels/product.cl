@@ -67,8 +67,13 @@ __kernel void product(__global const REAL *restrict leading, const ulong leading
                       __global const REAL *restrict trailing, const ulong trailing_size, const uint length, __global const uint *bounds, const uint columns, const uint each,
                       __global SUM *restrict amplitude, const uint again)
 {
+#if COLUMNS == 1 /* one work-item after another takes the same columns, which then stay in cache */
+    const uint tile = get_global_id(0), tiles = get_global_size(0);
+    uint j = get_global_id(1) * each;
+#else /* a work-group's columns lie side by side */
     const uint tile = get_global_id(1), tiles = get_global_size(1);
     uint j = get_global_id(0) * each;
+#endif
     uint end = j + each;
     j = j < bounds[2 * tile] ? bounds[2 * tile] : j;
     end = end > bounds[2 * tile + 1] ? bounds[2 * tile + 1] : end;
