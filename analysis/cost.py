@@ -54,7 +54,7 @@ def cube_work(p: Precision, request: Request, gridded: bool) -> float:
         nodes = nodes_for(f, p.lanes)
         reached = WIDTH[p.name] + p.lanes
         carried = n * (ENTRY * trailing + reached * (SPREAD * trailing + 2 * DEGREE[p.name]))
-        each = carried + trailing * nodes * (CARRIED + TILE / 2 * (f + 1))
+        each = carried + trailing * nodes * (CARRIED + 0.8 * TILE * (f + 1))
     else:
         divided = cheapest_division(d, f, rows_of(p))
         a, b = half_size(divided.leading), half_size(divided.trailing)

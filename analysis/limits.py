@@ -41,7 +41,7 @@ def check_fmax(fmax: object, d: int) -> int:
         way_out = (
             f"the largest fmax that fits is {fitting}; gbnbench.shells(x, fmax) or --shells needs no cube"
             if fitting >= 1
-            else "list the frequencies you need, or take gbnbench.shells(x, fmax) or --shells, which need no cube"
+            else "list the frequencies you need, or take gbnbench.shells(x, fmax): no cube"
         )
         raise InputError(
             f"fmax={f} in d={d} means {float(count):.3g} frequencies, of which {room:.3g} fit in memory; "

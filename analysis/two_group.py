@@ -25,6 +25,7 @@ from gbnbench.torus import FloatArray
 
 TABLE_BYTES = 4 << 20  # of both groups' tables together: what stays in cache
 COLUMN_BYTES = 512 << 10  # of the columns that one row tile after another is multiplied with
+LEAST_COLUMNS = 32  # of them, so that a row tile is worth fetching
 LEAST_ITEMS = 4  # work-items a core, so that cores end together
 GPU_ITEMS = 256  # work-items a multiprocessor
 COMPENSATED_FROM = 32  # sums added one after another, from which on their rounding is kept
@@ -223,28 +224,32 @@ class Frequencies:
         again: bool = False,
     ) -> None:
         """Sum the products of both tables over their points; a table of size 0 a slot is shared by all."""
-        if self.width > 1:
-            each, items = 1, (padded(self.columns, self.width), self.tiles)
-        else:
+        step, each = length, 1
+        if self.width == 1:
+            of_a_point = sizes[1] // self.columns // length * np.dtype(self.p.real).itemsize
+            step = min(length, max(SUM_POINTS * self.p.lanes, COLUMN_BYTES // (LEAST_COLUMNS * of_a_point)))
             blocks = min(self.columns, -(-items_of(self.p) // (self.tiles * slots)))
-            of_a_column = sizes[1] // self.columns * np.dtype(self.p.real).itemsize
-            each = max(1, min(-(-self.columns // blocks), COLUMN_BYTES // of_a_column))
-            items = (self.tiles, -(-self.columns // each))
-        program.run(
-            "product",
-            (*items, slots),
-            (self.width, 1, 1),
-            tables[0],
-            np.uint64(sizes[0]),
-            tables[1],
-            np.uint64(sizes[1]),
-            np.uint32(length),
-            bounds,
-            np.uint32(self.columns),
-            np.uint32(each),
-            amplitude,
-            np.uint32(again),
-        )
+            each = max(1, min(-(-self.columns // blocks), COLUMN_BYTES // (step * of_a_point)))
+        columns = -(-self.columns // each)
+        items = (self.tiles, columns) if self.width == 1 else (padded(columns, self.width), self.tiles)
+        for begin in range(0, length, step):
+            program.run(
+                "product",
+                (*items, slots),
+                (self.width, 1, 1),
+                tables[0],
+                np.uint64(sizes[0]),
+                tables[1],
+                np.uint64(sizes[1]),
+                np.uint32(length),
+                np.uint32(begin),
+                np.uint32(min(begin + step, length)),
+                bounds,
+                np.uint32(self.columns),
+                np.uint32(each),
+                amplitude,
+                np.uint32(again),
+            )
 
     @cached_property
     def all_columns(self) -> Any:

@@ -53,7 +53,7 @@ class Asked:
             return self.fmax
         if self.band is not None:
             return max(1, math.ceil(self.band[1]))
-        from gbnbench.analysis.measures import default_fmax
+        from gbnbench.analysis.limits import default_fmax
 
         return default_fmax(n, d)
 

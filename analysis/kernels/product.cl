@@ -64,8 +64,9 @@ static void add_up(const SUM cc, const SUM ss, const SUM sc, const SUM cs, __glo
 }
 
 __kernel void product(__global const REAL *restrict leading, const ulong leading_size,
-                      __global const REAL *restrict trailing, const ulong trailing_size, const uint length, __global const uint *bounds, const uint columns, const uint each,
-                      __global SUM *restrict amplitude, const uint again)
+                      __global const REAL *restrict trailing, const ulong trailing_size, const uint length,
+                      const uint from, const uint to, __global const uint *bounds, const uint columns,
+                      const uint each, __global SUM *restrict amplitude, const uint again)
 {
 #if COLUMNS == 1 /* one work-item after another takes the same columns, which then stay in cache */
     const uint tile = get_global_id(0), tiles = get_global_size(0);
@@ -82,8 +83,8 @@ __kernel void product(__global const REAL *restrict leading, const ulong leading
     __global const REAL *row_slot = leading + get_global_id(2) * leading_size;
     __global const REAL *column_slot = trailing + get_global_id(2) * trailing_size;
     __global SUM *out = amplitude + ((ulong)get_global_id(2) * tiles + tile) * columns * (4 * ROWS * KEPT);
-    for (uint begin = 0; begin < length; begin += SUM_POINTS * LANES) {
-        const uint steps = (length - begin < SUM_POINTS * LANES ? length - begin : SUM_POINTS * LANES) / LANES;
+    for (uint begin = from; begin < to; begin += SUM_POINTS * LANES) {
+        const uint steps = (to - begin < SUM_POINTS * LANES ? to - begin : SUM_POINTS * LANES) / LANES;
         const uint started = again || begin > 0;
         for (j = first; j < end; j++) {
             __global const REAL *row = row_slot + ((ulong)tile * length + begin) * (2 * ROWS);
