@@ -18,6 +18,7 @@ EXACT_FROM = 2.0**-12  # doubles from here up are multiples of 2^-64
 # of the two series. A complex product: sqrt(5) (Brent, Percival & Zimmermann 2007).
 COSINE = 5.0
 COMPLEX = math.sqrt(5.0)
+UNRELATED = math.sqrt(2 - math.pi / 2)  # rms difference of two roots of exponentially distributed powers
 
 
 @dataclass(frozen=True)
@@ -39,6 +40,10 @@ class Errors:
     def resolvable(self) -> float:
         """Smallest power that is typically known to 1%."""
         return resolvable_power(self.rms)
+
+    def averaged(self, sets: int, n: int) -> Errors:
+        """Of the mean power of so many sets of n points: typical errors average out, roundings add up."""
+        return Errors(self.rms / math.sqrt(sets), self.bound + (sets - 1) * UNIT["double"] / 2 * math.sqrt(n))
 
 
 @dataclass(frozen=True)
@@ -113,7 +118,9 @@ def sum_errors(
     bound = at.share * (u * (term + running) + v * (2 * math.sqrt(2.0) * beyond + 4))
     bound += 2 * math.pi * fmax * at.coherent
     typical = u * math.sqrt(1.2 + 0.05 * in_registers)
-    return Errors(math.hypot(typical, 2 * math.pi * fmax / math.sqrt(6) * at.scattered), bound)
+    typical = math.hypot(typical, 2 * math.pi * fmax / math.sqrt(6) * at.scattered)
+    # Amplitudes lie between 0 and the share; those that have nothing in common any more differ by 0.66.
+    return Errors(min(typical, UNRELATED), min(bound, 1.001 * at.share))
 
 
 def rounded_at_worst(n: int, d: int, precision: str) -> Coordinates:

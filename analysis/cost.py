@@ -9,6 +9,7 @@ import numpy as np
 from gbnbench.analysis.accuracy import Errors, rounded_at_worst
 from gbnbench.analysis.digits import cheapest_division, half_size, whole_axes
 from gbnbench.analysis.gridded import DEGREE, WIDTH, griddable, gridded_errors
+from gbnbench.analysis.limits import BYTES, MEMORY_SHARE, memory
 from gbnbench.analysis.listed import listed_errors, run_length
 from gbnbench.analysis.precision import Precision, padded
 from gbnbench.analysis.request import Request
@@ -67,9 +68,21 @@ def can_be_gridded(request: Request, precision: str) -> bool:
     return request.what in ("cube", "half cube") and griddable(request.d, request.fmax, precision)
 
 
+def grid_bytes(p: Precision, request: Request) -> int:
+    """Size of the grid of one set; folded it is as large again."""
+    trailing = padded(half_size(whole_axes(request.d, request.fmax)[1:]), p.runtime.group)
+    return nodes_for(request.fmax, p.lanes) * trailing * 2 * np.dtype(p.real).itemsize
+
+
+def grid_fits(p: Precision, request: Request) -> bool:
+    """Whether the grid is a buffer that the device gives, and fits in memory beside the cube."""
+    grid, cube = grid_bytes(p, request), BYTES * (2 * request.fmax + 1) ** request.d
+    return grid <= p.runtime.largest_buffer and 2 * grid + cube <= MEMORY_SHARE * memory()
+
+
 def gridded_is_cheaper(p: Precision, request: Request) -> bool:
     """Whether the gridded product of a cube beats the plain one by more than its launches cost."""
-    if not can_be_gridded(request, p.name):
+    if not can_be_gridded(request, p.name) or not grid_fits(p, request):
         return False
     return cube_work(p, request, gridded=True) + LAUNCHES_MORE < cube_work(p, request, gridded=False)
 
@@ -96,6 +109,7 @@ def device_cost(p: Precision, request: Request, gridded: bool = False) -> Cost:
         slots = _slots(p, request)
         launches = 8.0 if gridded else 3.0 * slots.launches(n) * -(-sets // slots.sets)
         held = 3 * 8 * (2 * request.fmax + 1) ** request.d + 2 * TABLE_BYTES
+        held += 2 * grid_bytes(p, request) if gridded else 0
     device = p.runtime.device
     cores = device.compute_units if device.is_cpu else 1
     seconds = CALL_SECONDS + launches * launch_seconds() + 2 * work / peak(p.name) / cores

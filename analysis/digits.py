@@ -117,7 +117,7 @@ def cheapest_division(d: int, fmax: int, rows: int) -> Division:
     best: tuple[float, Division] | None = None
     for at in range(d):
         lead, trail = (2 * fmax + 1) ** at, (2 * fmax + 1) ** (d - at - 1)
-        ideal = round((math.sqrt((2 * fmax + 1) * lead / trail) - 1) / 2)
+        ideal = min(round((math.sqrt((2 * fmax + 1) * lead / trail) - 1) / 2), fmax)
         near = range(ideal // 2, 2 * ideal + 3) if d > 1 or fmax < 1 << 12 else (ideal,)
         for fine in {0, fmax, *(min(max(f, 0), fmax) for f in near)}:
             found = division(axes, at, fine)

@@ -28,6 +28,7 @@ WIDTH = {"double": 16, "float": 8}
 DEGREE = {"double": 18, "float": 11}
 CHUNK_BYTES = 4 << 20  # tables of the points that are carried to the grid together
 BATCH_BYTES = 8 << 20  # of the sets of a batch
+GRIDS_A_TABLE = 16  # how much larger a batch's grids and amplitudes may be
 KEPT_FROM = 1 << 12  # points near a node, from which on the rounding of their sum is kept
 
 
@@ -144,18 +145,18 @@ class Grid:
             padded(n, p.lanes), max(p.lanes, CHUNK_BYTES // (per_point * real) // p.lanes * p.lanes)
         )
         self._stride = padded(n, self._chunk)
-        self.sets = max(1, min(sets, BATCH_BYTES // (per_point * self._stride * real)))
+        self._grid_size = f.table_sizes(self.nodes)[1]
+        pairs = f.tiles * f.rows * f.columns * 4 * np.dtype(p.sum).itemsize
+        held = max(per_point * self._stride * real, (self._grid_size * real + pairs) // GRIDS_A_TABLE)
+        self.sets = max(1, min(sets, BATCH_BYTES // held))
         self._slots = Slots(self.sets, 1, self._chunk)
         self._point_size = per_point * self._chunk
-        self._grid_size = f.table_sizes(self.nodes)[1]
         self._trailing_size = 2 * f.table_sizes(self._folded)[1]
         self._points = p.runtime.empty(self._point_size * self.sets * real)
         self._leading = node_table(p, d, fmax)
         self._grid = p.runtime.empty(self._grid_size * self.sets * real)
         self._trailing = p.runtime.empty(self._trailing_size * self.sets * real)
-        self.amplitude = p.runtime.empty(
-            self.sets * f.tiles * f.rows * f.columns * 4 * np.dtype(p.sum).itemsize
-        )
+        self.amplitude = p.runtime.empty(self.sets * pairs)
         self._ones = p.runtime.upload(np.ones(self._stride, p.real))
         self._coefficients = window_buffer(p)
 

@@ -37,7 +37,7 @@ def check_fmax(fmax: object, d: int) -> int:
     count = (2 * f + 1) ** d
     room = int(MEMORY_SHARE * memory()) // BYTES
     if count > room:
-        fitting = (math.floor(room ** (1 / d)) - 1) // 2
+        fitting = largest_fmax(room, d) if room >= 3**d else 0
         way_out = (
             f"the largest fmax that fits is {fitting}; gbnbench.shells(x, fmax) or --shells needs no cube"
             if fitting >= 1

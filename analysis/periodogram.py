@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gbnbench.analysis.accuracy import Errors
 from gbnbench.analysis.evaluation import Evaluation
 from gbnbench.analysis.limits import check_fmax
 from gbnbench.analysis.plan import choose
@@ -99,6 +100,7 @@ def periodogram(
     request = Request("half cube" if half else "cube", n, d, f, sets, (2 * f + 1) ** d)
     evaluation = choose(request, precision, floor, method)
     power, errors = evaluation.cube(points, f, w, half=half, mean=True)
+    errors = errors.averaged(sets, n)
     return _spectrum(power, request, evaluation, errors, half=half, weighted=w is not None)
 
 
@@ -123,7 +125,7 @@ def each_power(x: FloatArray, fmax: int, precision: str | None = None) -> tuple[
     request = Request("cube", n, d, fmax, sets, (2 * fmax + 1) ** d)
     evaluation = choose(request, precision, None)
     powers, errors = evaluation.cube(x, fmax, None, half=False, mean=False)
-    return powers, _spectrum(powers.mean(axis=0), request, evaluation, errors)
+    return powers, _spectrum(powers.mean(axis=0), request, evaluation, errors.averaged(sets, n))
 
 
 def _listed(
@@ -139,12 +141,13 @@ def _listed(
     request = Request("listed", n, d, fmax, sets, len(frequencies))
     evaluation = choose(request, precision, floor, method)
     power, errors = evaluation.listed(x, frequencies, weights)
+    errors = errors.averaged(sets, n)
     weighted = weights is not None
     return _spectrum(power, request, evaluation, errors, frequencies=frequencies, weighted=weighted)
 
 
 def _spectrum(
-    power: FloatArray, request: Request, evaluation: Evaluation, errors: Any, **more: Any
+    power: FloatArray, request: Request, evaluation: Evaluation, errors: Errors, **more: Any
 ) -> Spectrum:
     return Spectrum(
         power=power,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -21,7 +22,7 @@ from gbnbench.analysis.cost import (
     numpy_cost,
 )
 from gbnbench.analysis.evaluation import DIRECT, GRIDDED, NUFFT, PRODUCT, SEPARABLE, STREAMED, Evaluation
-from gbnbench.analysis.limits import check_fmax
+from gbnbench.analysis.limits import check_fmax, check_harmonic
 from gbnbench.analysis.precision import precision_of
 from gbnbench.analysis.request import Request, shell_request
 from gbnbench.errors import InputError
@@ -160,11 +161,13 @@ def plan(
     >>> print(plan(1024, 2, 64).method)
     two-group product
     """
-    for name, value in (("n", n), ("d", d), ("realizations", realizations)):
+    listed = 1 if frequencies is None else frequencies
+    counts = {"n": n, "d": d, "realizations": realizations, "frequencies": listed}
+    for name, value in counts.items():
         if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < 1:
             raise InputError(f"{name} must be an integer of at least 1; got {value!r}")
     if frequencies is not None:
-        request = Request("listed", n, d, int(fmax), realizations, frequencies)
+        request = Request("listed", n, d, check_harmonic(fmax, 1), realizations, frequencies)
     elif shells or band is not None or corners:
         request = shell_request(n, d, fmax, realizations, band, corners)
     else:
@@ -188,6 +191,8 @@ def choose(
     if floor is not None or method is not None:
         return planned(request, precision, floor, method).chosen.evaluation
     wanted = precision or "double"
+    if request.what == "shells" and not devices_present():
+        return planned(request, wanted, None).chosen.evaluation  # refuses a cube that does not fit
     exact = {"listed": DIRECT, "shells": STREAMED}.get(request.what, PRODUCT)
     if precision_known(wanted) and devices_present():
         p = precision_of(wanted)  # or say what is missing
@@ -197,7 +202,7 @@ def choose(
 
 def planned(request: Request, precision: str | None, floor: float | None, method: str | None = None) -> Plan:
     """Weigh every evaluation that could serve a request; raises as ``choose``."""
-    if floor is not None and not 0 < floor < math.inf:
+    if floor is not None and not (isinstance(floor, (int, float, np.number)) and 0 < floor < math.inf):
         raise InputError(f"floor must be a positive power, such as 1e-12; got {floor!r}")
     if precision is not None:
         precision_known(precision)
@@ -205,11 +210,14 @@ def planned(request: Request, precision: str | None, floor: float | None, method
     if method is not None and method not in {c.evaluation.method for c in possible}:
         names = ", ".join(dict.fromkeys(c.evaluation.method for c in possible))
         raise InputError(f"method must be one of those for this request: {names}; got {method!r}")
-    weighed = [_weighed(candidate, precision, floor, method) for candidate in possible]
+    averaged = [replace(c, errors=c.errors.averaged(request.realizations, request.n)) for c in possible]
+    weighed = [_weighed(candidate, precision, floor, method) for candidate in averaged]
     fitting = sorted((c for c in weighed if not c.against), key=lambda c: c.cost.seconds)
     if not fitting:
-        if floor is None:
-            precision_of(precision or "double")  # says what the device lacks
+        if floor is None or precision not in {None, *(c.evaluation.precision for c in weighed)}:
+            if devices_present():
+                precision_of(precision or "double")  # says what the device lacks
+            raise InputError(f"{method} does not compute in {precision}; leave one of them out")
         best = min(c.errors.resolvable for c in weighed if precision in (None, c.evaluation.precision))
         raise InputError(
             f"floor={floor:g} is out of reach: the least power known to 1% here is {best:.1g}"
@@ -284,10 +292,10 @@ def candidates(request: Request, floor: float | None, method: str | None = None)
 
 def _nufft(request: Request, floor: float | None) -> list[Candidate]:
     n, d, f = request.n, request.d, request.fmax
-    tightest = nufft.nufft_errors(n, d, f, nufft.TIGHTEST)
     tolerance = nufft.TIGHTEST
-    if floor is not None and rms_for(floor) > tightest.rms:
-        tolerance = max(nufft.TIGHTEST, nufft.nufft_tolerance(rms_for(floor), n, d, f))
+    if floor is not None:
+        with suppress(InputError):  # out of its reach: then it is weighed at its best
+            tolerance = nufft.nufft_tolerance(rms_for(floor), n, d, f)
     errors = nufft.nufft_errors(n, d, f, tolerance)
     seconds = request.realizations * nufft.nufft_seconds(n, d, f, tolerance)
     room = nufft.nufft_bytes(n, d, f, tolerance)

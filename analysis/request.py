@@ -8,9 +8,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gbnbench.analysis import limits
 from gbnbench.analysis.limits import check_harmonic
 from gbnbench.analysis.streamed import pairs, two_groups
 from gbnbench.errors import InputError
+
+SHELL_BYTES = 96  # a shell: on the device, twice on the host, and what they are merged in
+GROUP_BYTES = 64  # a frequency of a group of axes while it is listed and sorted
 
 
 @dataclass(frozen=True)
@@ -81,11 +85,29 @@ def shell_request(
     if high >= 1 << 32:
         raise InputError(
             f"|f|^2 up to {high} does not fit in 32 bits; the largest fmax here is "
-            f"{math.isqrt((1 << 32) // d)}"
+            f"{math.isqrt(((1 << 32) - 1) // (d if corners else 1))}"
         )
     if low > high:
         raise InputError(f"no integer frequency has |f| in {band!r}")
-    return Request("shells", n, d, f, realizations, _count(d, f, low, high), low, high)
+    check_room(d, f, low, high)
+    count = _count(d, f, low, high)
+    if count == 0:
+        raise InputError(f"no integer frequency has |f| in {band!r}")
+    return Request("shells", n, d, f, realizations, count, low, high)
+
+
+def check_room(d: int, fmax: int, low: int, high: int) -> None:
+    """Refuse shells or groups of axes that do not fit in memory, before they are listed."""
+    axes = d - d // 2
+    ball = math.pi ** (axes / 2) / math.gamma(axes / 2 + 1) * (math.sqrt(high) + math.sqrt(axes) / 2) ** axes
+    listed = min(ball, float(2 * fmax + 1) ** axes)
+    needed = max(SHELL_BYTES * (high - low + 1), GROUP_BYTES * listed)
+    room = limits.MEMORY_SHARE * limits.memory()
+    if needed > room:
+        raise InputError(
+            f"shells of |f|^2 from {low} to {high} in d={d} take {needed / 1e9:.3g} GB, more than half "
+            "of this machine's memory; ask for a narrower band or a smaller fmax"
+        )
 
 
 def _count(d: int, fmax: int, low: int, high: int) -> int:

@@ -84,7 +84,10 @@ def shells(
         p = precision_of(evaluation.precision)
         moments, errors = shell_moments(p, points, request.fmax, request.low, request.high, w, progress)
     else:
+        if evaluation.method != SEPARABLE:
+            evaluation = Evaluation(PRODUCT, evaluation.precision)
         moments, errors = _of_cube(evaluation, points, request, w)
+    errors = errors.averaged(sets, n)
     return ShellSpectrum(
         frequency=np.sqrt(moments.square.astype(np.float64)),
         nu=np.sqrt(moments.square.astype(np.float64)) * spacing(n, d),
@@ -107,8 +110,6 @@ def _of_cube(
     evaluation: Evaluation, x: FloatArray, request: Request, weights: FloatArray | None
 ) -> tuple[Moments, Errors]:
     """Moments from a whole cube: one dimension, where that is as cheap, and plain numpy."""
-    if evaluation.method != SEPARABLE:
-        evaluation = Evaluation(PRODUCT, evaluation.precision)
     power, errors = evaluation.cube(x, request.fmax, weights, half=False, mean=True)
     square, flat = squared_radius(request.fmax, request.d), power.ravel()
     wanted = (square >= request.low) & (square <= request.high)

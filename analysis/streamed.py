@@ -145,7 +145,8 @@ def shell_moments(
     bins = high - low + 1
     device = p.runtime.device
     strips = max(1, min(STRIPS * device.compute_units, BIN_BYTES // (24 * bins)))
-    out = p.runtime.upload(np.zeros(strips * bins * 3, p.sum))
+    out = p.runtime.upload(np.zeros(strips * bins * 2, p.sum))
+    counts = p.runtime.upload(np.zeros(strips * bins, np.uint32))
     norms = p.runtime.upload(norms_of(weights, sets, n).astype(p.sum))
     work, done = pairs(a, b, low, high), 0
     power = p.runtime.empty(2 * BLOCK_ROWS * BLOCK_COLUMNS * np.dtype(p.sum).itemsize)
@@ -187,13 +188,15 @@ def shell_moments(
             np.uint32(high),
             p.sum(sets),
             out,
+            counts,
         )
         p.runtime.finish()
         if progress is not None:
             done += int((bounds[:, 1] - bounds[:, 0]).sum()) * rows_of(p)
             progress(min(done / work, 1.0))
-    parts = p.runtime.download(out, np.empty((strips, bins, 3), p.sum)).astype(np.float64)
-    return merged(parts, low), Errors(rms, bound)
+    parts = p.runtime.download(out, np.empty((strips, bins, 2), p.sum)).astype(np.float64)
+    count = p.runtime.download(counts, np.empty((strips, bins), np.uint32))
+    return merged(count.astype(np.int64), parts[..., 0], parts[..., 1], low), Errors(rms, bound)
 
 
 def blocks(
@@ -214,12 +217,11 @@ def blocks(
                 yield slice(i, i + BLOCK_ROWS), slice(j, stop), bounds.astype(np.uint32)
 
 
-def merged(parts: FloatArray, low: int) -> Moments:
-    """Merge strips' counts, means and departures, (strips, bins, 3), shell by shell (Chan et al. 1979)."""
-    count, mean, deviation = (parts[..., k] for k in range(3))
+def merged(count: NDArray[np.int64], mean: FloatArray, deviation: FloatArray, low: int) -> Moments:
+    """Merge strips' counts, means and departures, each (strips, bins), shell by shell (Chan et al. 1979)."""
     total = count.sum(axis=0)
     held = total > 0
     count, mean, deviation, total = count[:, held], mean[:, held], deviation[:, held], total[held]
     middle = (count * mean).sum(axis=0) / total
     spread = deviation.sum(axis=0) + (count * (mean - middle) ** 2).sum(axis=0)
-    return Moments(low + np.flatnonzero(held), total.astype(np.int64), middle, spread)
+    return Moments(low + np.flatnonzero(held), total, middle, spread)

@@ -24,6 +24,7 @@ from gbnbench.opencl import Program
 from gbnbench.torus import FloatArray
 
 TABLE_BYTES = 4 << 20  # of both groups' tables together: what stays in cache
+AMPLITUDE_BYTES = 256 << 20  # of a batch's amplitudes
 COLUMN_BYTES = 512 << 10  # of the columns that one row tile after another is multiplied with
 LEAST_COLUMNS = 32  # of them, so that a row tile is worth fetching
 LEAST_ITEMS = 4  # work-items a core, so that cores end together
@@ -139,7 +140,10 @@ class Frequencies:
             ]
             begin += (lead + trail) * (end - first)
         if entries > MOST_ENTRIES:
-            raise RefusalError("so many harmonics need more table entries than fit; ask for a smaller fmax")
+            raise RefusalError(
+                f"a point needs {entries} table entries in d={self.d}, more than {MOST_ENTRIES}; "
+                "ask for a smaller fmax, or list the frequencies you need"
+            )
         self._multiple = p.runtime.upload(np.concatenate(factors).astype(np.uint64).astype(p.turn))
         self._groups = p.runtime.upload(np.array(of_tables, np.uint32))
         self._code = p.runtime.empty(4 * (self.a.count + self.b.count))
@@ -375,7 +379,8 @@ def deal(p: Precision, n: int, sets: int, rows: int, columns: int) -> Slots:
     chunk = SUM_POINTS * p.lanes
     room = max(chunk, TABLE_BYTES // ((rows + columns) * 2 * np.dtype(p.real).itemsize) // chunk * chunk)
     whole = padded(n, p.lanes)
-    batch = max(1, min(sets, room // whole))
+    amplitudes = rows * columns * 8 * np.dtype(p.sum).itemsize
+    batch = max(1, min(sets, room // whole, AMPLITUDE_BYTES // amplitudes))
     tiles = rows // rows_of(p) * columns
     splits = min(-(-items_of(p) // (tiles * batch)), -(-whole // chunk))
     launches = -(-whole // max(room, splits * chunk))
