@@ -1,29 +1,21 @@
-"""Where a benchmark ran, and the CPU time of a call."""
+"""Where a benchmark ran, and the CSV files that keep each row as soon as it is known."""
 
 from __future__ import annotations
 
 import csv
+import importlib.metadata
 import os
 import platform
-import time
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from types import TracebackType
+from typing import Any, Self
 
 from gbnbench.opencl import runtime
+from gbnbench.opencl.speed import fma_peak
 
-RESULTS = Path(__file__).parent / "results"
+PACKAGES = ("gbnbench", "numpy", "pyopencl", "pocl-binary-distribution", "finufft")
 REPEATS = 3
-
-
-def cpu_seconds(call: Callable[[], object]) -> float:
-    """Smallest CPU time, over all threads, of three calls after one that warms up."""
-    call()
-    times = []
-    for _ in range(REPEATS):
-        began = time.process_time()
-        call()
-        times.append(time.process_time() - began)
-    return min(times)
 
 
 def processor() -> str:
@@ -35,16 +27,61 @@ def processor() -> str:
         return platform.processor() or platform.machine()
 
 
-def write(name: str, columns: Sequence[str], rows: Iterable[Sequence[object]]) -> None:
-    """Write results/<name>.csv with the machine in comment lines, and print the same."""
-    RESULTS.mkdir(exist_ok=True)
-    with (RESULTS / f"{name}.csv").open("w", newline="") as file:
-        file.write(f"# {processor()}, {os.cpu_count()} cores; Python {platform.python_version()}\n")
-        file.write(f"# {runtime().device.label}\n")
-        table = csv.writer(file, lineterminator="\n")
-        table.writerow(columns)
-        print("  ".join(f"{column:>22}" for column in columns))
-        for row in rows:
-            cells = [f"{cell:.3g}" if isinstance(cell, float) else str(cell) for cell in row]
-            print("  ".join(f"{cell:>22}" for cell in cells), flush=True)
-            table.writerow(cells)
+def describe() -> dict[str, Any]:
+    """JSON-ready record of processor, cores, device and versions."""
+    device = runtime().device
+    versions: dict[str, str | None] = {}
+    for package in PACKAGES:
+        try:
+            versions[package] = importlib.metadata.version(package)
+        except importlib.metadata.PackageNotFoundError:
+            versions[package] = None
+    return {
+        "processor": processor(),
+        "cores": os.cpu_count(),
+        "system": platform.platform(),
+        "python": platform.python_version(),
+        "device": device.label,
+        "opencl": device.describe() | {"compute_units": device.compute_units},
+        "versions": versions,
+    }
+
+
+def peaks() -> dict[str, float]:
+    """Floating-point operations a second that one core does at most, by precision, measured now."""
+    names = ("double", "float") if runtime().device.has_double else ("float",)
+    return {name: max(fma_peak(name) for _ in range(REPEATS)) for name in names}
+
+
+class Rows:
+    """A CSV file that is complete up to its last row, whenever the program is stopped.
+
+    Parameters
+    ----------
+    path : Path
+        Replaced; its folder must exist.
+    columns : sequence of str
+        The header; rows are mappings that have each of them.
+    """
+
+    def __init__(self, path: Path, columns: Sequence[str]) -> None:
+        self.path, self.columns, self.kept = path, columns, list[Mapping[str, Any]]()
+
+    def __enter__(self) -> Self:
+        self._file = self.path.open("w", newline="", encoding="utf-8")
+        self._writer = csv.writer(self._file, lineterminator="\n")
+        self._writer.writerow(self.columns)
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Close the file; the rows are there already."""
+        self._file.close()
+
+    def add(self, row: Mapping[str, Any]) -> None:
+        """Write one row and keep it."""
+        cells = [row[column] for column in self.columns]
+        self._writer.writerow([f"{cell:.6g}" if isinstance(cell, float) else cell for cell in cells])
+        self._file.flush()
+        self.kept.append(row)

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 import click
 
 from gbnbench import __version__
+from gbnbench.cli.bench import bench
 from gbnbench.cli.compare import compare
 from gbnbench.cli.machine import devices, doctor
 from gbnbench.cli.points import analyze, generate
@@ -34,7 +35,7 @@ def gbnbench() -> None:
     """
 
 
-for _command in (compare, generate, analyze, spectrum, report, devices, doctor):
+for _command in (compare, generate, analyze, spectrum, report, bench, devices, doctor):
     gbnbench.add_command(_command)
 
 

@@ -1,0 +1,1 @@
+"""What gbnbench costs and how exact it is, beside its rivals; kept results stay in the checkout."""

@@ -1,0 +1,146 @@
+"""``gbnbench bench``: what gbnbench costs and how exact it is on this machine, beside its rivals."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from gbnbench.cli import options
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from gbnbench.benchmarks.periodogram import Outcome
+
+
+SPEED_HEAD = (
+    "method", "CPU ms", "median", "wall ms", "ratio", "over rounds", "rms error", "P to 1%", "of peak"
+)  # fmt: skip
+
+
+@click.group()
+def bench() -> None:
+    """Measure speed and error here, beside other ways to the same."""
+
+
+@bench.command()
+@click.option("--quick", is_flag=True, help="Under half a minute instead of under five; times are rougher.")
+@click.option(
+    "--out", type=click.Path(path_type=Path), default=Path("bench-periodogram"), show_default=True,
+    help="Folder for the tables and pictures; files of the same names are replaced.",
+)  # fmt: skip
+@click.option("--quiet", is_flag=True, help="No progress.")
+@click.option("--tiny", is_flag=True, hidden=True, help="Sizes that tests run.")
+@options.device
+def periodogram(quick: bool, out: Path, quiet: bool, tiny: bool) -> None:
+    """Speed against error of the spectrum beside numpy and FINUFFT, hard cases, and how the cost grows.
+
+    All methods run in one process, in turn; times are CPU time over all threads, and ratios are taken round
+    by round. Tables are kept as they come, so a run that is stopped leaves what it has measured.
+    """
+    from gbnbench import progress
+    from gbnbench.benchmarks import cases
+    from gbnbench.benchmarks.periodogram import run
+
+    plan = cases.tiny() if tiny else cases.quick() if quick else cases.full()
+    try:
+        with progress.choose(quiet) as teller:
+            outcome = run(out, plan, teller)
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(f"what was measured is in {out}") from None
+    _draw(outcome, out)
+    for line in _report(outcome):
+        click.echo(line)
+    click.echo(f"pictures: {out / 'speed_error.png'}, {out / 'scaling.png'}")
+    if not outcome.hard.held.all():
+        click.echo("gbnbench: a stated error bound does not hold here: see hard_cases.csv", err=True)
+        click.get_current_context().exit(1)
+
+
+def _draw(outcome: Outcome, out: Path) -> None:
+    """Write the two pictures as PNG and PDF."""
+    from gbnbench.disk import write_whole
+    from gbnbench.reports import scaling, speed_error
+    from gbnbench.reports.figures import pdf, png
+
+    figures = {
+        "speed_error": speed_error.figure(outcome.speed, outcome.machine),
+        "scaling": scaling.figure(outcome.scaling, outcome.machine),
+    }
+    for name, figure in figures.items():
+        write_whole(out / f"{name}.png", png(figure))
+        write_whole(out / f"{name}.pdf", pdf(figure))
+
+
+def _report(outcome: Outcome) -> Iterator[str]:
+    """Say what was found, a table a case."""
+    from gbnbench.benchmarks.hard_table import resolvable
+    from gbnbench.benchmarks.periodogram import slopes
+
+    machine = outcome.machine
+    yield f"{machine['processor']}, {machine['cores']} cores; {machine['device']}"
+    for name, part in outcome.speed.groupby("case", sort=False):
+        yield f"\n{name}"
+        yield from _table(
+            SPEED_HEAD,
+            [
+                (
+                    row.method, *map(_number, (row.cpu_ms, row.cpu_ms_median, row.wall_ms, row.ratio)),
+                    f"{row.ratio_min:.2f} to {row.ratio_max:.2f}",
+                    *map(_number, (row.error_rms, row.resolvable)), _share(row.share_of_peak),
+                )
+                for row in part.itertuples()
+            ],
+        )  # fmt: skip
+    first = outcome.speed.method.iloc[0]
+    yield f"\nratio: CPU time over that of {first}, the median over rounds; P to 1%: least power known to 1%"
+    yield "\nSlope of CPU time against work, from 1e7 operations; share of peak of the plain product"
+    yield from _table(
+        ("more", "method", "sizes", "slope", "steepest", "least share", "most share"),
+        [
+            (
+                row.sweep, row.method, str(row.sizes), _number(row.slope), _number(row.steepest),
+                _share(row.share_least), _share(row.share_most),
+            )
+            for row in slopes(outcome.scaling).itertuples()
+        ],
+    )  # fmt: skip
+    yield f"\n{outcome.throughput}"
+    yield from _hard(outcome.hard, resolvable(outcome.hard))
+
+
+def _hard(hard: pd.DataFrame, least: pd.DataFrame) -> Iterator[str]:
+    held, passed = int(hard.held.sum()), int(hard.passed.sum())
+    yield f"\nhard cases: {held} of {len(hard)} bounds hold, {passed} of them are not idle either"
+    yield from _table(
+        ("method", "precision", "n", "rms error", "P to 1%"),
+        [
+            (row.method, row.precision, str(row.n), _number(row.rms), _number(row.power))
+            for row in least.itertuples()
+        ],
+    )
+
+
+def _number(value: Any) -> str:
+    from gbnbench.reports.numbers import number
+
+    return number(float(value))
+
+
+def _share(value: Any) -> str:
+    return "–" if value != value else f"{100 * value:.0f}%"
+
+
+def _table(head: Sequence[str], rows: Sequence[Sequence[Any]]) -> Iterator[str]:
+    """Align columns: words left, numbers right."""
+    columns = list(zip(head, *(map(str, row) for row in rows), strict=True))
+    shown = []
+    for column in columns:
+        width = max(map(len, column))
+        words = not any(cell[:1].isdigit() for cell in column[1:])
+        shown.append([cell.ljust(width) if words else cell.rjust(width) for cell in column])
+    for line in zip(*shown, strict=True):
+        yield "  ".join(line).rstrip()
