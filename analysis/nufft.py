@@ -33,6 +33,7 @@ FLOOR, FLOOR_HARMONIC, FLOOR_POINT = 15.0, 1.0, 0.1
 # On coincident points, where errors are coherent, over sqrt(n) and at least three times what was met.
 COHERENT, COHERENT_FLOOR, COHERENT_HARMONIC = 30.0, 100.0, 3.0
 COHERENT_POINT = {WIDE: 20.0, NARROW: 1e5}
+SUBPROBLEM = (10_000, 100_000, 100_000)  # points that FINUFFT sums one after another, in 1, 2 and 3 dimensions
 
 
 @dataclass(frozen=True)
@@ -231,7 +232,8 @@ def nufft_errors(n: int, d: int, fmax: int, tolerance: float, weights: FloatArra
         scaled = np.abs(weights) / np.abs(weights).max()
         worst = float(scaled.sum() / np.linalg.norm(scaled))
     point = COHERENT_POINT[_upsampling(n, d, fmax, tolerance)]
-    rounding = UNIT * (COHERENT_FLOOR + COHERENT_HARMONIC * fmax + point * n)
+    together = min(n, SUBPROBLEM[d - 1])
+    rounding = UNIT * (COHERENT_FLOOR + COHERENT_HARMONIC * fmax + point * together)
     return Errors(
         rms=math.hypot(TYPICAL * tolerance, _floor(n, d, fmax)),
         bound=worst * min(2.0, COHERENT * tolerance + rounding),

@@ -50,7 +50,7 @@ double cosines and exact sums (`benchmarks/reference.py`). A power P is off by a
 - the last column: *ok*; *loose* where the bound holds but it or the typical error is idle; *fails* otherwise.
 
 Remake it with `python -m gbnbench.benchmarks.hard_table docs/hard_cases.md`. The tests hold every
-row; only the non-uniform FFT's bound, which is empirical, is let be loose for a million points."""
+row. The non-uniform FFT's bound is empirical."""
 
 
 def evaluate(case: HardCase) -> Iterator[Row]:
