@@ -33,7 +33,7 @@ FLOOR, FLOOR_HARMONIC, FLOOR_POINT = 15.0, 1.0, 0.1
 # On coincident points, where errors are coherent, over sqrt(n) and at least three times what was met.
 COHERENT, COHERENT_FLOOR, COHERENT_HARMONIC = 30.0, 100.0, 3.0
 COHERENT_POINT = {WIDE: 20.0, NARROW: 1e5}
-SUBPROBLEM = (10_000, 100_000, 100_000)  # points that FINUFFT sums one after another, in 1, 2 and 3 dimensions
+SUBPROBLEM = (10_000, 100_000, 100_000)  # points FINUFFT sums one after another, in 1, 2 and 3 dimensions
 
 
 @dataclass(frozen=True)
