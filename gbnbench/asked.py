@@ -34,6 +34,8 @@ class Asked:
         As in ``gbnbench.periodogram``.
     floor : float or None
         Smallest power that must be known to 1%.
+    sigma : float or None
+        Width of a Gaussian, in spacings, with which points are convolved.
     """
 
     fmax: int | None = None
@@ -44,6 +46,7 @@ class Asked:
     frequencies: NDArray[np.int64] | None = None
     precision: str | None = None
     floor: float | None = None
+    sigma: float | None = None
 
     def reach(self, n: int, d: int) -> int:
         """Largest harmonic for sets of n points in d dimensions."""
@@ -94,6 +97,13 @@ class Asked:
         -------
         Spectrum, or ShellSpectrum for shells
         """
+        found = self._raw(x, weights, progress)
+        return found if self.sigma is None else found.filtered(self.sigma)
+
+    def _raw(
+        self, x: FloatArray, weights: FloatArray | None, progress: Callable[[float], None] | None
+    ) -> Spectrum | ShellSpectrum:
+        """Evaluate it, unfiltered."""
         if self.frequencies is not None:
             return periodogram(
                 x,

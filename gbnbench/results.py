@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gbnbench.errors import InputError
 from gbnbench.torus import FloatArray, spacing
 
 if TYPE_CHECKING:
@@ -63,6 +64,26 @@ class Spectrum:
         cube[: self.fmax + 1] = np.flip(self.power)
         return replace(self, power=cube, half=False)
 
+    def filtered(self, sigma: float) -> Spectrum:
+        """Spectrum of the points convolved with a Gaussian of width sigma, in spacings (the paper's Fig. 7b).
+
+        Raises
+        ------
+        InputError
+            If sigma is not a number of at least 0.
+        """
+        if self.frequencies is not None:
+            square = (self.frequencies.astype(np.float64) ** 2).sum(axis=1)
+        else:
+            first = self.fmax if self.half else 0
+            axis = np.arange(-self.fmax, self.fmax + 1, dtype=np.float64) ** 2
+            square = sum(
+                (axis[first:] if a == 0 else axis).reshape([-1 if b == a else 1 for b in range(self.d)])
+                for a in range(self.d)
+            )
+        response = gaussian_response(np.sqrt(square) * self.spacing, sigma)
+        return replace(self, power=self.power * response)
+
     @property
     def resolvable(self) -> float:
         """Smallest power that is typically known to 1%: about (200 error_rms)^2."""
@@ -86,6 +107,20 @@ class Spectrum:
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
         return np.array(self.power, dtype=dtype) if copy else np.asarray(self.power, dtype=dtype)
+
+
+def gaussian_response(nu: FloatArray, sigma: float) -> FloatArray:
+    """Power response of a Gaussian of width sigma, in spacings, and unit mass: exp(-(2 pi sigma nu)^2).
+
+    Raises
+    ------
+    InputError
+        If sigma is not a number of at least 0.
+    """
+    if not (isinstance(sigma, (int, float, np.number)) and 0 <= sigma < math.inf):
+        raise InputError(f"sigma must be a width of at least 0, in spacings; got {sigma!r}")
+    response: FloatArray = np.exp(-((2 * math.pi * sigma * nu) ** 2))
+    return response
 
 
 def _resolvable(rms: float) -> float:
@@ -113,6 +148,10 @@ class RadialPower:
     nu: FloatArray
     power: FloatArray
     count: NDArray[np.int64]
+
+    def filtered(self, sigma: float) -> RadialPower:
+        """Radial power of the points convolved with a Gaussian of width sigma, in spacings."""
+        return replace(self, power=self.power * gaussian_response(self.nu, sigma))
 
     def to_frame(self) -> pd.DataFrame:
         """Columns frequency, nu, power, count."""
@@ -166,6 +205,11 @@ class ShellSpectrum:
     def spacing(self) -> float:
         """n**(-1/d), so that nu = |f| * spacing."""
         return spacing(self.n, self.d)
+
+    def filtered(self, sigma: float) -> ShellSpectrum:
+        """Shells of the points convolved with a Gaussian of width sigma, in spacings."""
+        response = gaussian_response(self.nu, sigma)
+        return replace(self, power=self.power * response, deviation=self.deviation * response**2)
 
     def radial(self) -> RadialPower:
         """Radial power, as ``gbnbench.radial`` makes it of a whole cube."""

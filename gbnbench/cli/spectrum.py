@@ -55,6 +55,8 @@ class Band(click.ParamType[tuple[float, float]]):
               "file, a row each.")  # fmt: skip
 @click.option("--weights", type=click.Path(path_type=Path), metavar="LIST", help="Weights of the points, one "
               "a line.")  # fmt: skip
+@click.option("--filter", "sigma", type=click.FloatRange(0), metavar="SIGMA", help="Of the points convolved "
+              "with a Gaussian of this width, in spacings.")  # fmt: skip
 @click.option("--precision", type=click.Choice(["double", "float"]), help="[default: double]")
 @click.option("--floor", type=float, metavar="P", help="Smallest power to be known to 1%; the cheapest way "
               "there is chosen.")  # fmt: skip
@@ -79,6 +81,7 @@ def spectrum(
     corners: bool,
     at: Path | None,
     weights: Path | None,
+    sigma: float | None,
     precision: str | None,
     floor: float | None,
     each: bool,
@@ -110,7 +113,9 @@ def spectrum(
     sets = work.read_sets(files, each=each)
     columns = sets[0].x.shape[2] if sets else d
     listed = None if at is None else read_frequencies(at, columns)
-    asked = Asked(fmax, half, shells or corners or band is not None, band, corners, listed, precision, floor)
+    asked = Asked(
+        fmax, half, shells or corners or band is not None, band, corners, listed, precision, floor, sigma
+    )
     if not explain:
         work.find(asked, sets, weights, out, each=each)
     elif sets:

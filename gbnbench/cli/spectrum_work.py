@@ -108,6 +108,8 @@ def find(asked: Asked, sets: Sequence[Sets], weights: Path | None, out: Path | N
     for k, (one, plan, w) in enumerate(zip(sets, plans, weighing, strict=True)):
         if weights is not None:
             one = replace(one, label=f"{one.label} weighted by {weights}")
+        if asked.sigma is not None:
+            one = replace(one, label=f"{one.label} filtered by a Gaussian of {asked.sigma:g} spacings")
         with _bar(plan.request.frequencies) as tell:
             result = asked.find(one.x, w, tell)
         if out is None:
