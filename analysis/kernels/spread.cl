@@ -7,6 +7,7 @@
  * kept beside them where KEPT_SUMS. Layout of points: [LANES frequencies][point][cos, sin][lane]; of nodes as tables.cl.
  */
 #define RUN SUM_POINTS
+#define NOT_YET 0xffffffffu
 #if LANES < 4
 #define NODES LANES
 #else
@@ -72,6 +73,10 @@ __kernel void spread(__global const REAL *restrict table, const ulong slot_size,
     const uint row = WIDTH + 2 * LANES;
     REAL values[RUN * LANES];
     uint held = 0, first_held = 0;
+    /* of the points held, those that reach each NODES of the nodes: from low to high, as far as either is met yet */
+    uint low[LANES / NODES], high[LANES / NODES];
+    for (uint q = 0; q < LANES / NODES; q++)
+        low[q] = high[q] = NOT_YET;
     if (fresh) {
         for (uint j = 0; j < columns; j++) {
             const ulong to = ((ulong)(j / COLUMNS) * nodes * COLUMNS + (ulong)node * COLUMNS + j % COLUMNS * LANES) * 2;
@@ -85,6 +90,10 @@ __kernel void spread(__global const REAL *restrict table, const ulong slot_size,
     for (uint step = 0; step < WIDTH + LANES; step++) {
         const uint cell = (node + nodes + step - WIDTH / 2) % nodes;
         const uint last = step == WIDTH + LANES - 1;
+        for (uint q = 0; q < LANES / NODES; q++) {
+            if (step == q * NODES) low[q] = held;
+            if (step == q * NODES + WIDTH + NODES - 1) high[q] = held;
+        }
         uint k = start[cell], end = start[cell + 1];
         k = k < begin ? begin : k;
         end = end > begin + length ? begin + length : end;
@@ -107,8 +116,10 @@ __kernel void spread(__global const REAL *restrict table, const ulong slot_size,
             for (uint j = 0; j < columns; j += LANES) {
                 __global const REAL *column = slot + ((ulong)j * length + (first_held - begin) * LANES) * 2;
                 for (uint first = 0; first < LANES; first += NODES) {
+                    const uint to = high[first / NODES] < held ? high[first / NODES] : held;
+                    if (low[first / NODES] >= to) continue;
                     EACH_NODE(CLEAR)
-                    for (uint h = 0; h < held; h++) {
+                    for (uint h = low[first / NODES]; h < to; h++) {
                         __global const REAL *at = column + h * (2 * LANES);
                         const REALV cosines = LOADV(at, 0), sines = LOADV(at, LANES);
                         EACH_NODE(TAKE)
@@ -117,6 +128,10 @@ __kernel void spread(__global const REAL *restrict table, const ulong slot_size,
                 }
             }
             held = 0;
+            for (uint q = 0; q < LANES / NODES; q++) {
+                low[q] = low[q] == NOT_YET ? NOT_YET : 0;
+                high[q] = high[q] == NOT_YET ? NOT_YET : 0;
+            }
         }
     }
 }
