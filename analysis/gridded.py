@@ -303,6 +303,14 @@ def gridded_errors(p: Precision, fmax: int, crowd: int, at: Coordinates) -> Erro
     return Errors(math.hypot(typical, rounded / math.sqrt(6) * at.scattered), bound + rounded * at.coherent)
 
 
+def least_gridded(precision: str) -> int:
+    """Smallest fmax whose grid is wide enough for the window."""
+    f = 1
+    while not griddable(2, f, precision):
+        f += 1
+    return f
+
+
 def griddable(d: int, fmax: int, precision: str) -> bool:
     """Whether there is a first axis among others whose grid is wider than the window."""
     return d >= 2 and nodes_for(fmax, 1) >= 3 * WIDTH[precision]

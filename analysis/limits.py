@@ -92,3 +92,11 @@ def default_fmax(n: int, d: int, realizations: int = 1) -> int:
     most = min(MOST_FREQUENCIES, MOST_TERMS / n, MOST_KEPT / realizations)
     floor = math.ceil(FLOOR_NU * edge)  # the least that anyone asks for
     return max(1, min(wanted, max(floor, largest_fmax(int(most), d))))
+
+
+def default_shell_fmax(n: int, d: int) -> int:
+    """Harmonics as far as nu = 2, or to a ball that is affordable: it has fewer than a cube."""
+    wanted = math.floor(LARGEST_NU * math.pow(n, 1 / d) * (1 + EDGE)) + 1
+    most = min(float(MOST_FREQUENCIES), MOST_TERMS / n)
+    ball = math.pi ** (d / 2) / math.gamma(d / 2 + 1)  # of radius 1
+    return max(1, min(wanted, math.floor(math.pow(most / ball, 1 / d))))

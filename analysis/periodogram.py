@@ -175,9 +175,12 @@ def check_weights(weights: ArrayLike | None, sets: int, n: int) -> FloatArray | 
     if weights is None:
         return None
     try:
-        w = np.ascontiguousarray(weights, dtype=np.float64)
+        given = np.asarray(weights)
+        if given.dtype.kind not in "fiub" or isinstance(weights, np.ma.MaskedArray):
+            raise TypeError
+        w = np.ascontiguousarray(given, dtype=np.float64)
     except (TypeError, ValueError):
-        raise InputError("weights must be real numbers, one for each point") from None
+        raise InputError("weights must be real numbers, one for each point, none of them masked") from None
     if w.shape not in ((n,), (sets, n)):
         raise InputError(f"weights must be ({n},) or ({sets}, {n}), one for each point; got shape {w.shape}")
     w = w.reshape(-1, n)

@@ -22,7 +22,8 @@ from gbnbench.analysis.cost import (
     numpy_cost,
 )
 from gbnbench.analysis.evaluation import DIRECT, GRIDDED, NUFFT, PRODUCT, SEPARABLE, STREAMED, Evaluation
-from gbnbench.analysis.limits import check_fmax, check_harmonic
+from gbnbench.analysis.gridded import least_gridded
+from gbnbench.analysis.limits import check_fmax
 from gbnbench.analysis.precision import precision_of
 from gbnbench.analysis.request import Request, shell_request
 from gbnbench.errors import InputError
@@ -166,8 +167,20 @@ def plan(
     for name, value in counts.items():
         if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < 1:
             raise InputError(f"{name} must be an integer of at least 1; got {value!r}")
+    asked = {
+        "frequencies": frequencies is not None,
+        "half": half,
+        "shells": shells or corners or band is not None,
+    }
+    for name, value in (("half", half), ("shells", shells), ("corners", corners)):
+        if not isinstance(value, (bool, np.bool_)):
+            raise InputError(f"{name} must be True or False; got {value!r}")
+    if sum(asked.values()) > 1:
+        raise InputError(f"ask for one of {', '.join(name for name, is_asked in asked.items() if is_asked)}")
     if frequencies is not None:
-        request = Request("listed", n, d, check_harmonic(fmax, 1), realizations, frequencies)
+        if isinstance(fmax, bool) or not isinstance(fmax, (int, np.integer)) or not 0 <= fmax <= 1 << 63:
+            raise InputError(f"fmax must be the largest |f_a| listed, at most 2^63; got {fmax!r}")
+        request = Request("listed", n, d, int(fmax), realizations, frequencies)
     elif shells or band is not None or corners:
         request = shell_request(n, d, fmax, realizations, band, corners)
     else:
@@ -202,14 +215,15 @@ def choose(
 
 def planned(request: Request, precision: str | None, floor: float | None, method: str | None = None) -> Plan:
     """Weigh every evaluation that could serve a request; raises as ``choose``."""
-    if floor is not None and not (isinstance(floor, (int, float, np.number)) and 0 < floor < math.inf):
+    if floor is not None and not (
+        isinstance(floor, (int, float, np.number)) and not isinstance(floor, bool) and 0 < floor < math.inf
+    ):
         raise InputError(f"floor must be a positive power, such as 1e-12; got {floor!r}")
     if precision is not None:
         precision_known(precision)
     possible = candidates(request, floor, method)
     if method is not None and method not in {c.evaluation.method for c in possible}:
-        names = ", ".join(dict.fromkeys(c.evaluation.method for c in possible))
-        raise InputError(f"method must be one of those for this request: {names}; got {method!r}")
+        raise InputError(_unavailable(request, method, precision))
     averaged = [replace(c, errors=c.errors.averaged(request.realizations, request.n)) for c in possible]
     weighed = [_weighed(candidate, precision, floor, method) for candidate in averaged]
     fitting = sorted((c for c in weighed if not c.against), key=lambda c: c.cost.seconds)
@@ -217,7 +231,7 @@ def planned(request: Request, precision: str | None, floor: float | None, method
         if floor is None or precision not in {None, *(c.evaluation.precision for c in weighed)}:
             if devices_present():
                 precision_of(precision or "double")  # says what the device lacks
-            raise InputError(f"{method} does not compute in {precision}; leave one of them out")
+            raise InputError(_unavailable(request, method, precision))
         best = min(c.errors.resolvable for c in weighed if precision in (None, c.evaluation.precision))
         raise InputError(
             f"floor={floor:g} is out of reach: the least power known to 1% here is {best:.1g}"
@@ -237,6 +251,28 @@ def planned(request: Request, precision: str | None, floor: float | None, method
     if chosen.evaluation.method == SEPARABLE:
         why += ", and there is no OpenCL device"
     return Plan(request, chosen, why, tuple(others))
+
+
+def _unavailable(request: Request, method: str | None, precision: str | None) -> str:
+    """Say why a method does not serve a request, and which do."""
+    names = {
+        "listed": (DIRECT, SEPARABLE),
+        "shells": (STREAMED, SEPARABLE),
+    }.get(request.what, (PRODUCT, GRIDDED, SEPARABLE, NUFFT))
+    if method not in names:
+        return f"method must be one of {', '.join(names)} for {request.what}; got {method!r}"
+    if method == GRIDDED:
+        return (
+            f"the gridded product in {precision or 'double'} needs two dimensions and fmax of at least "
+            f"{least_gridded(precision or 'double')}; got d={request.d}, fmax={request.fmax}"
+        )
+    if method == NUFFT and request.d > nufft.DIMENSIONS:
+        return f"the non-uniform FFT does up to {nufft.DIMENSIONS} dimensions; got d={request.d}"
+    if method == NUFFT and not nufft.available():
+        return "the non-uniform FFT needs FINUFFT: pip install finufft"
+    if method == NUFFT:
+        return f"the non-uniform FFT computes in double; got precision={precision!r}"
+    return f"{method} needs an OpenCL device, and there is none; gbnbench devices tells how to get one"
 
 
 def _weighed(
@@ -299,7 +335,7 @@ def _nufft(request: Request, floor: float | None) -> list[Candidate]:
     errors = nufft.nufft_errors(n, d, f, tolerance)
     seconds = request.realizations * nufft.nufft_seconds(n, d, f, tolerance)
     room = nufft.nufft_bytes(n, d, f, tolerance)
-    cost = Cost(seconds * NUMPY_RATE, room, CALL_SECONDS + seconds)
+    cost = Cost(seconds * NUMPY_RATE, room, CALL_SECONDS / 4 + seconds)
     return [Candidate(Evaluation(NUFFT, "double", tolerance), cost, errors)]
 
 

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from gbnbench.analysis.shells import Shells, annuli, digit_classes, exact_shells
 from gbnbench.errors import InputError
-from gbnbench.results import RadialPower, Spectrum
+from gbnbench.results import RadialPower, ShellSpectrum, Spectrum
 from gbnbench.torus import FloatArray
 
 GROUPINGS = ("shells", "digits", "annuli")
 
 
-def radial(spectrum: Spectrum, by: str = "shells", width: float = 2.0) -> RadialPower:
+def radial(spectrum: Spectrum | ShellSpectrum, by: str = "shells", width: float = 2.0) -> RadialPower:
     """Mean power over frequencies of equal radius, 0 < |f| <= fmax.
 
     Parameters
     ----------
-    spectrum : Spectrum
-        A whole cube.
+    spectrum : Spectrum or ShellSpectrum
+        A cube or its half; or shells, which are exact ones already.
     by : {"shells", "digits", "annuli"}
         Exact shells of integer |f|^2; classes of sorted |digits| (finer, for d > 2; Ahmed, Ren & Wonka 2022,
         App. C); or PSA's annuli floor(|f| / width), so that numbers can be laid beside PSA's.
@@ -31,15 +31,24 @@ def radial(spectrum: Spectrum, by: str = "shells", width: float = 2.0) -> Radial
     Raises
     ------
     InputError
-        If the spectrum holds listed frequencies, or by or width is not one of the above.
+        If the spectrum is none or holds listed frequencies, or by or width is not one of the above.
 
     Examples
     --------
     >>> import numpy as np
+    >>> from gbnbench.results import Spectrum
     >>> flat = Spectrum(np.ones((5, 5)), n=9, d=2, realizations=1, fmax=2)
     >>> radial(flat).count.tolist()
     [4, 4, 4]
     """
+    if isinstance(spectrum, ShellSpectrum):
+        if by != "shells":
+            raise InputError(f'shells give radial power by="shells" alone; got by={by!r}')
+        return spectrum.radial()
+    if not isinstance(spectrum, Spectrum):
+        raise InputError(
+            f"radial takes a spectrum, radial(periodogram(x, fmax)); got {type(spectrum).__name__}"
+        )
     return radial_power(spectrum.whole().power, groups_of(spectrum, by, width), spectrum.spacing)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -9,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from gbnbench.analysis.accuracy import Errors
 from gbnbench.analysis.evaluation import PRODUCT, SEPARABLE, Evaluation
+from gbnbench.analysis.limits import default_shell_fmax
 from gbnbench.analysis.periodogram import check_weights
 from gbnbench.analysis.plan import choose
 from gbnbench.analysis.precision import precision_of
@@ -21,7 +23,7 @@ from gbnbench.torus import FloatArray, as_realizations, spacing
 
 def shells(
     x: ArrayLike,
-    fmax: int,
+    fmax: int | None = None,
     precision: str | None = None,
     *,
     band: Sequence[float] | None = None,
@@ -36,8 +38,9 @@ def shells(
     ----------
     x : (n, d) or (realizations, n, d) array_like
         Points on the unit torus; power is averaged over realizations before it is reduced.
-    fmax : int
-        Shells up to |f| = fmax, all of which the cube |f_a| <= fmax holds whole.
+    fmax : int, optional
+        Shells up to |f| = fmax, all of which the cube |f_a| <= fmax holds whole; by default as far as nu = 2,
+        or as affordable (``default_shell_fmax``).
     precision : {"double", "float"}, optional
         As in ``periodogram``.
     band : (low, high), optional
@@ -78,6 +81,8 @@ def shells(
     points = as_realizations(x)
     sets, n, d = points.shape
     w = check_weights(weights, sets, n)
+    if fmax is None:
+        fmax = default_shell_fmax(n, d) if band is None else max(1, math.ceil(band[1]))
     request = shell_request(n, d, fmax, sets, band, corners)
     evaluation = choose(request, precision, floor)
     if d > 1 and evaluation.method != SEPARABLE:

@@ -18,18 +18,22 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from gbnbench.analysis.measures import measures
     from gbnbench.analysis.periodogram import periodogram
-    from gbnbench.analysis.plan import plan
+    from gbnbench.analysis.plan import Plan, plan
     from gbnbench.analysis.radial import radial
     from gbnbench.analysis.shell_spectrum import shells
     from gbnbench.errors import GbnbenchError
     from gbnbench.generators.registry import generate
     from gbnbench.points import load, save
+    from gbnbench.results import ShellSpectrum, Spectrum
 
 __version__ = "0.1.0"
 
 _HOMES = {
     "GbnbenchError": "gbnbench.errors",
     "generate": "gbnbench.generators.registry",
+    "Plan": "gbnbench.analysis.plan",
+    "ShellSpectrum": "gbnbench.results",
+    "Spectrum": "gbnbench.results",
     "load": "gbnbench.points",
     "measures": "gbnbench.analysis.measures",
     "periodogram": "gbnbench.analysis.periodogram",
@@ -41,6 +45,9 @@ _HOMES = {
 
 __all__ = [
     "GbnbenchError",
+    "Plan",
+    "ShellSpectrum",
+    "Spectrum",
     "generate",
     "load",
     "measures",

@@ -41,11 +41,13 @@ def check_points(x: ArrayLike) -> FloatArray:
     """
     try:
         array = np.asarray(x)
-        if array.dtype.kind not in "fiub":
+        if array.dtype.kind not in "fiub" or isinstance(x, np.ma.MaskedArray):
             raise TypeError
         points = np.ascontiguousarray(array, dtype=np.float64)
     except (TypeError, ValueError):
-        raise InputError("x must be an array of real numbers, (n, d) or (realizations, n, d)") from None
+        raise InputError(
+            "x must be an array of real numbers, none of them masked, (n, d) or (realizations, n, d)"
+        ) from None
     if points.ndim not in (2, 3) or 0 in points.shape:
         raise InputError(
             f"x must be (n, d) or (realizations, n, d) with no empty axis; got shape {points.shape}"

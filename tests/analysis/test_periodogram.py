@@ -156,6 +156,18 @@ def test_largest_fmax_is_the_largest(d):
         assert (2 * f + 3) ** d > count
 
 
+@pytest.mark.parametrize("weights", [np.ones(3) * 1j, np.ma.masked_less([1.0, 2.0, 3.0], 2), ["a", "b", "c"]])
+def test_weights_that_are_no_real_numbers_are_refused(weights):
+    x = np.random.default_rng(0).random((3, 2))
+    with pytest.raises(InputError, match="weights must be real numbers"):
+        periodogram(x, 2, weights=weights)
+
+
+def test_masked_points_are_refused():
+    with pytest.raises(InputError, match="masked"):
+        periodogram(np.ma.masked_less([[0.1, 0.5]], 0.3), 2)
+
+
 def test_what_cannot_be_counted_is_an_error_in_words():
     with pytest.raises(InputError, match="more than 2\\^63"):
         check_harmonic(2, 30)

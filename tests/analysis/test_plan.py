@@ -289,3 +289,22 @@ def test_without_a_device_numpy_finds_the_same():
     assert count == s.count.tolist()
     assert np.allclose(power, s.power, rtol=1e-12)
     assert np.allclose(deviation, s.deviation, rtol=1e-11)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        ({"half": True, "shells": True}, "one of half, shells"),
+        ({"frequencies": 5, "half": True}, "one of frequencies, half"),
+        ({"half": "no"}, "True or False"),
+        ({"floor": True}, "floor must be"),
+        ({"frequencies": 3, "precision": "half"}, "precision"),
+    ],
+)
+def test_requests_that_contradict_themselves_are_refused(arguments, says):
+    with pytest.raises(InputError, match=says):
+        plan(100, 2, 5, **arguments)
+
+
+def test_a_list_may_hold_any_frequency_of_64_bits():
+    assert plan(10, 2, 2**63, frequencies=1).method == "direct sum"

@@ -7,6 +7,7 @@ import pytest
 
 from gbnbench.analysis.periodogram import periodogram
 from gbnbench.analysis.radial import radial
+from gbnbench.analysis.shell_spectrum import shells
 from gbnbench.errors import InputError
 from gbnbench.results import Spectrum
 
@@ -61,3 +62,12 @@ def test_bad_requests_are_refused(arguments, says):
 def test_listed_frequencies_have_no_shells():
     with pytest.raises(InputError, match="whole cube"):
         radial(periodogram([[0.5, 0.5]], frequencies=[[1, 0]]))
+
+
+def test_shells_are_radial_power_already_and_what_is_no_spectrum_is_refused():
+    x = np.random.default_rng(5).random((40, 3))
+    assert np.allclose(radial(shells(x, 4)).power, radial(periodogram(x, 4)).power, rtol=1e-12)
+    with pytest.raises(InputError, match="by="):
+        radial(shells(x, 4), by="digits")
+    with pytest.raises(InputError, match="ndarray"):
+        radial(x)

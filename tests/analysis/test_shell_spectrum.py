@@ -209,3 +209,11 @@ except Exception as error:
     )
     assert done.stdout.startswith("InputError")
     assert "memory" in done.stdout
+
+
+def test_by_default_shells_go_as_far_as_nu_2_or_is_affordable():
+    rng = np.random.default_rng(20)
+    assert shells(rng.random((64, 2))).nu[-1] >= 2
+    assert shells(rng.random((64, 2)), band=(2.5, 3.5)).fmax == 4
+    deep = shells(rng.random((20, 10)))
+    assert 2 <= deep.fmax <= 4
