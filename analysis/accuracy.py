@@ -18,6 +18,8 @@ EXACT_FROM = 2.0**-12  # doubles from here up are multiples of 2^-64
 # of the two series. A complex product: sqrt(5) (Brent, Percival & Zimmermann 2007).
 COSINE = 5.0
 COMPLEX = math.sqrt(5.0)
+LEAST_SHARE = 0.01  # of a typical error squared that a mean over sets keeps
+SETS_ROUNDING = 0.12  # typical rounding of a sum over sets, in units times the root of their number
 UNRELATED = math.sqrt(2 - math.pi / 2)  # rms difference of two roots of exponentially distributed powers
 
 
@@ -42,8 +44,16 @@ class Errors:
         return resolvable_power(self.rms)
 
     def averaged(self, sets: int, n: int) -> Errors:
-        """Of the mean power of so many sets of n points: typical errors average out, roundings add up."""
-        return Errors(self.rms / math.sqrt(sets), self.bound + (sets - 1) * UNIT["double"] / 2 * math.sqrt(n))
+        """Of the mean power of so many sets of n points.
+
+        Typical errors average out, though not where nearly all there is is error, and roundings of the sum
+        over sets add up.
+        """
+        if sets == 1:
+            return self
+        typical = self.rms * math.sqrt(1 / sets + LEAST_SHARE)
+        added = SETS_ROUNDING * UNIT["double"] * math.sqrt(sets)
+        return Errors(math.hypot(typical, added), self.bound + sets * UNIT["double"] / 2 * math.sqrt(n))
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.analysis.accuracy import BITS, UNIT, Coordinates, Errors, coordinates, sum_errors
-from gbnbench.analysis.cube import CubeWriter, norms_of
+from gbnbench.analysis.cube import CubeWriter, cube_powers, norms_of
 from gbnbench.analysis.digits import Division, whole_axes
 from gbnbench.analysis.precision import SUM_POINTS, Precision, padded
 from gbnbench.analysis.two_group import Points, Slots, whole_frequencies
@@ -112,10 +112,12 @@ def gridded_powers(
         grid.multiply(len(held.x))
         writer.add(grid.program, grid.amplitude, 1, first, len(held.x), 0, fmax + 1)
     power = writer.result()
-    centre = np.ravel_multi_index((0 if half else fmax, *[fmax] * (d - 1)), power.shape[-d:])
-    totals = np.full(sets, float(n)) if weights is None else weights.sum(axis=1) ** 2 / norms
-    power.reshape(*power.shape[:-d], -1)[..., centre] = totals.mean() if mean else totals  # known exactly
-    return power, gridded_errors(p, fmax, crowd, coordinates(x, p.name, weights))
+    # Where g = 0 all that is carried adds up, and its rounding is not small beside what is left: summed
+    # plainly.
+    line, plain = cube_powers(p, x[..., :1], fmax, weights, half, mean)
+    power.reshape(*line.shape, -1)[..., (2 * fmax + 1) ** (d - 1) // 2] = line
+    errors = gridded_errors(p, fmax, crowd, coordinates(x, p.name, weights))
+    return power, Errors(max(errors.rms, plain.rms), max(errors.bound, plain.bound))
 
 
 class Grid:

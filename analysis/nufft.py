@@ -149,6 +149,9 @@ def nufft_power(
     part /= float(scaled @ scaled)
     flat = cube.reshape(-1)
     flat[: flat.size // 2] = flat[: flat.size // 2 : -1]
+    flat[flat.size // 2] = scaled.sum() ** 2 / float(
+        scaled @ scaled
+    )  # known, where its error would be coherent
     return cube
 
 

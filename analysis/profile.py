@@ -15,6 +15,7 @@ from gbnbench.errors import RefusalError
 from gbnbench.results import RadialPower
 from gbnbench.torus import FloatArray
 
+TIE = 1e-9  # relative difference of powers that are equal
 FLOOR_NU = 0.25
 FIT_BAND = (0.05, 0.6)
 FIT_SHELLS = 3
@@ -163,5 +164,7 @@ def peak(radial: RadialPower) -> tuple[float, float]:
         )
     band = in_band(nu, *PEAK_BAND) & (count > 0)
     mean = np.where(band, total / np.maximum(count, 1), -np.inf)
-    k = int(np.argmax(mean))
+    k = int(
+        np.flatnonzero(mean >= mean.max() * (1 - TIE))[0]
+    )  # the lowest of equals, whatever they rounded to
     return float(mean[k]), float(nu[k])

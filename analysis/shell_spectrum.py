@@ -115,8 +115,9 @@ def _of_cube(
     evaluation: Evaluation, x: FloatArray, request: Request, weights: FloatArray | None
 ) -> tuple[Moments, Errors]:
     """Moments from a whole cube: one dimension, where that is as cheap, and plain numpy."""
-    power, errors = evaluation.cube(x, request.fmax, weights, half=False, mean=True)
-    square, flat = squared_radius(request.fmax, request.d), power.ravel()
+    reach = min(request.fmax, math.isqrt(request.high))
+    power, errors = evaluation.cube(x, reach, weights, half=False, mean=True)
+    square, flat = squared_radius(reach, request.d), power.ravel()
     wanted = (square >= request.low) & (square <= request.high)
     wanted[: len(wanted) // 2 + 1] = False  # one half space
     present, label, count = np.unique(square[wanted], return_inverse=True, return_counts=True)

@@ -6,6 +6,7 @@ group, a run of the other: only they are evaluated. Memory is that of a block, w
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
@@ -82,7 +83,8 @@ def sorted_group(axes: Axes, most: int) -> SortedGroup:
         )
     index, square = np.zeros(1, np.int64), np.zeros(1, np.int64)
     for axis in axes:
-        digit = np.arange(axis.base)
+        reach = min(axis.largest, math.isqrt(most))
+        digit = np.arange(axis.largest - reach, axis.largest + reach + 1)
         total = square[:, None] + (digit - axis.largest) ** 2
         keep = total <= most
         index = (index[:, None] * axis.base + digit)[keep]

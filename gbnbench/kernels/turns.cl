@@ -5,8 +5,10 @@
  */
 #if DOUBLE
 #define RADIANS (6.283185307179586476925 / 18446744073709551616.0)
+#define RADIANS_REST (2.4492935982947064e-16 / 18446744073709551616.0)
 #else
 #define RADIANS (6.283185307179586f / 4294967296.0f)
+#define RADIANS_REST (-1.7484556e-7f / 4294967296.0f)
 #endif
 
 /* Signed turns as reals, rounded once. No CPU before AVX-512 converts vectors of 64-bit integers: the high and the low
@@ -26,7 +28,8 @@ static void cos_sin_of_turn(TURNV phase, REALV *cosine, REALV *sine)
 {
     const TURN eighth = (TURN)1 << (TURN_BITS - 3);
     TURNV quarter = (phase + eighth) >> (TURN_BITS - 2);
-    REALV t = real_of_turn(AS_STURNV(phase - (quarter << (TURN_BITS - 2)))) * (REAL)RADIANS;
+    const REALV turn = real_of_turn(AS_STURNV(phase - (quarter << (TURN_BITS - 2))));
+    REALV t = turn * (REAL)RADIANS + turn * (REAL)RADIANS_REST;
     REALV u = t * t;
 #if DOUBLE
     REALV s = t - t * u * (1.0 / 6 - u * (1.0 / 120 - u * (1.0 / 5040 - u * (1.0 / 362880

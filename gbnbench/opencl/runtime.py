@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import warnings
 from collections.abc import Mapping, Sequence
 from functools import cache, cached_property
 from importlib import resources
+from threading import Lock
 from typing import Any
 
 import numpy as np
@@ -18,6 +20,9 @@ from gbnbench.opencl.probe import VectorWidths, vector_widths
 
 # Safe everywhere it was tried; -cl-fast-relaxed-math and -cl-unsafe-math-optimizations give wrong gradients.
 OPTIONS = ("-cl-std=CL1.2", "-cl-mad-enable", "-cl-finite-math-only")
+
+
+LAUNCH = Lock()  # a kernel holds its arguments between being given them and being enqueued
 
 
 class Program:
@@ -39,7 +44,8 @@ class Program:
         *args
             Buffers and numpy scalars of the kernel's own types.
         """
-        self._kernels[name](self._runtime.queue, tuple(global_size), tuple(local_size), *args)
+        with LAUNCH:
+            self._kernels[name](self._runtime.queue, tuple(global_size), tuple(local_size), *args)
 
 
 class Runtime:
@@ -51,12 +57,15 @@ class Runtime:
         Which.
     context, queue
         pyopencl objects; the queue runs in order.
+    process : int
+        The process that opened it, which no fork of it may use.
     """
 
     def __init__(self, device: Device) -> None:
         cl = import_pyopencl()
         self._cl = cl
         self.device = device
+        self.process = os.getpid()
         self.context = cl.Context([handle(device.position)])
         self.queue = cl.CommandQueue(self.context)
         self._programs: dict[tuple[object, ...], Program] = {}
@@ -188,6 +197,12 @@ def runtime(selector: str | None = None) -> Runtime:
     Raises
     ------
     DeviceError
-        If there is no such device.
+        If there is no such device, or it was opened before this process was forked.
     """
-    return _open(choose(selector))
+    opened = _open(choose(selector))
+    if os.getpid() != opened.process:
+        raise DeviceError(
+            "an OpenCL device that was used before a fork cannot be used after it: start workers by spawn, "
+            'multiprocessing.get_context("spawn")'
+        )
+    return opened

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from exact_sums import distance, gpu_form, lattice_of, mean_power, on_grid
+from exact_sums import distance, gpu_form, lattice_of, mean_power, on_grid, roots
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -247,3 +247,14 @@ def test_the_cover_is_the_cube_with_a_few_beyond_on_one_axis():
 def test_a_device_named_otherwise_is_a_runtime_of_its_own():
     assert gpu_form().runtime.group == 64
     assert gpu_form().runtime.device == replace(runtime().device, is_cpu=False)
+
+
+@pytest.mark.parametrize("precision", ["double", "float"])
+def test_no_frequency_gathers_the_rounding_of_two_pi(precision):
+    # 2 pi rounded once turns every angle by the same share, which added up at multiples of 4.
+    n = 65_536
+    x = np.random.default_rng(12).integers(0, 2**32, (1, n, 1)) / 2.0**32
+    power, errors = cube_powers(precision_of(precision), x, 200)
+    f = np.arange(4, 201, 4)[:, None]
+    away = np.sqrt(power[f[:, 0] + 200]) - roots(x[0], f)
+    assert np.abs(away).max() <= 6 * errors.rms

@@ -130,3 +130,14 @@ def test_it_is_chosen_where_it_is_cheaper_and_by_name():
     assert not griddable(1, 1000, "double")
     with pytest.raises(InputError, match="two-group product"):
         periodogram(x[:100], 20, method="FFT")
+
+
+def test_frequencies_along_the_gridded_axis_alone_are_as_exact_as_the_others():
+    rng = np.random.default_rng(8)
+    n = 65_536
+    x = rng.random((1, n, 2))
+    power, errors = gridded_powers(precision_of("double"), x, 40)
+    f = np.column_stack([np.arange(1, 41), np.zeros(40, int)])
+    exact = direct_power(x[0], f)
+    away = np.sqrt(power[f[:, 0] + 40, 40]) - np.sqrt(exact)
+    assert np.sqrt(np.mean(away**2)) <= 4 * errors.rms

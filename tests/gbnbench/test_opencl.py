@@ -158,3 +158,35 @@ def test_without_any_writable_home_one_folder_serves_every_process(tmp_path):
     assert first == second
     assert Path(first).parent == tmp_path
     assert Path(first).stat().st_mode & 0o077 == 0
+
+
+def test_threads_share_the_device_and_get_what_one_gets():
+    from concurrent.futures import ThreadPoolExecutor
+
+    from gbnbench import periodogram
+
+    sets = [np.random.default_rng(k).random((200 + k, 2)) for k in range(40)]
+    alone = [periodogram(x, 12).power for x in sets]
+    before = sys.getswitchinterval()
+    sys.setswitchinterval(1e-5)
+    try:
+        with ThreadPoolExecutor(4) as pool:
+            together = list(pool.map(lambda x: periodogram(x, 12).power, sets))
+    finally:
+        sys.setswitchinterval(before)
+    assert all(np.array_equal(a, b) for a, b in zip(alone, together, strict=True))
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork here")
+def test_a_fork_is_refused_in_words_instead_of_hanging():
+    done = python(
+        "import os, gbnbench\n"
+        "gbnbench.periodogram([[0.5, 0.5]], 1)\n"
+        "child = os.fork()\n"
+        "if child == 0:\n"
+        "    try:\n        gbnbench.periodogram([[0.5, 0.5]], 1)\n"
+        "    except gbnbench.GbnbenchError as error:\n        print(error, flush=True)\n"
+        "    os._exit(0)\n"
+        "os.waitpid(child, 0)"
+    )
+    assert "spawn" in done.stdout
