@@ -44,14 +44,13 @@ class Request:
 
     def __str__(self) -> str:
         sets = "" if self.realizations == 1 else f", {self.realizations} sets"
+        noun = "frequency" if self.frequencies == 1 else "frequencies"
         reach = (
             f"|f|^2 from {max(self.low, 1)} to {self.high}"
             if self.what == "shells"
             else f"|f_a| <= {self.fmax}"
         )
-        return (
-            f"{self.what}: {self.frequencies:,} frequencies, {reach}, of {self.n:,} points, d={self.d}{sets}"
-        )
+        return f"{self.what}: {self.frequencies:,} {noun}, {reach}, of {self.n:,} points, d={self.d}{sets}"
 
 
 def shell_request(

@@ -45,9 +45,10 @@ class Throughput:
         if self.reason:
             return f"throughput of two cores over one: not measured, {self.reason}"
         each = [two / one for one, two in zip(self.one, self.two, strict=True)]
+        rounds = "1 round" if len(each) == 1 else f"{len(each)} rounds"
         return (
             f"throughput of two cores over one: {self.ratio:.2f} ({min(each):.2f} to {max(each):.2f} over "
-            f"{len(each)} rounds; {max(self.one):.0f} and {max(self.two):.0f} sets a second, "
+            f"{rounds}; {max(self.one):.0f} and {max(self.two):.0f} sets a second, "
             f"n={N}, d={D}, F={F}, {SETS} sets a call)"
         )
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gbnbench.analysis.limits import default_fmax, default_shell_fmax
 from gbnbench.analysis.periodogram import periodogram
 from gbnbench.analysis.plan import Plan, plan
 from gbnbench.analysis.shell_spectrum import shells
@@ -23,7 +24,7 @@ class Asked:
     Attributes
     ----------
     fmax : int or None
-        Largest harmonic on each axis; None for the end of the band, else ``default_fmax``.
+        Largest harmonic on each axis; None for the end of the band, else the default for shells or cubes.
     half, shells, corners : bool
         Half a cube, or shells instead of one; with their corners.
     band : (float, float) or None
@@ -56,9 +57,7 @@ class Asked:
             return self.fmax
         if self.band is not None:
             return max(1, math.ceil(self.band[1]))
-        from gbnbench.analysis.limits import default_fmax
-
-        return default_fmax(n, d)
+        return default_shell_fmax(n, d) if self.shells else default_fmax(n, d)
 
     def plan(self, n: int, d: int, realizations: int) -> Plan:
         """Choose the evaluation, before there are any points; raises as ``gbnbench.plan``."""

@@ -22,6 +22,7 @@ from gbnbench.torus import FloatArray
 
 _INTEGER = re.compile(rb"[+-]?[0-9]+")
 _NPY = b"\x93NUMPY"
+_ZIP = (b"PK\x03\x04", b"PK\x05\x06")  # of an .npz, of an empty one
 
 
 def read_frequencies(path: Path, d: int | None = None) -> NDArray[np.int64]:
@@ -153,9 +154,12 @@ def _count(cells: list[bytes], what: str) -> str:
 def _bytes(path: Path) -> bytes:
     look(path, size_limit())
     try:
-        return path.read_bytes()
+        data = path.read_bytes()
     except OSError as error:
         raise FormatError(path, f"cannot be read: {reason(error)}") from None
+    if data.startswith(_ZIP):
+        raise FormatError(path, ".npz lists are not read; write .txt, .csv or .npy")
+    return data
 
 
 def _load(path: Path) -> NDArray[Any]:

@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 import io
+import math
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench import __version__, archive
-from gbnbench.analysis.anisotropy import anisotropy_of_shells
+from gbnbench.analysis.accuracy import resolvable_power
+from gbnbench.analysis.anisotropy import EQUAL, anisotropy_of_shells
+from gbnbench.analysis.profile import ROUNDING
 from gbnbench.errors import InputError
 from gbnbench.results import ShellSpectrum, Spectrum
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 DATA = (".npz", ".npy", ".csv")
 MOST_ROWS = 4_000_000  # of a .csv, 150 MB
@@ -72,6 +78,21 @@ def encode(suffix: str, result: Spectrum | ShellSpectrum, sources: Sequence[str]
     return archive.to_csv(pd.DataFrame(columns(result)))
 
 
+def rings_of(shells: ShellSpectrum) -> pd.DataFrame:
+    """Rings as ``gbnbench.analysis.anisotropy`` finds them, nan where only rounding would be measured.
+
+    That is where a ring's mean power is at or below ``ROUNDING`` or what the spectrum resolves, or its
+    powers are all equal, as those of a single point are.
+    """
+    rings = anisotropy_of_shells(shells)
+    ring = np.searchsorted(rings["frequency"].to_numpy(), np.rint(shells.frequency).astype(np.int64))
+    mean = np.bincount(ring, shells.count * shells.power) / np.bincount(ring, shells.count)
+    equal = rings["anisotropy_db"].to_numpy() <= 10 * math.log10(EQUAL)
+    least = max(ROUNDING, resolvable_power(shells.error_rms))
+    blank = (mean <= least) | equal | (shells.n == 1)
+    return rings.assign(anisotropy_db=rings["anisotropy_db"].where(~blank))
+
+
 def columns(result: Spectrum | ShellSpectrum) -> dict[str, NDArray[Any]]:
     """Columns of a table with a row a frequency or shell.
 
@@ -80,10 +101,10 @@ def columns(result: Spectrum | ShellSpectrum) -> dict[str, NDArray[Any]]:
     dict of (rows,) arrays
         Of a cube: f0, f1, ..., power. Of listed frequencies: f0, f1, ..., frequency, nu, power. Of shells:
         frequency, nu, power, count, deviation, and of the ring that the shell is in, its number ``ring`` and
-        its ``anisotropy_db``, the same for all its shells.
+        its ``anisotropy_db``, the same for all its shells; nan where it would be that of rounding.
     """
     if isinstance(result, ShellSpectrum):
-        rings = anisotropy_of_shells(result)
+        rings = rings_of(result)
         ring = np.rint(result.frequency).astype(np.int64)
         decibel = rings["anisotropy_db"].to_numpy()[np.searchsorted(rings["frequency"].to_numpy(), ring)]
         return {**{name: getattr(result, name) for name in _SHELL}, "ring": ring, "anisotropy_db": decibel}
@@ -101,7 +122,7 @@ def _arrays(result: Spectrum | ShellSpectrum, sources: Sequence[str]) -> dict[st
     about = {name: np.asarray(getattr(result, name)) for name in _ABOUT}
     about |= {"version": np.asarray(__version__), "sources": np.asarray(list(sources), dtype=np.str_)}
     if isinstance(result, ShellSpectrum):
-        rings = anisotropy_of_shells(result)
+        rings = rings_of(result)
         found = {"ring": rings["frequency"].to_numpy(), "anisotropy_db": rings["anisotropy_db"].to_numpy()}
         return {**{name: getattr(result, name) for name in _SHELL}, **found, **about}
     about |= {name: np.asarray(getattr(result, name)) for name in ("half", "weighted")}

@@ -11,11 +11,12 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
 from gbnbench import __version__
-from gbnbench.analysis.anisotropy import anisotropy_of_shells, shells_of
+from gbnbench.analysis.anisotropy import shells_of
 from gbnbench.reports import radial, spectrum, style
 from gbnbench.reports.loglog import ZERO
 from gbnbench.results import Measures, ShellSpectrum, Spectrum
 from gbnbench.run import Run, SourceResult
+from gbnbench.spectra import rings_of
 
 WIDTH, UPPER, LOWER, GAP = 3.3, 2.25, 0.95, 0.1  # inches
 
@@ -36,9 +37,17 @@ def figure(result: Spectrum | ShellSpectrum, label: str) -> Figure:
     square = isinstance(result, Spectrum) and result.d == 2
     caption = (
         "Mean power over each exact shell |f| against nu = |f| n^(-1/d), DC excluded; the line at 1 is white "
-        "noise. Anisotropy of each ring around its shells' own means; dashed: isotropic noise over M sets, "
-        "-10 log10(M) dB. "
+        "noise. "
     )
+    limits = radial.decibel_limits([source])
+    decibel = source.anisotropy["anisotropy_db"].to_numpy(dtype=float)
+    if np.isfinite(decibel).any():
+        caption += (
+            "Anisotropy of each ring round(|f|) around its shells' own means; a ring at an end holds only "
+            "the shells inside; dashed: isotropic noise over M sets, -10 log10(M) dB. "
+        )
+    if (decibel < limits[0]).any() or (decibel > limits[1]).any():
+        caption += "Anisotropy beyond its axis stands at the edge. "
     if (source.radial.power <= ZERO[result.precision]).any():
         caption += f"Triangles on the floor: power that is zero to rounding, {ZERO[result.precision]:.0e}. "
     scale = spectrum.norm([source]) if square else None
@@ -64,13 +73,16 @@ def figure(result: Spectrum | ShellSpectrum, label: str) -> Figure:
         _picture(sheet.cells[0], source, sheet, scale)
     power, anisotropy = sheet.cells[-1]
     _profile(power, source)
-    radial.anisotropy_panel(
-        anisotropy, source, style.strokes(run)[source.key], radial.decibel_limits([source])
-    )
+    radial.anisotropy_panel(anisotropy, source, style.strokes(run)[source.key], limits)
+    for line in list(anisotropy.lines):
+        if not np.isfinite(decibel).any():
+            line.remove()  # there is nothing to compare with it
+        elif line.get_marker() == "o":
+            line.set_clip_on(False)  # markers at the edge are drawn whole
     power.tick_params(labelbottom=False)
     anisotropy.set_xlabel("nu")
     power.set_ylabel("radial power")
-    anisotropy.set_ylabel("dB")
+    anisotropy.set_ylabel("anisotropy, dB")
     for ax in (power, anisotropy):
         ax.set_xlim(*_reach(source))
     sheet.figure.align_ylabels([power, anisotropy])
@@ -102,7 +114,9 @@ def _profile(ax: Axes, source: SourceResult) -> None:
     beside = np.concatenate([[True], zero, [True]])
     alone = ~zero & beside[:-2] & beside[2:]  # no line reaches these
     ax.plot(nu[alone], power[alone], "o", color=colour, markersize=2.6)
-    ax.plot(nu[zero], np.full(int(zero.sum()), bottom), "v", color=colour, markersize=3, alpha=0.6)
+    ax.plot(
+        nu[zero], np.full(int(zero.sum()), bottom), "v", color=colour, markersize=3, alpha=0.6, clip_on=False
+    )
     ax.set_yscale("log")
     ax.set_ylim(bottom, top)
     ax.yaxis.set_major_locator(LogLocator(numticks=9))
@@ -111,8 +125,8 @@ def _profile(ax: Axes, source: SourceResult) -> None:
 
 
 def _reach(source: SourceResult) -> tuple[float, float]:
-    """Range of nu: from 0, or from a band's own start."""
-    nu = source.radial.nu
+    """Range of nu, of shells and rings: from 0, or from a band's own start."""
+    nu = np.concatenate([source.radial.nu, source.anisotropy["nu"].to_numpy(dtype=float)])
     low, high = float(nu.min()), float(nu.max())
     room = 0.02 * high if low < high / 2 else max(0.05 * (high - low), 0.01 * high)
     return (0.0 if low < high / 2 else low - room), high + room
@@ -135,7 +149,7 @@ def _source(result: Spectrum | ShellSpectrum, label: str) -> SourceResult:
         points=np.empty((result.realizations, 0, result.d)),
         spectrum=whole,
         radial=shells.radial(),
-        anisotropy=anisotropy_of_shells(shells),
+        anisotropy=rings_of(shells),
         rdf=None,
         valence=None,
         zone_plate=None,

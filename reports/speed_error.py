@@ -16,6 +16,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from gbnbench.reports import style
 
 WIDTH, HEIGHT, COLUMNS = 2.3, 1.9, 4  # inches; panels in a row
+ROOM = 26  # points that the name of a precision takes beside its marker
 # Colour, marker and dash of each family: told apart in any one of the three.
 LOOKS: dict[str, tuple[str, str, Any]] = {
     "gbnbench": (style.COLOURS[1], "o", "-"),
@@ -31,8 +32,7 @@ CAPTION = (
     "CPU time over all threads against the root mean square error of sqrt(P) at random frequencies; "
     "lower left is better. Markers are the fastest round, bars reach to the median. A power P is known "
     "to 1% where the error is below sqrt(P)/200. gbnbench chooses the evaluation; where it is not the "
-    "plain two-group product, that is drawn too. FINUFFT, one thread, tolerances from right to left: "
-    "{tolerances}. "
+    "plain two-group product, that is drawn too. "
 )
 
 
@@ -51,10 +51,13 @@ def figure(speed: pd.DataFrame, machine: Mapping[str, Any]) -> Figure:
     drawn = speed[speed.error_rms.notna()]
     families = [f for f in [*LOOKS, *sorted(set(drawn.family) - set(LOOKS))] if f in set(drawn.family)]
     names = dict.fromkeys(drawn[drawn.family == "FINUFFT"].method)
-    tolerances = ", ".join(name.removeprefix("FINUFFT ") for name in names) or "none, it was not there"
+    caption = CAPTION
+    if names:
+        tolerances = ", ".join(name.removeprefix("FINUFFT ") for name in names)
+        caption += f"FINUFFT, one thread, tolerances from right to left: {tolerances}. "
     sheet = style.sheet(
         "What a spectrum costs, and how exact it is",
-        CAPTION.format(tolerances=tolerances) + machine_line(machine),
+        caption + machine_line(machine),
         len(cases),
         WIDTH,
         [HEIGHT],
@@ -66,8 +69,7 @@ def figure(speed: pd.DataFrame, machine: Mapping[str, Any]) -> Figure:
     )
     limits = float(drawn.error_rms.min()) / 30, float(drawn.error_rms.max()) * 6
     for (ax,), case, first in zip(sheet.cells, cases, sheet.first, strict=True):
-        _panel(ax, speed[speed.case == case], families)
-        ax.set_xlim(*limits)
+        _panel(ax, speed[speed.case == case], families, limits)
         ax.set_title(case, loc="left")
         ax.set_xlabel("rms error of sqrt(P)")
         if first:
@@ -84,8 +86,9 @@ def figure(speed: pd.DataFrame, machine: Mapping[str, Any]) -> Figure:
     return sheet.figure
 
 
-def _panel(ax: Axes, rows: pd.DataFrame, families: list[str]) -> None:
+def _panel(ax: Axes, rows: pd.DataFrame, families: list[str], limits: tuple[float, float]) -> None:
     ax.set_xscale("log")
+    ax.set_xlim(*limits)
     ax.set_yscale("log")
     ax.grid(True)
     for family in families:
@@ -134,13 +137,16 @@ def _crowded(curve: pd.DataFrame, at: tuple[float, float]) -> bool:
 
 
 def _name(ax: Axes, precision: str, at: tuple[float, float], colour: str, below: bool) -> None:
-    """Write the precision below its marker, or above and beside."""
+    """Write the precision below its marker, or above and on the side where there is room."""
+    left, right = ax.get_xlim()
+    tight = 72 * WIDTH * np.log(right / at[0]) / np.log(right / left) < ROOM
+    side = "center" if below else "right" if tight else "left"
     text = ax.annotate(
         precision,
         at,
-        xytext=(0, -5) if below else (4, 3),
+        xytext=(0, -5) if below else (-4 if tight else 4, 3),
         textcoords="offset points",
-        ha="center" if below else "left",
+        ha=side,
         va="top" if below else "bottom",
         size=6.5,
         color=colour,

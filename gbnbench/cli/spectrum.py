@@ -38,6 +38,8 @@ class Band(click.ParamType[tuple[float, float]]):
             self.fail(f"must be the least and the largest |f|, such as 2,8; got {value!r}", param, ctx)
         if not 0 <= low <= high < math.inf:
             self.fail(f"must be 0 <= LOW <= HIGH, cycles per unit length; got {value!r}", param, ctx)
+        if high < 1:
+            self.fail(f"no integer frequency has |f| in {value} (DC is left out)", param, ctx)
         return low, high
 
 
@@ -49,7 +51,8 @@ class Band(click.ParamType[tuple[float, float]]):
 )  # fmt: skip
 @click.option("--half", is_flag=True, help="Half the cube, f0 >= 0: the rest mirrors it.")
 @click.option("--shells", is_flag=True, help="Radial power and anisotropy, without the cube.")
-@click.option("--band", type=Band(), metavar="LOW,HIGH", help="Only shells of these |f|.")
+@click.option("--band", type=Band(), metavar="LOW,HIGH", help="Only shells of these |f|; a ring "
+              "at an end holds only those inside.")  # fmt: skip
 @click.option("--corners", is_flag=True, help="Shells beyond fmax too, as far as the cube holds them.")
 @click.option("--at", type=click.Path(path_type=Path), metavar="LIST", help="Only the frequencies in this "
               "file, a row each.")  # fmt: skip
@@ -106,11 +109,14 @@ def spectrum(
         raise click.UsageError("name a FILE of points; or plan without one: --explain -n 1024 -d 2")
     from gbnbench.asked import Asked
     from gbnbench.cli import spectrum_work as work
-    from gbnbench.inputs import read_frequencies
+    from gbnbench.inputs import read_frequencies, read_weights
 
     if out is not None and not explain:
-        work.check_place(out, [*files, *filter(None, (at, weights))])
+        work.check_place(out)
     sets = work.read_sets(files, each=each)
+    if out is not None and not explain:
+        inputs = [*files, *filter(None, (at, weights))]
+        work.check_outs(work.places(out, len(sets), each=each), inputs, each=each)
     columns = sets[0].x.shape[2] if sets else d
     listed = None if at is None else read_frequencies(at, columns)
     asked = Asked(
@@ -119,9 +125,11 @@ def spectrum(
     if not explain:
         work.find(asked, sets, weights, out, each=each)
     elif sets:
-        work.explain(asked, sets)
+        work.explain(asked, sets, weights)
     else:
         d = (d or 2) if listed is None else listed.shape[1]
+        if weights is not None:
+            read_weights(weights, n or 1024, realizations or 1)
         click.echo(asked.plan(n or 1024, d, realizations or 1))
 
 

@@ -25,26 +25,30 @@ def told(result: Spectrum | ShellSpectrum, label: str) -> str:
         rows = columns(result)
     else:
         shells = shells_of(result) if isinstance(result, Spectrum) else result
-        lines += _of_note(shells)
+        lines += _of_note(shells, result)
         rows = columns(shells)
         del rows["deviation"]
         again = np.diff(rows["ring"], prepend=-1) == 0  # a ring's number stands by its first shell
         rows["ring"] = np.where(again, "", rows["ring"].astype(str))
         rows["anisotropy_db"] = np.where(again, np.nan, rows["anisotropy_db"])
-    lines += ["", *_aligned({name: values[:ROWS] for name, values in rows.items()})]
     more = len(rows["power"]) - ROWS
+    rows = {name: values[:ROWS] for name, values in rows.items()}
+    told_apart = {name: _apart(rows[name]) for name in ("frequency", "nu")}
+    power = {"power": np.array([_power(p, result) for p in rows["power"].tolist()])}
+    lines += ["", *_aligned(rows | told_apart | power)]
     return "\n".join([*lines, f"... {more:,} more: -o FILE.csv has all"] if more > 0 else lines)
 
 
-def _of_note(shells: ShellSpectrum) -> list[str]:
+def _of_note(shells: ShellSpectrum, result: Spectrum | ShellSpectrum) -> list[str]:
     """Noise floor, power at 1 and peak, of shells that are whole from the first."""
     if shells.frequency[0] > 1 or shells.frequency[-1] > shells.fmax:
         return []
     profile, said = shells.radial(), []
     try:
-        said += [f"noise floor {noise_floor(profile):.4g}", f"P(|f|=1) {power_at_1(profile):.4g}"]
+        said += [f"noise floor {_power(noise_floor(profile), result)}"]
+        said += [f"P(|f|=1) {_power(power_at_1(profile), result)}"]
         height, nu = peak(profile)
-        said += [f"peak {height:.4g} at nu = {nu:.3g}"]
+        said += [f"peak {_power(height, result)} at nu = {nu:.3g}"]
     except RefusalError:  # these shells do not reach so far
         pass
     return [f"  {', '.join(said)}"] if said else []
@@ -62,7 +66,7 @@ def _content(result: Spectrum | ShellSpectrum) -> str:
         many = "s" * (len(result.frequency) > 1)
         return f"{len(result.frequency):,} shell{many}, |f| from {low:.4g} to {high:.4g},"
     if result.frequencies is not None:
-        return f"{len(result):,} listed frequencies"
+        return f"{len(result):,} listed frequenc{'y' if len(result) == 1 else 'ies'}"
     return f"{'half ' if result.half else ''}cube |f_a| <= {result.fmax}, {result.power.size:,} frequencies,"
 
 
@@ -72,6 +76,24 @@ def exactness(result: Spectrum | ShellSpectrum) -> str:
         f"{result.method} in {result.precision}; sqrt(P) is off by {result.error_rms:.1e} typically, "
         f"{result.error_bound:.1e} at worst; P = {resolvable_power(result.error_rms):.1e} is known to 1%"
     )
+
+
+def _power(power: float, result: Spectrum | ShellSpectrum) -> str:
+    """Four digits, or what it is below where it is less than the result resolves."""
+    least = resolvable_power(result.error_rms)
+    if not power < least:
+        return f"{power:.4g}"
+    unit = 10.0 ** math.floor(math.log10(least))
+    return f"below {math.ceil(least / unit - 1e-6) * unit:.0e}"
+
+
+def _apart(values: NDArray[np.float64]) -> NDArray[Any]:
+    """Write numbers with four digits, or as many as it takes to tell the different ones apart."""
+    different = np.unique(values).tolist()
+    digits = 4
+    while digits < 17 and len({f"{value:.{digits}g}" for value in different}) < len(different):
+        digits += 1
+    return np.array([f"{value:.{digits}g}" for value in values.tolist()])
 
 
 def _aligned(rows: dict[str, NDArray[Any]]) -> list[str]:

@@ -78,8 +78,9 @@ def read_sets(files: Sequence[Path], *, each: bool) -> list[Sets]:
     return [Sets(f"{files[0]}{more}", tuple(names), np.stack(sets))]
 
 
-def explain(asked: Asked, sets: Sequence[Sets]) -> None:
-    """Print the plan of each size of sets."""
+def explain(asked: Asked, sets: Sequence[Sets], weights: Path | None) -> None:
+    """Print the plan of each size of sets, having checked the weights."""
+    _weights(weights, sets)
     alike: dict[tuple[int, ...], list[Sets]] = {}
     for one in sets:
         alike.setdefault(one.x.shape, []).append(one)
@@ -104,19 +105,28 @@ def find(asked: Asked, sets: Sequence[Sets], weights: Path | None, out: Path | N
     seconds = sum(plan.seconds for plan in plans)
     if seconds > SLOW:
         click.echo(f"gbnbench: about {_duration(seconds)}: {plans[0].chosen.evaluation.label}", err=True)
-    digits = len(str(len(sets) - 1))
-    for k, (one, plan, w) in enumerate(zip(sets, plans, weighing, strict=True)):
-        if weights is not None:
-            one = replace(one, label=f"{one.label} weighted by {weights}")
-        if asked.sigma is not None:
-            one = replace(one, label=f"{one.label} filtered by a Gaussian of {asked.sigma:g} spacings")
-        with _bar(plan.request.frequencies) as tell:
-            result = asked.find(one.x, w, tell)
-        if out is None:
-            click.echo(("\n" if k else "") + told(result, one.label))
-        else:
-            path = out.with_name(f"{out.stem}_{k:0{digits}d}{out.suffix}") if each else out
-            _write(path, result, one)
+    paths = [] if out is None else places(out, len(sets), each=each)
+    written = 0
+    try:
+        for k, (one, plan, w) in enumerate(zip(sets, plans, weighing, strict=True)):
+            if weights is not None:
+                one = replace(one, label=f"{one.label} weighted by {weights}")
+            if asked.sigma is not None:
+                one = replace(one, label=f"{one.label} filtered by a Gaussian of {asked.sigma:g} spacings")
+            with _bar(plan.request.frequencies) as tell:
+                result = asked.find(one.x, w, tell)
+            if paths:
+                _write(paths[k], result, one)
+                written += 1
+            else:
+                click.echo(("\n" if k else "") + told(result, one.label))
+    except KeyboardInterrupt:
+        if not paths:
+            raise
+        are = "is" if written == 1 else "are"
+        raise KeyboardInterrupt(
+            f"{written} of {len(paths)} {'file' if len(paths) == 1 else 'files'} {are} written and kept"
+        ) from None
 
 
 def _weights(path: Path | None, sets: Sequence[Sets]) -> list[FloatArray | None]:
@@ -133,15 +143,34 @@ def _weights(path: Path | None, sets: Sequence[Sets]) -> list[FloatArray | None]
     return list(found) if found.ndim == 2 else [found] * len(sets)
 
 
-def check_place(out: Path, inputs: Sequence[Path]) -> None:
-    """Refuse a place or format that cannot be written, or would cost an input, before anything is read."""
+def places(out: Path, sets: int, *, each: bool) -> list[Path]:
+    """Name every file that will be written: OUT, or with ``each`` OUT with the number of each set."""
+    digits = len(str(sets - 1))
+    return [out.with_name(f"{out.stem}_{k:0{digits}d}{out.suffix}") for k in range(sets)] if each else [out]
+
+
+def check_outs(outs: Sequence[Path], inputs: Sequence[Path], *, each: bool) -> None:
+    """Refuse to write where an input is, by whatever name or link."""
+    read_here = {_identity(path) for path in inputs}
+    for path in outs:
+        if path.exists() and _identity(path) in read_here:
+            how = "--each" if each else "writing"
+            raise InputError(f"{path} is read here, and {how} would replace it; choose another name")
+
+
+def _identity(path: Path) -> tuple[int, int]:
+    """Device and inode, which every link to a file has in common."""
+    status = path.stat()
+    return status.st_dev, status.st_ino
+
+
+def check_place(out: Path) -> None:
+    """Refuse a place or format that cannot be written, before anything is read."""
     if out.suffix.lower() not in DATA + PICTURES:
         known = ", ".join(DATA + PICTURES)
         raise InputError(f"{out}: spectra are written as {known}; got extension {out.suffix!r}")
     if not out.parent.is_dir():
         raise InputError(f"cannot write {out}: there is no folder {out.parent}")
-    if any(path.exists() and out.exists() and path.samefile(out) for path in inputs):
-        raise InputError(f"{out} is read here, and writing would replace it; choose another name")
 
 
 def _check_out(out: Path, plan: Plan) -> None:
@@ -176,6 +205,11 @@ def _duration(seconds: float) -> str:
     return f"{seconds:.0f} s"
 
 
+def _worth_showing(elapsed: float, share: float) -> bool:
+    """Whether work has lasted a while and will last as long again, so that a bar does not just flash."""
+    return elapsed > PATIENCE and elapsed * (1 - share) >= PATIENCE * share
+
+
 @contextmanager
 def _bar(frequencies: int) -> Iterator[Callable[[float], None]]:
     """Yield what takes the share done and shows it, once the work has lasted a while."""
@@ -188,7 +222,7 @@ def _bar(frequencies: int) -> Iterator[Callable[[float], None]]:
             done = int(share * frequencies)
             if bar is not None:
                 bar.advance("frequencies", done - shown)
-            elif time.monotonic() - began > PATIENCE:
+            elif _worth_showing(time.monotonic() - began, share):
                 bar = stack.enter_context(progress.choose(quiet=False))
                 bar.start(frequencies, done, "frequencies")
             shown = done

@@ -114,6 +114,8 @@ def _read_archive(path: Path, archive: zipfile.ZipFile, limit: int) -> list[Floa
         raise FormatError(
             path, "x and y are arrays of their own; put the points in one (n, d) array 'points'"
         )
+    if "power.npy" in names and not {"points.npy", "x.npy"} & set(names):
+        raise FormatError(path, "is a spectrum, not points")
     chosen = next(([m] for key in ("points", "x") for m in members if m.filename == key + ".npy"), members)
     refuse_large(path, sum(m.file_size for m in chosen), limit, "unpacked, the arrays hold")
     sets: list[FloatArray] = []

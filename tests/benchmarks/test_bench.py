@@ -135,6 +135,7 @@ def test_plans_hold_the_cases_asked_for():
 
 def test_two_cores_are_told_apart_or_the_reason_is(monkeypatch):
     assert "2.00" in str(cores.Throughput((100.0, 90.0), (200.0, 190.0)))
+    assert "over 1 round;" in str(cores.Throughput((100.0,), (200.0,)))
     assert "not measured, because" in str(cores.Throughput(reason="because"))
     monkeypatch.setattr(cores, "_child", lambda threads, seconds, device: 10.0 * threads)
     told = cores.throughput(0.1, 2)
@@ -187,12 +188,18 @@ def test_the_command_prints_its_tables_and_names_the_device(whole):
         "numpy separable",
         "PSA v1.1 (quoted)",
         "slope",
-        "hard cases:",
+        "the error met is within the stated worst case",
         "P to 1%",
     ):
         assert words in done.stdout
     assert "not measured" in done.stdout
     assert "Traceback" not in done.stderr
+
+
+def test_without_finufft_it_says_so_and_how_to_add_it(whole):
+    out, done = whole
+    there = pd.read_csv(out / "periodogram.csv").family.eq("FINUFFT").any()
+    assert ("FINUFFT is not installed: pip install finufft to add it" in done.stdout) == (not there)
 
 
 def test_bad_use_is_refused_in_words(tmp_path):

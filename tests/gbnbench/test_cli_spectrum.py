@@ -21,6 +21,7 @@ from gbnbench.analysis.measures import default_fmax
 from gbnbench.archive import read_csv
 from gbnbench.cli import run
 from gbnbench.points import save
+from gbnbench.reports import single
 from tests.oracles import direct_power
 
 Said = Callable[..., tuple[str, str]]
@@ -246,6 +247,18 @@ def test_pictures(said: Said) -> None:
     assert Path("x.pdf").read_bytes().startswith(b"%PDF-")
 
 
+def test_every_marker_of_the_picture_is_on_its_axes(sets: np.ndarray) -> None:
+    corners = single.figure(gbnbench.shells(sets[0], 9, corners=True), "corners")
+    _, lower = corners.axes
+    (line,) = [line for line in lower.lines if line.get_marker() == "o"]
+    assert line.get_xdata()[-1] == pytest.approx(13 / 40**0.5)  # of |f| = 12.7
+    assert lower.get_xlim()[1] > line.get_xdata()[-1]
+    assert lower.get_ylabel() == "anisotropy, dB"
+    flat = single.figure(gbnbench.shells(sets[0, :, :1], 9), "1D")
+    assert not flat.axes[1].lines  # "undefined" has no line through it
+    assert "holds only the shells inside" in " ".join(t.get_text() for t in corners.texts).replace("\n", " ")
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
@@ -272,7 +285,13 @@ def test_pictures(said: Said) -> None:
         (["a.txt", "--shells", "-o", "x.npy"], "no room for the |f| of shells"),
         (["a.txt", "--at", "at.txt", "-o", "x.png"], "listed frequencies make no picture"),
         (["a.txt", "--fmax", "1500", "-o", "x.csv"], "write .npz or .npy"),
-        (["b.csv", "-o", "./b.csv"], "is read here"),
+        (["b.csv", "-o", "./b.csv"], "is read here, and writing would replace it"),
+        (["a.txt", "--band", "0,0"], "|f| in 0,0 (DC is left out)"),
+        (["a.txt", "--explain", "--weights", "w30.txt"], "w30.txt: 30 numbers where 40 points need 40"),
+        (["--explain", "-n", "40", "--weights", "w30.txt"], "w30.txt: 30 numbers where 40 points need 40"),
+        (["cube.npz"], "cube.npz: is a spectrum, not points"),
+        (["a.txt", "radial.npz"], "radial.npz: is a spectrum, not points"),
+        (["a.txt", "--at", "cube.npz"], ".npz lists are not read"),
     ],
 )
 def test_what_cannot_be_is_one_line_and_exit_2(
@@ -280,6 +299,9 @@ def test_what_cannot_be_is_one_line_and_exit_2(
 ) -> None:
     Path("bad.txt").write_text("0.5 0.5\n0.5 x\n")
     Path("at.txt").write_text("1 2\n")
+    Path("w30.txt").write_text("1\n" * 30)
+    said("a.txt", "--fmax", 2, "-o", "cube.npz")
+    said("a.txt", "--shells", "--fmax", 2, "-o", "radial.npz")
     before = {path: path.read_bytes() for path in Path().iterdir()}
     out, err = said(*arguments, code=2)
     assert out == ""
@@ -287,6 +309,82 @@ def test_what_cannot_be_is_one_line_and_exit_2(
     assert err.count("\n") == 1
     assert words in err
     assert {path: path.read_bytes() for path in Path().iterdir()} == before
+
+
+def test_each_never_replaces_what_is_read(said: Said, sets: np.ndarray) -> None:
+    for k in range(2):
+        save(f"pts_{k}.csv", sets[k])
+    os.link("pts_1.csv", "link.csv")
+    Path("far").symlink_to(Path.cwd())
+    Path("w_0.csv").write_text("1\n" * 40)
+    Path("f_1.csv").write_text("1 2\n")
+    kept = {path: path.read_bytes() for path in Path().iterdir() if path.is_file()}
+    for arguments, name in (
+        (["pts_0.csv", "pts_1.csv", "-o", "pts.csv"], "pts_0.csv"),
+        (["a.txt", "pts_1.csv", "-o", "far/pts.csv"], "far/pts_1.csv"),
+        (["a.txt", "link.csv", "-o", "pts.csv"], "pts_1.csv"),
+        (["s.npz", "--weights", "w_0.csv", "-o", "w.csv"], "w_0.csv"),
+        (["s.npz", "--at", "f_1.csv", "-o", "f.csv"], "f_1.csv"),
+    ):
+        reach = [] if "--at" in arguments else ["--fmax", 2]
+        out, err = said(*arguments, "--each", *reach, code=2)
+        expected = f"{name} is read here, and --each would replace it; choose another name"
+        assert (out, err) == ("", f"gbnbench: error: {expected}\n")
+    assert {path: path.read_bytes() for path in Path().iterdir() if path.is_file()} == kept
+    said("a.txt", "b.csv", "--each", "--fmax", 2, "-o", "b.csv")  # b_0.csv and b_1.csv, not b.csv
+    assert Path("b.csv").read_bytes() == kept[Path("b.csv")]
+    assert Path("b_1.csv").is_file()
+
+
+def test_a_run_that_is_stopped_says_what_it_keeps(said: Said, monkeypatch: pytest.MonkeyPatch) -> None:
+    find, calls = gbnbench.asked.Asked.find, []
+
+    def stopped(*arguments: Any) -> Any:
+        calls.append(1)
+        if len(calls) == 3:
+            raise KeyboardInterrupt
+        return find(*arguments)
+
+    monkeypatch.setattr(gbnbench.asked.Asked, "find", stopped)
+    _, err = said("s.npz", "a.txt", "b.csv", "--each", "--fmax", 2, "-o", "q.npy", code=130)
+    assert err == "gbnbench: stopped; 2 of 4 files are written and kept\n"
+    assert sorted(path.name for path in Path().glob("q*")) == ["q_0.npy", "q_1.npy"]
+
+
+def test_rounding_is_not_told_as_power_nor_as_anisotropy(said: Said) -> None:
+    grid = np.stack(np.meshgrid(*[np.arange(16) / 16] * 2), axis=-1).reshape(-1, 2)
+    save("grid.txt", grid)
+    save("point.txt", np.array([[0.25, 0.7]]))
+    out, _ = said("grid.txt")
+    assert "noise floor below 3e-27, P(|f|=1) below 3e-27, peak " in out
+    assert "e-30" not in out
+    for name in ("grid.txt", "point.txt"):
+        said(name, "--shells", "--fmax", 12, "-o", "r.csv")
+        said(name, "--shells", "--fmax", 12, "-o", "r.npz")
+        assert read_csv(Path("r.csv"))["anisotropy_db"].isna().all()
+        assert np.isnan(stored("r.npz")["anisotropy_db"]).all()
+        assert "inf" not in said(name, "--shells", "--fmax", 12)[0]
+    said("grid.txt", "--shells", "--fmax", 12, "--precision", "float", "-o", "r.csv")
+    assert read_csv(Path("r.csv"))["anisotropy_db"].isna().all()
+
+
+def test_shells_that_lie_close_are_told_apart(said: Said) -> None:
+    out, _ = said("a.txt", "--band", "1000,1000.1")
+    rows = [line.split()[:2] for line in out.splitlines()[4:20]]
+    for column in zip(*rows, strict=True):
+        assert len(set(column)) == 16
+    assert float(rows[1][0]) ** 2 == pytest.approx(round(float(rows[1][0]) ** 2), abs=0.5)
+
+
+def test_listed_frequencies_reach_as_far_as_64_bits(said: Said, sets: np.ndarray) -> None:
+    Path("at.txt").write_text(f"{-(2**63)} 1\n")
+    out, _ = said("a.txt", "--at", "at.txt", "-o", "l.npz")
+    assert "1 listed frequency, " in out or "1 listed frequency of" in out
+    expected = gbnbench.periodogram(sets[0], frequencies=np.array([[-(2**63), 1]])).power
+    np.testing.assert_array_equal(stored("l.npz")["power"], expected)
+    Path("at.txt").write_text("0 0\n")
+    said("a.txt", "--at", "at.txt", "-o", "l.npz")
+    assert stored("l.npz")["power"] == pytest.approx(40)
 
 
 def test_long_work_is_said_beforehand_and_shows_how_far_it_is(
@@ -298,6 +396,9 @@ def test_long_work_is_said_beforehand_and_shows_how_far_it_is(
     frequencies = gbnbench.plan(40, 2, 30, shells=True).request.frequencies
     assert err.splitlines()[0] == "gbnbench: about 0 s: streamed two-group product in double"
     assert err.splitlines()[-1].startswith(f"{frequencies}/{frequencies} frequencies")
+    worth = gbnbench.cli.spectrum_work._worth_showing
+    monkeypatch.setattr("gbnbench.cli.spectrum_work.PATIENCE", 1.0)
+    assert [worth(*at) for at in ((0.9, 0.1), (1.1, 0.9), (1.1, 0.2))] == [False, False, True]
     duration = gbnbench.cli.spectrum_work._duration
     assert [duration(s) for s in (42, 600, 9e4, 2.4e6)] == ["42 s", "10 minutes", "25 hours", "27.8 days"]
 

@@ -87,5 +87,9 @@ def test_bad_arrays_are_refused(tmp_path: Path) -> None:
         (tmp_path / "a.npy").write_bytes(broken)
         with pytest.raises(FormatError, match=r"a damaged \.npy"):
             read_weights(tmp_path / "a.npy", 2)
+    np.savez(tmp_path / "at.npz", f=np.array([[1, 2]]))
+    for read in (read_frequencies, read_weights):
+        with pytest.raises(FormatError, match=r"\.npz lists are not read; write \.txt, \.csv or \.npy"):
+            read(tmp_path / "at.npz", 2)
     with pytest.raises(FormatError, match="is a folder"):
         read_frequencies(tmp_path)

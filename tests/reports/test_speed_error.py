@@ -140,11 +140,28 @@ def test_panels_say_the_case_the_quoted_time_and_the_machine():
         "double",
     ):
         assert part in words
+    bare = " ".join(t.get_text() for t in texts(FIGURES["no finufft"]())).replace("\n", " ")
+    assert "FINUFFT, one thread" not in bare
+    assert "tolerances" not in bare
     curve = next(
         line for line in figure.axes[0].lines if line.get_color() == speed_error.LOOKS["gbnbench"][0]
     )
     assert curve.get_xdata().tolist() == [3e-16, 1e-7]
     assert curve.get_ydata().tolist() == [2.0, 1.2]
+
+
+@pytest.mark.parametrize("error", [1e-7, 7e-7, 1e-4])
+def test_the_name_of_a_precision_stays_in_its_panel(error):
+    rows = speed_rows(finufft=False, quoted=False)[lambda t: t.family != "new"]
+    last = (rows.case == CASES[-1]) & (rows.precision == "float")
+    figure = speed_error.figure(rows.assign(error_rms=rows.error_rms.where(~last, error)), MACHINE)
+    boxes = texts(figure)
+    for ax in figure.axes:
+        panel = ax.get_window_extent()
+        names = [t for t in ax.texts if t.get_text() in ("double", "float")]
+        assert len(names) == 2
+        for name in names:
+            assert panel.x0 <= boxes[name].x0 < boxes[name].x1 <= panel.x1
 
 
 def test_without_a_peak_the_panel_says_so():
