@@ -29,6 +29,7 @@ DEGREE = {"double": 18, "float": 11}
 CHUNK_BYTES = 4 << 20  # tables of the points that are carried to the grid together
 BATCH_BYTES = 8 << 20  # of the sets of a batch
 GRIDS_A_TABLE = 16  # how much larger a batch's grids and amplitudes may be
+PLAIN_FROM = 4096  # points, beyond which the first axis' own frequencies are summed plainly
 KEPT_FROM = 1 << 12  # points near a node, from which on the rounding of their sum is kept
 
 
@@ -112,11 +113,16 @@ def gridded_powers(
         grid.multiply(len(held.x))
         writer.add(grid.program, grid.amplitude, 1, first, len(held.x), 0, fmax + 1)
     power = writer.result()
-    # Where g = 0 all that is carried adds up, and its rounding is not small beside what is left: summed
-    # plainly.
-    line, plain = cube_powers(p, x[..., :1], fmax, weights, half, mean)
-    power.reshape(*line.shape, -1)[..., (2 * fmax + 1) ** (d - 1) // 2] = line
     errors = gridded_errors(p, fmax, crowd, coordinates(x, p.name, weights))
+    at = (2 * fmax + 1) ** (d - 1) // 2
+    if n <= PLAIN_FROM:
+        totals = np.full(sets, float(n)) if weights is None else weights.sum(axis=1) ** 2 / norms
+        flat = power.reshape(*power.shape[:-d], -1)
+        flat[..., (0 if half else fmax) * (2 * at + 1) + at] = totals.mean() if mean else totals
+        return power, errors
+    # Where g = 0 all that is carried is positive, and its rounding, about 0.2 units times sqrt(n), stands out.
+    line, plain = cube_powers(p, x[..., :1], fmax, weights, half, mean)
+    power.reshape(*line.shape, -1)[..., at] = line
     return power, Errors(max(errors.rms, plain.rms), max(errors.bound, plain.bound))
 
 
