@@ -120,7 +120,7 @@ def gridded_powers(
         flat = power.reshape(*power.shape[:-d], -1)
         flat[..., (0 if half else fmax) * (2 * at + 1) + at] = totals.mean() if mean else totals
         return power, errors
-    # Where g = 0 all that is carried is positive, and its rounding, about 0.2 units times sqrt(n), stands out.
+    # Where g = 0 all that is carried is positive: its rounding, about 0.2 units times sqrt(n), stands out.
     line, plain = cube_powers(p, x[..., :1], fmax, weights, half, mean)
     power.reshape(*line.shape, -1)[..., at] = line
     return power, Errors(max(errors.rms, plain.rms), max(errors.bound, plain.bound))
