@@ -233,7 +233,8 @@ class Frequencies:
             of_a_point = sizes[1] // self.columns // length * np.dtype(self.p.real).itemsize
             step = min(length, max(SUM_POINTS * self.p.lanes, COLUMN_BYTES // (LEAST_COLUMNS * of_a_point)))
             blocks = min(self.columns, -(-items_of(self.p) // (self.tiles * slots)))
-            each = max(1, min(-(-self.columns // blocks), COLUMN_BYTES // (step * of_a_point)))
+            most = max(1, COLUMN_BYTES // (step * of_a_point))
+            each = -(-self.columns // max(blocks, -(-self.columns // most)))
         columns = -(-self.columns // each)
         items = (self.tiles, columns) if self.width == 1 else (padded(columns, self.width), self.tiles)
         for begin in range(0, length, step):
