@@ -84,6 +84,8 @@ def anisotropy_panel(
     )
     ax.set_xlim(0, float(source.radial.nu.max()) * 1.02 if len(source.radial.nu) else 1.0)
     ax.set_ylim(*limits)
+    # A mark at the top would touch the 0 of the radial power above.
+    ax.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10], prune="upper"))
     ax.xaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10], prune="upper"))
     if not np.isfinite(decibel).any():
         ax.text(
