@@ -32,7 +32,8 @@ TYPICAL, LARGEST = 0.35, 1.0
 FLOOR, FLOOR_HARMONIC, FLOOR_POINT = 15.0, 1.0, 0.1
 # On coincident points, where errors are coherent, over sqrt(n) and at least three times what was met.
 COHERENT, COHERENT_FLOOR, COHERENT_HARMONIC = 30.0, 100.0, 3.0
-COHERENT_POINT = {WIDE: 20.0, NARROW: 1e5}
+COHERENT_POINT = (5.0, 8.0, 20.0)  # by dimension
+COHERENT_POINT_NARROW = 1e5
 SUBPROBLEM = (10_000, 100_000, 100_000)  # points FINUFFT sums one after another, in 1, 2 and 3 dimensions
 
 
@@ -234,7 +235,8 @@ def nufft_errors(n: int, d: int, fmax: int, tolerance: float, weights: FloatArra
     if weights is not None:
         scaled = np.abs(weights) / np.abs(weights).max()
         worst = float(scaled.sum() / np.linalg.norm(scaled))
-    point = COHERENT_POINT[_upsampling(n, d, fmax, tolerance)]
+    wide = _upsampling(n, d, fmax, tolerance) == WIDE
+    point = COHERENT_POINT[d - 1] if wide else COHERENT_POINT_NARROW
     together = min(n, SUBPROBLEM[d - 1])
     rounding = UNIT * (COHERENT_FLOOR + COHERENT_HARMONIC * fmax + point * together)
     return Errors(
