@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gbnbench.results import RESOLVED, resolvable_power
 from gbnbench.torus import FloatArray
 
-RESOLVED = 0.01  # relative error of a power that counts as resolved
 UNIT = {"double": 2.0**-53, "float": 2.0**-24}  # half the distance from 1 to the next number
 BITS = {"double": 64, "float": 32}  # of a fixed-point coordinate
 EXACT_FROM = 2.0**-12  # doubles from here up are multiples of 2^-64
@@ -143,11 +143,6 @@ def rounded_at_worst(n: int, d: int, precision: str) -> Coordinates:
 def power_error(power: float, error: float) -> float:
     """Error of a power whose square root is off by error: 2 sqrt(P) e + e^2."""
     return 2 * math.sqrt(power) * error + error * error
-
-
-def resolvable_power(rms: float) -> float:
-    """Smallest power known to 1% where its square root is off by rms: about (200 rms)^2."""
-    return (rms * (1 + math.sqrt(1 + RESOLVED)) / RESOLVED) ** 2
 
 
 def rms_for(floor: float) -> float:

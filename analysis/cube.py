@@ -11,11 +11,10 @@ import numpy as np
 from gbnbench.analysis.accuracy import Errors, coordinates
 from gbnbench.analysis.digits import Division, cheapest_division, half_size, size
 from gbnbench.analysis.precision import Precision, padded
-from gbnbench.analysis.two_group import Group, TwoGroupProduct, product_errors, rows_of
+from gbnbench.analysis.two_group import AMPLITUDE_BYTES, Group, TwoGroupProduct, product_errors, rows_of
 from gbnbench.opencl import Program
 from gbnbench.torus import FloatArray
 
-AMPLITUDE_BYTES = 256 << 20  # of the rows that one pass over the points takes
 GPU_COLUMNS = 64  # frequencies of a row that one work-item of a GPU turns into power
 
 

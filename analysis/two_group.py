@@ -24,7 +24,7 @@ from gbnbench.opencl import Program
 from gbnbench.torus import FloatArray
 
 TABLE_BYTES = 4 << 20  # of both groups' tables together: what stays in cache
-AMPLITUDE_BYTES = 256 << 20  # of a batch's amplitudes
+AMPLITUDE_BYTES = 256 << 20  # of a batch's amplitudes, or of the rows that one pass over the points takes
 COLUMN_BYTES = 512 << 10  # of the columns that one row tile after another is multiplied with
 LEAST_COLUMNS = 32  # of them, so that a row tile is worth fetching
 LEAST_ITEMS = 4  # work-items a core, so that cores end together
@@ -355,13 +355,17 @@ class TwoGroupProduct:
                 self.frequencies.tabulate(
                     *(self.program, (0, 2), points, self._tables, slots), self._sizes, count, begin
                 )
-                self.frequencies.multiply(
-                    *(self.program, self._tables, self._sizes, slots.length, count * slots.splits),
-                    bounds=self._bounds,
-                    amplitude=self.amplitude,
-                    again=begin > 0,
-                )
+                self.multiply(count, again=begin > 0)
             yield first, count
+
+    def multiply(self, sets: int, again: bool = False) -> None:
+        """Multiply the tables of so many sets, and add to the amplitudes of points before where again."""
+        self.frequencies.multiply(
+            *(self.program, self._tables, self._sizes, self.slots.length, sets * self.slots.splits),
+            bounds=self._bounds,
+            amplitude=self.amplitude,
+            again=again,
+        )
 
 
 def rows_of(p: Precision) -> int:

@@ -16,6 +16,8 @@ from gbnbench.torus import FloatArray, spacing
 if TYPE_CHECKING:
     import pandas as pd
 
+RESOLVED = 0.01  # relative error of a power that counts as known
+
 
 @dataclass(frozen=True)
 class Spectrum:
@@ -87,7 +89,7 @@ class Spectrum:
     @property
     def resolvable(self) -> float:
         """Smallest power that is typically known to 1%: about (200 error_rms)^2."""
-        return _resolvable(self.error_rms)
+        return resolvable_power(self.error_rms)
 
     @property
     def spacing(self) -> float:
@@ -123,9 +125,9 @@ def gaussian_response(nu: FloatArray, sigma: float) -> FloatArray:
     return response
 
 
-def _resolvable(rms: float) -> float:
-    """Power whose square root may be off by rms, and the power yet by no more than 1%."""
-    return (rms * (1 + math.sqrt(1.01)) / 0.01) ** 2
+def resolvable_power(rms: float) -> float:
+    """Smallest power known to 1% where its square root is off by rms: about (200 rms)^2."""
+    return (rms * (1 + math.sqrt(1 + RESOLVED)) / RESOLVED) ** 2
 
 
 @dataclass(frozen=True)
@@ -228,7 +230,7 @@ class ShellSpectrum:
     @property
     def resolvable(self) -> float:
         """Smallest power of one frequency that is typically known to 1%."""
-        return _resolvable(self.error_rms)
+        return resolvable_power(self.error_rms)
 
 
 @dataclass(frozen=True)

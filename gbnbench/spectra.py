@@ -11,11 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench import __version__, archive
-from gbnbench.analysis.accuracy import resolvable_power
 from gbnbench.analysis.anisotropy import EQUAL, anisotropy_of_shells
 from gbnbench.analysis.profile import ROUNDING
 from gbnbench.errors import InputError
-from gbnbench.results import ShellSpectrum, Spectrum
+from gbnbench.results import ShellSpectrum, Spectrum, resolvable_power
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -8,11 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.analysis.accuracy import resolvable_power
 from gbnbench.analysis.anisotropy import shells_of
 from gbnbench.analysis.profile import noise_floor, peak, power_at_1
 from gbnbench.errors import RefusalError
-from gbnbench.results import ShellSpectrum, Spectrum
+from gbnbench.results import ShellSpectrum, Spectrum, resolvable_power
 from gbnbench.spectra import columns
 
 ROWS = 16  # printed

@@ -14,7 +14,6 @@ from gbnbench.analysis.accuracy import (
     Errors,
     coordinates,
     power_error,
-    resolvable_power,
     rms_for,
     rounded_at_worst,
 )
@@ -22,6 +21,7 @@ from gbnbench.analysis.cube import cube_powers
 from gbnbench.analysis.listed import listed_power
 from gbnbench.analysis.periodogram import periodogram
 from gbnbench.analysis.precision import precision_of
+from gbnbench.results import resolvable_power
 
 PRECISIONS = ("double", "float")
 

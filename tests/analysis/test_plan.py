@@ -13,12 +13,13 @@ import pytest
 from exact_sums import distance, mean_power, on_grid
 
 from gbnbench.analysis import nufft
-from gbnbench.analysis.accuracy import resolvable_power, rms_for
+from gbnbench.analysis.accuracy import rms_for
 from gbnbench.analysis.periodogram import periodogram
 from gbnbench.analysis.plan import plan
 from gbnbench.analysis.shell_spectrum import shells
 from gbnbench.errors import InputError
 from gbnbench.opencl import runtime
+from gbnbench.results import resolvable_power
 
 FLOORS = tuple(10.0**-k for k in range(0, 30, 2))
 EXACT = ("two-group product", "gridded product")
