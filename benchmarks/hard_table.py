@@ -15,14 +15,13 @@ import numpy as np
 import pandas as pd
 
 from gbnbench.analysis import nufft
-from gbnbench.analysis.accuracy import resolvable_power
 from gbnbench.analysis.evaluation import DIRECT, GRIDDED, NUFFT, PRODUCT, SEPARABLE
 from gbnbench.analysis.gridded import griddable
 from gbnbench.analysis.periodogram import periodogram
 from gbnbench.benchmarks.hard_cases import Frequencies, HardCase, hard_cases
 from gbnbench.disk import write_whole
 from gbnbench.opencl import runtime
-from gbnbench.results import Spectrum
+from gbnbench.results import Spectrum, resolvable_power
 from gbnbench.torus import FloatArray
 
 PRECISIONS = ("double", "float")

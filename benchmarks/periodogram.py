@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from gbnbench.analysis.accuracy import resolvable_power
 from gbnbench.analysis.evaluation import PRODUCT
 from gbnbench.benchmarks.cases import Case, Plan
 from gbnbench.benchmarks.cores import Throughput, throughput
@@ -23,9 +22,11 @@ from gbnbench.benchmarks.machine import Rows, describe, peaks
 from gbnbench.benchmarks.reference import LongArray, reference_roots
 from gbnbench.benchmarks.rivals import Rival, ours, rivals
 from gbnbench.benchmarks.threads import one_blas_thread
+from gbnbench.benchmarks.tile import tile_share
 from gbnbench.disk import write_whole
 from gbnbench.errors import InputError
 from gbnbench.progress import Progress
+from gbnbench.results import resolvable_power
 from gbnbench.torus import FloatArray
 
 STEEP = 1e7  # operations from which a slope is fitted: below, launching the kernels is what costs
@@ -120,6 +121,9 @@ def run(out: Path, plan: Plan, progress: Progress) -> Outcome:
         else Throughput(reason="not asked")
     )
     machine |= {"fma_flops_a_second": {p: _jsonable(peak) for p, peak in most.items()}}
+    machine |= {
+        "tile_flops_a_second": {p: dict(zip(("tile", "peak"), tile_share(p), strict=True)) for p in most}
+    }
     machine |= {"two_cores": asdict(cores) | {"ratio": _jsonable(cores.ratio)}}
     write_whole(out / "machine.json", (json.dumps(machine, indent=2) + "\n").encode())
     progress.advance("done")

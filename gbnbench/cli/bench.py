@@ -110,6 +110,11 @@ def _report(outcome: Outcome) -> Iterator[str]:
             for row in slopes(outcome.scaling).itertuples()
         ],
     )  # fmt: skip
+    for precision, found in machine["tile_flops_a_second"].items():
+        yield (
+            f"\nthe product's tile in {precision}, sixteen sets: {found['tile'] / 1e9:.1f} of "
+            f"{found['peak'] / 1e9:.1f} GFlop/s, {found['tile'] / found['peak']:.0%} of the peak"
+        )
     yield f"\n{outcome.throughput}"
     yield from _hard(outcome.hard, resolvable(outcome.hard))
 

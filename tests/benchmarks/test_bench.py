@@ -236,3 +236,10 @@ def test_a_run_that_is_stopped_keeps_its_rows(tmp_path):
         rows = list(csv.DictReader(file))
     assert rows[0]["method"] == "gbnbench double"
     assert all(row["cpu_ms"] for row in rows)
+
+
+def test_the_tile_is_slower_than_the_peak_and_both_are_speeds():
+    from gbnbench.benchmarks.tile import tile_share
+
+    tile, peak = tile_share("double")
+    assert 1e8 < tile < 1.1 * peak
