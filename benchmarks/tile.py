@@ -1,4 +1,4 @@
-"""How near the product's tile comes to the multiply-add peak: its kernel alone, on ready tables, many sets."""
+"""How near the tile of the product comes to the multiply-add peak: its kernel alone, on ready tables."""
 
 from __future__ import annotations
 
