@@ -65,6 +65,7 @@ class Checkpoint:
         if not now and time.monotonic() - self._written < self._seconds:
             return
         file = io.BytesIO()
-        np.savez(file, **{KEY: np.array(self._key)}, **dict(state))
+        arrays: dict[str, Any] = {KEY: np.array(self._key), **state}
+        np.savez(file, **arrays)
         write_whole(self._path, file.getvalue())
         self._written = time.monotonic()

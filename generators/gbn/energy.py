@@ -10,11 +10,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gbnbench.generators.gbn.field import Field, Gradient
+from gbnbench.generators.gbn.strips import Strips
 from gbnbench.opencl import Runtime, runtime
 from gbnbench.torus import FloatArray
 
@@ -25,33 +27,34 @@ PACKAGE = "gbnbench.generators"
 
 
 @dataclass(frozen=True)
-class Gradient:
-    """What one evaluation gives.
-
-    Attributes
-    ----------
-    gradient : (n, d) float64
-        dE/du, u in spacings.
-    excess : float
-        Ex = (E + n theta(0)^d / 2 - n (2 pi)^(d/2) sigma^d / 2) / n, the energy a point above that of a
-        constant density: (1/2n) sum over f != 0 of w_f P(f).
-    """
+class One:
+    """Gradient (n, d) and excess energy of one set."""
 
     gradient: FloatArray
     excess: float
 
 
-class Field(Protocol):
-    """Evaluates the energy of n points in d dimensions at one sigma."""
+class Looped:
+    """Set by set."""
 
-    method: str
+    def __init__(self, one: Theta) -> None:
+        self.method, self.error, self._one = one.method, 1e-14, one
 
     def __call__(self, x: FloatArray) -> Gradient:
-        """Gradient and excess energy at x, (n, d) float64 in box sides, in or out of [0, 1)."""
-        ...
+        """Evaluate; see ``Field``."""
+        found = [self._one(points) for points in x]
+        return Gradient(np.stack([at.gradient for at in found]), np.array([at.excess for at in found]))
 
 
-def field(n: int, d: int, sigma: float, precision: str | None = None) -> Field:
+def field(
+    n: int,
+    d: int,
+    sigma: float,
+    precision: str | None = None,
+    *,
+    cutoff: float | None = None,
+    edge: float | None = None,
+) -> Field:
     """Choose the cheapest evaluation that is exact to the precision.
 
     Parameters
@@ -65,10 +68,9 @@ def field(n: int, d: int, sigma: float, precision: str | None = None) -> Field:
     """
     chosen = runtime()
     name = precision or ("double" if chosen.device.has_double else "float")
-    side = n ** (1 / d) / sigma
-    if side >= 2 * CUTOFF[name]:
-        return NearestImage(chosen, n, d, sigma, name)
-    return Theta(chosen, n, d, sigma, name)
+    if d <= 3 and (name == "double" or n ** (1 / d) / sigma >= 2 * CUTOFF[name]):
+        return Strips(chosen, n, d, sigma, name, cutoff)
+    return Looped(Theta(chosen, n, d, sigma, name))
 
 
 class _Evaluation:
@@ -131,7 +133,7 @@ class NearestImage(_Evaluation):
             key = key * cells + step
         return np.argsort(key, kind="stable")
 
-    def __call__(self, x: FloatArray) -> Gradient:
+    def __call__(self, x: FloatArray) -> One:
         """Evaluate; see ``Field``."""
         if self._order is None:  # points move by less than a spacing or so: one order serves a whole run
             self._order = self._sorted(x)
@@ -160,7 +162,7 @@ class NearestImage(_Evaluation):
         gradient = np.empty_like(sorted_gradient)
         gradient[order] = sorted_gradient / self.sigma
         uniform = (2 * math.pi) ** (self.d / 2) * self.sigma**self.d
-        return Gradient(gradient, float((np.mean(energy) - uniform) / 2))
+        return One(gradient, float((np.mean(energy) - uniform) / 2))
 
 
 class Theta(_Evaluation):
@@ -177,7 +179,7 @@ class Theta(_Evaluation):
         self._terms = np.int32(terms)
         self._kernels = self._program("gbn_theta.cl")
 
-    def __call__(self, x: FloatArray) -> Gradient:
+    def __call__(self, x: FloatArray) -> One:
         """Evaluate; see ``Field``."""
         angle = 2 * np.pi * (x - np.rint(x))  # small on both sides of the border, where neighbours meet
         cosine = self.runtime.upload(self._rows(np.cos(angle)))
@@ -199,4 +201,4 @@ class Theta(_Evaluation):
         gradient, energy = self._results()
         # The kernel's theta has mean 1 over the box and its slope is per box side.
         mean = (math.sqrt(2 * math.pi) * self.sigma / self.side) ** self.d
-        return Gradient(gradient * (mean / self.side), float(np.mean(energy) * mean / 2))
+        return One(gradient * (mean / self.side), float(np.mean(energy) * mean / 2))

@@ -8,6 +8,7 @@ lowest modes need far more steps than the middle band. Only nu <= 0.15 is treate
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,9 +24,9 @@ SLACK = 0.02  # moves in spacings over which a point keeps its weights: 2% of th
 class LowBand:
     """Modes with 0 < nu <= 0.15 of a set of n points in d dimensions, by a grid: n log n.
 
-    Points give their forces to a grid by cubic B-splines and take displacements from it by the same weights, so
-    that the correction is a symmetric operator of the forces; single precision is more than it needs, since the
-    forces that it reads vanish where it has done its work.
+    Points give their forces to a grid by cubic B-splines and take displacements from it by the same weights,
+    so that the correction is a symmetric operator of the forces; single precision is more than it needs,
+    since the forces that it reads vanish where it has done its work.
     """
 
     def __init__(self, n: int, d: int, sigma: float) -> None:
@@ -81,8 +82,8 @@ class LowBand:
     def place(self, x: FloatArray) -> None:
         """Find the weights of points (n, d), four on each axis."""
         self.anchor = x.copy()
-        cell: NDArray[np.int32] = np.zeros((self._n, 1), np.int32)
-        weight: NDArray[np.float32] = np.ones((self._n, 1), np.float32)
+        cell: NDArray[Any] = np.zeros((self._n, 1), np.int32)
+        weight: NDArray[Any] = np.ones((self._n, 1), np.float32)
         for a in range(self._d):
             at = (x[:, a] - np.floor(x[:, a])) * self._cells
             first = np.floor(at)

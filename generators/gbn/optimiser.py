@@ -1,4 +1,4 @@
-"""Minimisers of the Gaussian Blue Noise energy, many sets at once: the paper's descent, and Nesterov's method."""
+"""Minimisers of the Gaussian Blue Noise energy for many sets at once: the paper's descent, and Nesterov's."""
 
 from __future__ import annotations
 
@@ -38,8 +38,8 @@ def step_size(n: int, d: int, sigma: float) -> float:
 
 
 def authors_step(n: int, d: int) -> float:
-    """Step of the authors' programs, 0.25 / n in box sides, in squared spacings: right in scale for d = 2 only."""
-    return 0.25 * n ** (2 / d) / n
+    """Step of the authors' programs, 0.25 / n for box sides, in squared spacings: fit for d = 2 only."""
+    return 0.25 * float(n ** (2 / d)) / n
 
 
 class Descent:
@@ -140,13 +140,14 @@ class Nesterov(Descent):
     Parameters are those of ``Descent`` and
 
     sigma : float, optional
-        Kernel width in spacings: where given, boxes of more than 45 spacings a side, 2,048 points in the plane,
-        have their lowest band preconditioned, whose modes are too slow for any step that the middle band allows.
+        Kernel width in spacings: where given, boxes of more than 45 spacings a side, 2,048 points in the
+        plane, have their lowest band preconditioned, whose modes are too slow for any step that the middle
+        band allows.
 
     Notes
     -----
-    The restart is that of O'Donoghue & Candes (2015). The step is halved where the excess energy has risen over
-    20 gradients.
+    The restart is that of O'Donoghue & Candes (2015). The step is halved where the excess energy has risen
+    over 20 gradients.
     """
 
     def __init__(

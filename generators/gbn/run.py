@@ -48,7 +48,7 @@ def optimise(
     gradients : int
         Evaluations a set at most.
     watch : Watch
-        What is to be said, traced and kept; with a trace a run does not go on from a checkpoint halfway.
+        What is to be said, traced and kept.
     name : str
         What the run is, for progress and for its checkpoint.
 
@@ -62,14 +62,16 @@ def optimise(
     InputError
         If the checkpoint is of another run.
     """
-    sets, n, d = starts.shape
+    sets, n, _ = starts.shape
     size = max(1, BATCH // n)
     ends = starts.copy()
     kept, first, state = _checkpoint(starts, gradients, watch, name), 0, None
     if kept is not None and (found := kept.load()) is not None:
         first = int(found.pop("first"))
         ends[:first] = found.pop("done")
-        state = found or None
+        if watch.trace is not None and "rows" in found:
+            watch.trace.restore(found)
+        state = found if "x" in found else None
     batches = [slice(k, min(k + size, sets)) for k in range(first, sets, size)]
     total = gradients * -(-sets // size)
     for batch in batches:
@@ -86,19 +88,24 @@ def optimise(
                 excess = float(np.nanmax(optimiser.excess))
                 watch.progress(before + optimiser.gradients, total, f"{name}, excess {excess:.1e}")
             if kept is not None:
-                kept.save({"first": np.array(batch.start), "done": ends[: batch.start], **optimiser.state()})
+                kept.save(_state(ends[: batch.start], watch) | optimiser.state())
         ends[batch] = optimiser.x
         if kept is not None and batch.stop < sets:
-            kept.save({"first": np.array(batch.stop), "done": ends[: batch.stop]}, now=True)
+            kept.save(_state(ends[: batch.stop], watch), now=True)
     if kept is not None:
-        kept.save({"first": np.array(sets), "done": ends}, now=True)
+        kept.save(_state(ends, watch), now=True)
     return ends
+
+
+def _state(done: FloatArray, watch: Watch) -> dict[str, NDArray[Any]]:
+    traced = {} if watch.trace is None else watch.trace.state()
+    return {"first": np.array(len(done)), "done": done, **traced}
 
 
 def _checkpoint(starts: FloatArray, gradients: int, watch: Watch, name: str) -> Checkpoint | None:
     if watch.checkpoint is None:
         return None
     sets, n, d = starts.shape
-    digest = hashlib.sha256(np.ascontiguousarray(starts)).hexdigest()[:16]
+    digest = hashlib.sha256(starts.tobytes()).hexdigest()[:16]
     key = f"{name} to {gradients} gradients of {sets} x {n} points, d={d}, start {digest}"
     return Checkpoint(watch.checkpoint, key, watch.seconds)

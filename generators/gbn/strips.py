@@ -34,10 +34,11 @@ class Strips:
     sigma : float
         Kernel width in spacings.
     precision : {"double", "float"}
-        Double sums every image within the cut-off, in boxes of any size; float needs boxes of twice the cut-off.
+        Double sums every image within the cut-off, in boxes of any size; float needs boxes of twice the
+        cut-off.
     cutoff : float, optional
-        Where the kernel itself ends, in sigmas (Section 4.4); without it the kernel is whole and pairs that add
-        less than the precision are left out.
+        Where the kernel itself ends, in sigmas (Section 4.4); without it the kernel is whole and pairs that
+        add less than the precision are left out.
 
     Raises
     ------
@@ -46,8 +47,8 @@ class Strips:
 
     Notes
     -----
-    The points are sorted when the first gradient is asked for, and again when one of a set has moved by SKIN since;
-    until then the search reaches that much further. Which order is used depends on the set alone.
+    The points are sorted when the first gradient is asked for, and again when one of a set has moved by SKIN
+    since; until then the search reaches that much further. Which order is used depends on the set alone.
     """
 
     method = "strips"
@@ -61,8 +62,8 @@ class Strips:
             raise InputError(f"strips serve one to three dimensions; got d={d}")
         if precision == "float" and self.side < 2 * reach:
             raise InputError(
-                f"strips in float need a box of twice the cut-off, {2 * reach:g} spacings; n={n} in d={d} gives "
-                f"{self.side:.3g}; take double"
+                f"strips in float need a box of twice the cut-off, {2 * reach:g} spacings; n={n} in d={d} "
+                f"gives {self.side:.3g}; take double"
             )
         self.n, self.d, self.sigma = n, d, sigma
         self.error = ERROR[precision]
@@ -147,7 +148,9 @@ class Strips:
         return places
 
     def _results(self, sets: int) -> Gradient:
-        found = self._runtime.download(self._found, np.empty(sets * (self.n * self.d + self._groups), self._real))
+        found = self._runtime.download(
+            self._found, np.empty(sets * (self.n * self.d + self._groups), self._real)
+        )
         slopes, energy = np.split(found, [sets * self.n * self.d])
         slope = self._unit * self.side / self.sigma**2
         gradient = np.multiply(slopes.reshape(sets, self.n, self.d), slope, dtype=np.float64)

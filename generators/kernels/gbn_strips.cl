@@ -102,9 +102,10 @@ __kernel void gbn_strips(__global const PLACE *places, __global const uint *orde
 #else
     int column0 = 0, column1 = 0;
 #endif
-#if !DOUBLE
-    row1 = row1 - row0 < rows ? row1 : row0 + rows - 1;
-    column1 = column1 - column0 < columns ? column1 : column0 + columns - 1;
+    int row_gaps = 1, column_gaps = 1;
+#if !DOUBLE /* each pencil once; one that is met from both sides has no single gap */
+    if (row1 - row0 >= rows) row1 = row0 + rows - 1, row_gaps = 0;
+    if (column1 - column0 >= columns) column1 = column0 + columns - 1, column_gaps = 0;
 #endif
     for (int row = row0; row <= row1; row++) {
         const int row_image = row < 0 ? -((rows - 1 - row) / rows) : row / rows;
@@ -112,10 +113,10 @@ __kernel void gbn_strips(__global const PLACE *places, __global const uint *orde
             const int column_image = column < 0 ? -((columns - 1 - column) / columns) : column / columns;
             REAL gap2 = 0;
 #if DIM > 1
-            gap2 += squared_gap(low1, high1, row, (REAL)1 / rows);
+            gap2 += row_gaps ? squared_gap(low1, high1, row, (REAL)1 / rows) : (REAL)0;
 #endif
 #if DIM > 2
-            gap2 += squared_gap(low2, high2, column, (REAL)1 / columns);
+            gap2 += column_gaps ? squared_gap(low2, high2, column, (REAL)1 / columns) : (REAL)0;
 #endif
             const REAL left = reach * reach - gap2;
             if (left < 0) continue;

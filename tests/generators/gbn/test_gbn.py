@@ -44,7 +44,7 @@ def test_the_papers_descent_is_slower_by_the_published_factor():
         "descent": GaussianBlueNoise(iterations=400),
         "accelerated": GaussianBlueNoise(gradients=60),
     }.items():
-        excess[name] = field(256, 2, 1.0)(maker(256, 2, realization_rng(2, 0))).excess
+        excess[name] = field(256, 2, 1.0)(maker(256, 2, realization_rng(2, 0))[None]).excess[0]
     assert excess["accelerated"] == pytest.approx(excess["descent"], rel=0.6)
 
 
@@ -58,7 +58,7 @@ def test_other_dimensions_and_small_sets_reach_deep_floors(n, d, floor):
 
 def test_it_stops_at_the_excess_asked_for():
     x = GaussianBlueNoise(excess=1e-3)(256, 2, realization_rng(4, 0))
-    assert 2e-4 < field(256, 2, 1.0)(x).excess <= 1e-3
+    assert 2e-4 < field(256, 2, 1.0)(x[None]).excess[0] <= 1e-3
 
 
 @pytest.mark.parametrize("n", [1, 2, 3])
@@ -105,6 +105,12 @@ def test_a_mode_of_the_low_band_is_divided_by_its_own_curvature():
         ({"gradients": -1}, "gradients"),
         ({"iterations": -1}, "iterations"),
         ({"excess": -1.0}, "excess"),
+        ({"cutoff": -1.0}, "cutoff"),
+        ({"edge": math.inf}, "edge"),
+        ({"edge": 0.5, "cutoff": 2.0}, "in space or in frequency"),
+        ({"method": "nesterov", "iterations": 5}, "iterations count the steps of method=descent"),
+        ({"step": "fast"}, "step must be auto, authors or a number"),
+        ({"step": "-1"}, "step must be"),
     ],
 )
 def test_settings_out_of_range_are_refused(settings, says):
