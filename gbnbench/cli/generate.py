@@ -121,13 +121,15 @@ def _spectra(trace: Trace) -> pd.DataFrame:
     """Columns gradients, frequency, nu, power, filtered, count: shells of the mean spectrum (Figure 7)."""
     import pandas as pd
 
+    from gbnbench.analysis.limits import default_fmax
     from gbnbench.analysis.periodogram import periodogram
     from gbnbench.analysis.radial import radial
 
     frames = []
     for at in sorted(trace.kept):
         x = trace.points(at)
-        spectrum = periodogram(x)
+        sets, n, d = x.shape
+        spectrum = periodogram(x, default_fmax(n, d, sets))
         frame = radial(spectrum).to_frame()
         frame.insert(0, "gradients", at)
         frame.insert(4, "filtered", radial(spectrum).filtered(1.0).power)
