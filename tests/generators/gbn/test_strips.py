@@ -125,7 +125,7 @@ def test_the_form_for_gpus_agrees(monkeypatch, precision):
 
 
 def test_a_million_points_give_what_their_neighbours_say():
-    """On a jittered million, ten points' forces against their neighbours picked by distance, in long double."""
+    """On a jittered million, ten points and their neighbours by distance, in long double."""
     side, d = 1000, 2
     rng = np.random.default_rng(5)
     cells = np.stack(np.meshgrid(*[np.arange(side)] * d, indexing="ij"), -1).reshape(-1, d)
