@@ -10,6 +10,7 @@ import click
 
 from gbnbench import __version__
 from gbnbench.cli.bench import bench
+from gbnbench.cli.check import check
 from gbnbench.cli.compare import compare
 from gbnbench.cli.machine import devices, doctor
 from gbnbench.cli.points import analyze, generate
@@ -35,7 +36,7 @@ def gbnbench() -> None:
     """
 
 
-for _command in (compare, generate, analyze, spectrum, report, bench, devices, doctor):
+for _command in (compare, generate, analyze, spectrum, report, check, bench, devices, doctor):
     gbnbench.add_command(_command)
 
 
