@@ -63,7 +63,8 @@ def fixed_points(n: int, d: int, seed: int) -> FloatArray:
 
 def listed(gradient: FloatArray) -> FloatArray:
     """Take the gradient's components at points spread over the order: at most (4 * d,)."""
-    return gradient[np.unique(np.linspace(0, len(gradient) - 1, LISTED).astype(int))].ravel()
+    chosen = np.unique(np.linspace(0, len(gradient) - 1, LISTED).astype(np.int64))
+    return np.take(gradient, chosen, axis=0).ravel()
 
 
 def lattice(n: int, d: int) -> tuple[FloatArray, int]:

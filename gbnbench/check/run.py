@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import cast
 
 import numpy as np
 from scipy import stats
@@ -31,9 +32,7 @@ class Change:
     after: Expectation
 
 
-def check(
-    cases: Sequence[Case], *, jobs: int = 1, progress: Progress | None = None
-) -> tuple[Verdict, ...]:
+def check(cases: Sequence[Case], *, jobs: int = 1, progress: Progress | None = None) -> tuple[Verdict, ...]:
     """Measure cases once each, at their own seeds, and judge every measure.
 
     Parameters
@@ -61,8 +60,8 @@ def check(
         for measure, expectation in case.measures.items():
             if not expectation.expected:
                 raise InputError(
-                    f"{case.name} expects nothing of {measure} yet: gbnbench check --update --only {case.name} "
-                    "measures it"
+                    f"{case.name} expects nothing of {measure} yet: gbnbench check --update --only "
+                    f"{case.name} measures it"
                 )
     able = [case for case in cases if _reason(case) is None]
     verdicts = {case.name: skipped(case, _reason(case) or "") for case in cases}
@@ -113,7 +112,7 @@ def update(
     found: dict[str, dict[int, dict[str, Values]]] = {case.name: {} for case in measured}
     tasks = [(case, case.seed + k) for case in measured for k in range(seeds)]
     for done in _each(tasks, jobs, progress or Progress()):
-        name, seed = done.key  # type: ignore[misc]
+        name, seed = cast(tuple[str, int], done.key)
         if done.failure:
             raise GbnbenchError(f"{name}, seed {seed}, could not be measured: {done.failure}")
         found[name][seed] = done.value
@@ -150,8 +149,8 @@ def expect(what: str, expectation: Expectation, values: Sequence[Values]) -> Exp
     Notes
     -----
     Another seed, or the same on a device that rounds otherwise, departs from the mean of K by a deviation of
-    s sqrt(1 + 1/K), s being estimated with K - 1 degrees of freedom: the tolerance is that times the quantile of
-    Student's t that is exceeded once in ten thousand; of the logarithms where the scale is a ratio.
+    s sqrt(1 + 1/K), s being estimated with K - 1 degrees of freedom: the tolerance is that times the quantile
+    of Student's t that is exceeded once in ten thousand; of the logarithms where the scale is a ratio.
     """
     sample = np.array(values)
     if sample.shape[1:] != (1,) or expectation.scale == "relative":

@@ -70,24 +70,25 @@ def judge(case: Case, measure: str, found: Values) -> Verdict:
     if size <= limit:
         return Verdict(case, measure, found, "ok", departure)
     word: Word = "better" if expectation.better == ("higher" if higher else "lower") else "worse"
-    text = f"{name} {_said(expectation, found, departure)}"
-    if word == "better":
-        text += "; better: run --update to keep it"
-    return Verdict(case, measure, found, word, departure, text)
+    return Verdict(case, measure, found, word, departure, f"{name} {_said(expectation, found, departure)}")
 
 
 def failed(case: Case, failure: str) -> list[Verdict]:
     """Judge a case that could not be measured."""
-    text = f"{case.name}: could not be measured: {failure}"
-    return [
-        Verdict(case, measure, (), "worse", math.nan, text if k == 0 else "")
-        for k, measure in enumerate(case.measures)
-    ]
+    return _once(case, "worse", f"{case.name}: could not be measured: {failure}")
 
 
 def skipped(case: Case, reason: str) -> list[Verdict]:
     """Pass over a case that this device cannot run."""
-    return [Verdict(case, measure, (), "skipped", math.nan, reason) for measure in case.measures]
+    return _once(case, "skipped", f"{case.name}: skipped: {reason}")
+
+
+def _once(case: Case, word: Word, text: str) -> list[Verdict]:
+    """Give every measure of a case one verdict, said once."""
+    return [
+        Verdict(case, measure, (), word, math.nan, "" if k else text)
+        for k, measure in enumerate(case.measures)
+    ]
 
 
 def departed(expectation: Expectation, found: Values) -> float:
@@ -135,7 +136,9 @@ def _said(expectation: Expectation, found: Values, departure: float) -> str:
             f"({bound} times)"
         )
     if len(expected) > 1:
-        return f"departs by {number(abs(departure))} from the {len(expected)} expected (at most {number(limit)})"
+        return (
+            f"departs by {number(abs(departure))} from the {len(expected)} expected (at most {number(limit)})"
+        )
     side = "above" if departure > 0 else "below"
     return (
         f"{number(found[0])} is {number(abs(departure))} {side} the expected {number(expected[0])} "

@@ -85,9 +85,10 @@ def by_images(n: int, d: int, sigma: float, seed: int):
 
 def values(gradient, excess) -> dict[str, list[float]]:
     """Take what a case expects: the excess, the gradient at four points, and its norm."""
-    n = len(gradient)
-    chosen = sorted({int(k) for k in np.linspace(0, n - 1, 4)})
-    norm = mpmath.sqrt(mpmath.fsum(mpmath.mpf(str(g)) ** 2 for row in gradient for g in row))
+    chosen = sorted({int(k) for k in np.linspace(0, len(gradient) - 1, 4)})
+    with mpmath.workdps(30):
+        exact = [g if isinstance(g, mpmath.mpf) else mpmath.mpf(str(g)) for row in gradient for g in row]
+        norm = mpmath.sqrt(mpmath.fsum(g**2 for g in exact))
     return {
         "excess": [float(excess)],
         "gradient": [float(g) for k in chosen for g in gradient[k]],

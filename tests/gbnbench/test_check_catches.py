@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 import textwrap
@@ -59,19 +60,22 @@ def caught(change: str, *cases: str) -> str:
     assert done.returncode == 1, f"exit code {done.returncode}\n{done.stdout}\n{done.stderr}"
     for case in cases:
         assert f"gbnbench: {case}: " in done.stderr, done.stderr
-        assert f"▼ worse  {case}" in done.stdout, done.stdout
+        assert re.search(rf"▼ worse +{case} ", done.stdout), done.stdout
     return done.stderr
 
 
 def test_all_is_well_with_nothing_spoilt():
     """What the others spoil is the only reason that they fail."""
-    done = spoilt("met.append(1)", *TWO_FIELDS, "gbn-1d-64", "gbn-2d-256", "lattice-2d-256-double")
+    done = spoilt("met.append(1)", *TWO_FIELDS, "gbn-1d-64", "gbn-2d-64", "lattice-2d-256-double")
     assert done.returncode == 0, done.stdout + done.stderr
     assert done.stderr == ""
 
 
 def test_a_kernel_with_one_sign_wrong():
-    said = caught(r"alter(r'(force\w*(?:\[[^\]]*\])?\s*)([-+])=', lambda m: m[1] + '-+'[m[2] == '-'] + '=')", *TWO_FIELDS)
+    said = caught(
+        r"alter(r'(force\w*(?:\[[^\]]*\])?\s*)([-+])=', lambda m: m[1] + '-+'[m[2] == '-'] + '=')",
+        *TWO_FIELDS,
+    )
     assert "gradient departs from the 8 exact values by 2.00 of the largest" in said
 
 
@@ -91,7 +95,9 @@ def test_a_kernel_with_one_component_of_the_gradient_left_out():
 
 
 @pytest.mark.parametrize(
-    ("kept", "departure"), [("-np.rint(u)", "images of a small box"), ("0 * u", "the border")], ids=["nearest", "none"]
+    ("kept", "departure"),
+    [("-np.rint(u)", "images of a small box"), ("0 * u", "the border")],
+    ids=["nearest", "none"],
 )
 def test_images_left_out(kept, departure):
     """Of a box of eight spacings the nearest image is not enough; without any the border is a wall."""
@@ -124,7 +130,7 @@ def test_a_kernel_that_leaves_out_a_harmonic():
 
 @pytest.mark.parametrize("factor", [10, 0.1])
 def test_a_wrong_step(factor):
-    said = caught(f'wrap(optimiser, "step_size", lambda size, *a: {factor} * size(*a))', "gbn-2d-256")
+    said = caught(f'wrap(optimiser, "step_size", lambda size, *a: {factor} * size(*a))', "gbn-2d-64")
     assert "noise floor" in said
 
 
