@@ -59,8 +59,8 @@ def check(
     """Measure the noise floor's regression cases and say what is worse than expected; then exit code 1.
 
     Cases are seeded sets of several generators, whose floor, peak and order are held against their spread
-    over seeds, and exact values: the energy's field at fixed points and the spectra of lattices, in double and
-    float.
+    over seeds, and exact values: the energy's field at fixed points and the spectra of lattices, in double
+    and float.
     """
     from gbnbench import progress
     from gbnbench.check.casefile import default_path, read_cases, select
