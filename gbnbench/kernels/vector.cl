@@ -31,6 +31,7 @@
 #define STOREV(v, p, i) ((p)[i] = (v))
 #define SPREAD(v, p, step) ((p)[0] = (v))
 #define GATHER(p, step) ((p)[0])
+#define GATHER_TURNS(p, step) ((p)[0])
 #define SUM_OF(v) ((SUM)(v))
 #define TO_REALV JOIN(convert_, REAL)
 #define AS_STURNV JOIN(as_, STURN)
@@ -80,6 +81,7 @@
 /* lane l to p[l * step], and back */
 #define SPREAD(v, p, step) do { const REALV stored = (v); SCATTER(stored, p, 0, step); } while (0)
 #define GATHER(p, step) ((REALV)(EVERY(p, 0, step)))
+#define GATHER_TURNS(p, step) ((TURNV)(EVERY(p, 0, step)))
 /* sum of the lanes in the type SUM; define SUM before use */
 #define SUM_OF(v) SUMMED(v)
 #define TO_REALV JOIN(convert_, REALV)
