@@ -2,30 +2,13 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
-from gbnbench.errors import RefusalError
-from gbnbench.generators.gbn import kernel
+from gbnbench.generators.gbn import cost, kernel
 from gbnbench.generators.gbn.field import Gradient
 from gbnbench.generators.gbn.pairs import AllPairs
 from gbnbench.opencl import Runtime
 from gbnbench.torus import FloatArray
-
-# Sigmas beyond which an image adds less than the precision, of one pair's largest value and force.
-CUTOFF = {"double": 9.0, "float": 6.0}
-MOST = 9  # images a dimension
-
-
-def images(ratio: float, precision: str) -> int:
-    """Count the images of a point within the cut-off of another, a dimension, in a box of so many sigmas.
-
-    Notes
-    -----
-    The nearest lies within half a side, the others at least 1/2, 1, 3/2, ... sides away.
-    """
-    return max(1, math.ceil(2 * CUTOFF[precision] / ratio))
 
 
 class Images(AllPairs):
@@ -42,15 +25,10 @@ class Images(AllPairs):
     def __init__(self, runtime: Runtime, n: int, d: int, sigma: float, precision: str) -> None:
         super().__init__(runtime, n, d, sigma, precision)
         ratio = self.side / self.sigma
-        self.images = images(ratio, precision)
-        if self.images > MOST:
-            raise RefusalError(
-                f"a box of {ratio:.3g} sigmas needs {self.images} images a dimension; method images sums up to "
-                f"{MOST}: theta or harmonics fit such boxes"
-            )
+        self.error = cost.images(n, d, self.sigma, precision).error
+        self.images = cost.images_needed(ratio, precision)
         self._program = self.program("/exp.cl", "gbn_images.cl", IMAGES=self.images)
         self._turn = 1.0 if self.double else 2.0**-32  # box sides that a unit of a position stands for
-        self.error = kernel.EPS[precision] * (24 + 4 * self.images + d + ratio) * math.sqrt(n)
 
     def _sums(self, x: FloatArray) -> Gradient:
         ratio = self.side / self.sigma

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.errors import RefusalError
+from gbnbench.errors import InputError, RefusalError
 from gbnbench.generators.gbn import kernel
 from gbnbench.torus import FloatArray
 
@@ -59,14 +59,35 @@ def _log_strength(n: int, d: int, sigma: float) -> float:
 
 def volume(d: int, square: int) -> float:
     """Number of frequencies with |f|^2 <= square, exactly where that is quickly counted."""
-    if square * math.sqrt(square) * d <= 2e6:
+    if square * math.sqrt(square) * d <= 3e5:
         return float(shell_counts(d, square).sum())
     return math.pi ** (d / 2) / math.gamma(d / 2 + 1) * (math.sqrt(square) + 0.5) ** d
 
 
+def ball_square(n: int, d: int, sigma: float, precision: str, edge: float | None) -> int:
+    """Return the largest |f|^2 that is summed.
+
+    Raises
+    ------
+    InputError
+        If edge is not positive, or so small that no frequency is left.
+    """
+    if edge is None:
+        return needed(n, d, sigma, precision)
+    if not edge > 0:
+        raise InputError(f"edge must be positive, in nu = |f| n^(-1/d); got {edge}")
+    side = kernel.side_of(n, d)
+    if edge * side < 1 - 1e-12:
+        raise InputError(
+            f"edge={edge} leaves no frequency of {n} points in {d}D: the lowest is {1 / side:.4g}"
+        )
+    within = math.floor((edge * side) ** 2 * (1 + 1e-12)) if math.isfinite(edge) else 1 << 60
+    return min(within, needed(n, d, sigma, precision))
+
+
 @dataclass(frozen=True)
 class Group:
-    """The waves of some axes, in ascending |f|^2, padded to whole tiles by the wave 1.
+    """The waves of some axes, in ascending |f|^2, padded to whole tiles by rows of no weight.
 
     Attributes
     ----------
@@ -86,6 +107,11 @@ class Group:
     def rows(self) -> int:
         """Rows, those that pad among them."""
         return len(self.index)
+
+    @property
+    def axes(self) -> int:
+        """Axes of the points that the group covers."""
+        return self.index.shape[1]
 
     def derivative(self) -> tuple[NDArray[np.uint32], FloatArray]:
         """Derivative of each row along each axis, as another row and a factor: (rows, axes) both.

@@ -105,7 +105,9 @@ class Evaluation(ABC):
         parts = [self._sums(x[k : k + step]) for k in range(0, len(x), step)]
         if len(parts) == 1:
             return parts[0]
-        return Gradient(np.concatenate([p.gradient for p in parts]), np.concatenate([p.excess for p in parts]))
+        return Gradient(
+            np.concatenate([p.gradient for p in parts]), np.concatenate([p.excess for p in parts])
+        )
 
     @abstractmethod
     def _sums(self, x: FloatArray) -> Gradient:

@@ -6,14 +6,11 @@ import math
 
 import numpy as np
 
-from gbnbench.errors import RefusalError
-from gbnbench.generators.gbn import kernel
+from gbnbench.generators.gbn import cost, kernel
 from gbnbench.generators.gbn.field import Gradient
 from gbnbench.generators.gbn.pairs import AllPairs
 from gbnbench.opencl import Runtime
 from gbnbench.torus import FloatArray
-
-WIDEST = 18.0  # sigmas a side; beyond, powers of the cosine cancel and other evaluations are cheaper
 
 
 class Theta(AllPairs):
@@ -29,33 +26,21 @@ class Theta(AllPairs):
 
     def __init__(self, runtime: Runtime, n: int, d: int, sigma: float, precision: str) -> None:
         super().__init__(runtime, n, d, sigma, precision)
-        if self.side / self.sigma > WIDEST * (1 + 1e-12):
-            raise RefusalError(
-                f"the box is {self.side / self.sigma:.4g} sigmas wide; method theta goes to {WIDEST:g}: strips or "
-                "images serve such boxes"
-            )
+        self.error = cost.theta(n, d, self.sigma, precision).error
         self.degree = kernel.degree(self.side, sigma, precision)
         self._unit = kernel.unit(self.side, sigma, d, precision)
         flat = self._unit != 1
-        coefficients, offset, scale = kernel.polynomial(self.side, sigma, self.degree, flat)
+        coefficients = kernel.polynomial(self.side, sigma, self.degree, flat)
         self._weight = runtime.upload(coefficients.astype(self.real))
-        self._offset, self._scale = self.real(offset), self.real(scale)
         self._program = self.program(
             "/turns.cl", "gbn_circle.cl", "gbn_theta.cl", DEGREE=self.degree, FLAT=int(flat)
         )
-        # Each pair rounds some 2 degree + 3 d times; n pairs may round alike where points coincide.
-        condition = float(np.abs(coefficients[1:]).sum() / coefficients[1:].sum())
-        self.error = kernel.EPS[precision] * (4 + self.degree * condition + d) * math.sqrt(n)
 
     def _sums(self, x: FloatArray) -> Gradient:
         circle = self.buffer("circle", 2 * x.size)
         turns = self.send_turns(x)
-        self.launch(
-            self._program, "gbn_circle", -(-x.size // self.lanes), turns, np.uint32(x.size), circle
-        )
-        slopes, sums = self.sum_pairs(
-            self._program, "gbn_theta", len(x), circle, self._weight, self._offset, self._scale
-        )
+        self.launch(self._program, "gbn_circle", -(-x.size // self.lanes), turns, np.uint32(x.size), circle)
+        slopes, sums = self.sum_pairs(self._program, "gbn_theta", len(x), circle, self._weight)
         # The kernel's theta has mean 1 over the box, and its slope is by y over -2 pi, per box side.
         mean = self._unit * (math.sqrt(2 * math.pi) * self.sigma / self.side) ** self.d
         slopes *= -2 * math.pi * mean / self.side

@@ -12,7 +12,7 @@
 #define SUM REAL
 #define STEP 8
 
-/* Waves of each axis: wave (sets, DIM, 2 FMAX + 1, stride). Phases of each multiple of STEP, and of the frequencies
+/* Waves of each axis: wave (sets, DIM, WAVES, stride), WAVES >= 2 FMAX + 1. Phases of each multiple of STEP, and of the frequencies
  * below it, are exact; the rest is one complex product of these. One work-item does LANES points of one axis. */
 __kernel void gbn_waves(__global const TURN *turns, const uint sets, const uint n, const uint stride,
                         __global REAL *wave)
@@ -22,7 +22,7 @@ __kernel void gbn_waves(__global const TURN *turns, const uint sets, const uint 
     const uint k = (get_global_id(0) - axis * vectors) * LANES;
     if (axis >= sets * DIM) return;
     const uint set = axis / DIM, a = axis - set * DIM;
-    __global REAL *out = wave + (ulong)axis * (2 * FMAX + 1) * stride;
+    __global REAL *out = wave + (ulong)axis * WAVES * stride;
     const TURNV turn = GATHER_TURNS(turns + ((ulong)set * n + k) * DIM + a, DIM);
     REALV low_cos[STEP], low_sin[STEP];
     for (uint r = 0; r < STEP; r++)
@@ -48,26 +48,29 @@ __kernel void gbn_waves(__global const TURN *turns, const uint sets, const uint 
             out[row * stride + pad] = 0;
 }
 
-/* Rows of a group: table (sets, rows, stride), row i being the product over the group's axes of the waves that
- * index (rows, axes) names. One work-item does LANES points of a row. */
+/* Rows of a group of several axes: table (sets, rows, stride), row i being the product over the axes of the waves that
+ * index (rows, axes) names. One work-item a row. */
 __kernel void gbn_rows(__global const REAL *wave, const uint sets, const uint stride, const uint first, const uint axes,
                        __global const uint *index, const uint rows, __global REAL *table)
 {
-    const uint vectors = stride / LANES;
-    const uint row = get_global_id(0) / vectors; /* of all sets */
-    const uint k = (get_global_id(0) - row * vectors) * LANES;
+    const uint row = get_global_id(0); /* of all sets */
     if (row >= sets * rows) return;
     const uint set = row / rows, i = row - set * rows;
-    __global const REAL *axis = wave + ((ulong)set * DIM + first) * (2 * FMAX + 1) * stride + k;
-    REALV product = (REALV)1;
-    for (uint a = 0; a < axes; a++)
-        product *= LOADV(axis, ((ulong)a * (2 * FMAX + 1) + index[i * axes + a]) * stride);
-    STOREV(product, table, (ulong)row * stride + k);
+    __global const REAL *axis = wave + ((ulong)set * DIM + first) * WAVES * stride;
+    __global const uint *named = index + i * axes;
+    for (uint k = 0; k < stride; k += LANES) {
+        REALV product = LOADV(axis, (ulong)named[0] * stride + k);
+        for (uint a = 1; a < axes; a++)
+            product *= LOADV(axis, ((ulong)a * WAVES + named[a]) * stride + k);
+        STOREV(product, table, (ulong)row * stride + k);
+    }
 }
 
 /* Sums R of a tile of rows over the points of a set, times their weights (rows_a, rows_b): both ways round, and the
- * tile's energy sum W R^2. One work-item a tile. */
-__kernel void gbn_amplitudes(__global const REAL *restrict a, __global const REAL *restrict b, const uint sets,
+ * tile's energy sum W R^2. A set's rows begin at start + set * pitch, pitch and start being in rows. One work-item a
+ * tile. */
+__kernel void gbn_amplitudes(__global const REAL *restrict a, const uint start_a, const uint pitch_a,
+                             __global const REAL *restrict b, const uint start_b, const uint pitch_b, const uint sets,
                              const uint stride, const uint rows_a, const uint rows_b, __global const uint *tiles,
                              const uint count, __global const REAL *restrict weight, __global REAL *restrict forward,
                              __global REAL *restrict backward, __global REAL *restrict energy)
@@ -76,8 +79,8 @@ __kernel void gbn_amplitudes(__global const REAL *restrict a, __global const REA
     const uint tile = get_global_id(0) - set * count;
     if (set >= sets) return;
     const uint i0 = tiles[2 * tile], j0 = tiles[2 * tile + 1];
-    __global const REAL *restrict pa = a + ((ulong)set * rows_a + i0) * stride;
-    __global const REAL *restrict pb = b + ((ulong)set * rows_b + j0) * stride;
+    __global const REAL *restrict pa = a + ((ulong)set * pitch_a + start_a + i0) * stride;
+    __global const REAL *restrict pb = b + ((ulong)set * pitch_b + start_b + j0) * stride;
     REALV total[TILE_A][TILE_B];
     #pragma unroll
     for (int i = 0; i < TILE_A; i++)

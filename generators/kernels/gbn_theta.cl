@@ -1,8 +1,8 @@
 /* Energy and gradient of Gaussian Blue Noise over all pairs, by a polynomial for each dimension's theta function.
  *
  * theta(u) = 1 + 2 sum_{f >= 1} w_f cos 2 pi f u (Ahmed, Ren & Wonka 2022, Eq. 23; printed there over all f, the
- * identity needs twice the sum over f >= 1) is 1 + q(y), y = offset + scale cos 2 pi u, q of degree DEGREE, and
- * u = x_k - x_l: y and sin 2 pi u come from the cosines and sines of the points, so a pair needs no exp and no cos.
+ * identity needs twice the sum over f >= 1) is 1 + q(c), c = cos 2 pi u, q of degree DEGREE, and
+ * u = x_k - x_l: c and sin 2 pi u come from the cosines and sines of the points, so a pair needs no exp and no cos.
  *
  * e_k = sum_l (prod_a theta_a - 1): the product is kept without its mean, p <- p + q (1 + p), since in high
  * dimension the mean would swallow the digits. The slope by x_a leaves dimension a out of the product, by those
@@ -13,8 +13,8 @@
  * float terms keep their digits. Work-items of a set: items. Point k's row of gradient is k + set * stride.
  */
 __kernel void gbn_theta(__global const REAL *restrict circle, const uint sets, const uint n, const uint stride,
-                        const uint items, __global const REAL *restrict weight, const REAL offset, const REAL scale,
-                        __global REAL *restrict gradient, __global REAL *restrict energy)
+                        const uint items, __global const REAL *restrict weight, __global REAL *restrict gradient,
+                        __global REAL *restrict energy)
 {
     const uint set = get_global_id(0) / items;
     const uint k = (get_global_id(0) - set * items) * LANES;
@@ -26,8 +26,8 @@ __kernel void gbn_theta(__global const REAL *restrict circle, const uint sets, c
         w[f] = (REALV)weight[f];
     #pragma unroll
     for (int a = 0; a < DIM; a++) {
-        ck[a] = GATHER(points + (ulong)k * (2 * DIM) + 2 * a, 2 * DIM) * scale;
-        sk[a] = GATHER(points + (ulong)k * (2 * DIM) + 2 * a + 1, 2 * DIM) * scale;
+        ck[a] = GATHER(points + (ulong)k * (2 * DIM) + 2 * a, 2 * DIM);
+        sk[a] = GATHER(points + (ulong)k * (2 * DIM) + 2 * a + 1, 2 * DIM);
         forces[a] = (REALV)0;
     }
     for (uint first = 0; first < n; first += CHUNK) {
@@ -41,15 +41,15 @@ __kernel void gbn_theta(__global const REAL *restrict circle, const uint sets, c
             REALV q[DIM], slope[DIM], p = (REALV)0;
             #pragma unroll
             for (int a = 0; a < DIM; a++) {
-                const REALV y = offset + ck[a] * at[2 * a] + sk[a] * at[2 * a + 1];
+                const REALV c = ck[a] * at[2 * a] + sk[a] * at[2 * a + 1];
                 const REALV s = sk[a] * at[2 * a] - ck[a] * at[2 * a + 1];
-                REALV value = w[DEGREE], rise = w[DEGREE]; /* Horner's scheme for q and for dq/dy */
+                REALV value = w[DEGREE], rise = w[DEGREE]; /* Horner's scheme for q and for dq/dc */
                 #pragma unroll
                 for (int f = DEGREE - 1; f >= 1; f--) {
-                    value = value * y + w[f];
-                    rise = rise * y + value;
+                    value = value * c + w[f];
+                    rise = rise * c + value;
                 }
-                q[a] = value * y + w[0];
+                q[a] = value * c + w[0];
 #if FLAT
                 force[a] += rise * s;
                 p += q[a];
