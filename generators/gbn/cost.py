@@ -16,7 +16,7 @@ from gbnbench.generators.gbn.modes import MOST_ROWS, TILE, ball_square, volume
 # Sigmas beyond which a pair adds less than the precision: errors of 4e-7 and 7e-16 of one pair's largest force.
 CUTOFF = {"double": 9.0, "float": 6.0}
 MOST_IMAGES = 9  # a dimension
-WIDEST = 36.0  # sigmas a side that a polynomial of theta serves
+WIDEST = 18.0  # sigmas a side that a polynomial of theta serves; powers of the cosine cancel beyond 20
 MARGIN = 1.0 + 1e-9  # of a box over twice the cut-off
 EXP = {"double": 20, "float": 15}  # kernels/exp.cl
 DISPLACEMENT = {"double": 5, "float": 3}  # nearest image, in sigmas
@@ -86,8 +86,8 @@ def theta(n: int, d: int, sigma: float, precision: str) -> Cost:
             "such boxes"
         )
     degree = kernel.degree(side, sigma, precision)
-    # Each pair rounds some 2 degree + 3 d times; n pairs may round alike where points coincide.
-    error = kernel.EPS[precision] * (4 + degree + d) * math.sqrt(n)
+    # Each pair rounds twice a degree and twice a dimension; n pairs may round alike where points coincide.
+    error = kernel.EPS[precision] * (4 + 2 * degree + 2 * d) * math.sqrt(n)
     return Cost("theta", f"all pairs, degree {degree}", n * n, n * n * d * (2.0 * degree + 9), error)
 
 
@@ -111,7 +111,9 @@ def images(n: int, d: int, sigma: float, precision: str) -> Cost:
         pair += d * (9 + (count - 1) * (EXP[precision] + 5))
     # Images may cancel: their forces over what is left of them.
     overlap = math.exp(-0.5) / sigma * theta_at_0(n, d, sigma) ** (d - 1) / kernel.largest_force(n, d, sigma)
-    error = kernel.EPS[precision] * (12 + 4 * count + d + ratio / 4) * max(1.0, overlap) * math.sqrt(n)
+    # Differences across the border round by 2^-54 of a side in double; turns, in float, by 2^-33.
+    border = ratio * (0.85 if precision == "double" else 2.0**-9)
+    error = kernel.EPS[precision] * (12 + 4 * count + d + border) * max(1.0, overlap) * math.sqrt(n)
     return Cost("images", f"all pairs, {count} images a dimension", n * n, float(n * n) * pair, error)
 
 

@@ -6,8 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.errors import RefusalError
-from gbnbench.generators.gbn import kernel
-from gbnbench.generators.gbn.cost import CUTOFF
+from gbnbench.generators.gbn import cost, kernel
 from gbnbench.generators.gbn.field import Gradient
 from gbnbench.generators.gbn.pairs import Evaluation
 from gbnbench.opencl import Runtime
@@ -27,11 +26,13 @@ class NearestImage(Evaluation):
         super().__init__(runtime, n, d, sigma, precision)
         if cutoff is not None:
             raise RefusalError("truncated kernels are not made yet: leave cutoff out")
-        self.reach = CUTOFF[precision] * self.sigma / self.side
+        self.reach = cost.CUTOFF[precision] * self.sigma / self.side
         box = max(BOX, self.lanes)  # a work-item's points must lie in one box
         self._program = self.program("/exp.cl", "gbn_nearest.cl", BOX=box)
         self._count = -(-n // box)
-        self.error = (1e-15 if self.double else 1e-6) * np.sqrt(n)
+        self.error = cost.strips(n, d, self.sigma, precision).error * (
+            1 if self.double else 1 + self.side / self.sigma
+        )
 
     def bytes_a_set(self) -> int:
         """Take the sets one by one."""

@@ -40,7 +40,7 @@ def test_every_size_has_an_evaluation(precision):
             for n in (2, 3, 10, 100, 1000, 4096):
                 found = plan(n, d, sigma, precision)
                 assert math.isfinite(found.chosen.effort)
-                assert found.error < {"double": 1e-11, "float": 5e-3}[precision]
+                assert found.error < {"double": 1e-12, "float": 5e-4}[precision]
 
 
 def test_the_number_of_sets_changes_the_price_only():
@@ -125,7 +125,7 @@ def test_a_ball_has_each_of_its_frequencies_once(d, square):
     reach = math.isqrt(square)
     f = np.indices((2 * reach + 1,) * d).reshape(d, -1) - reach
     squares = (f**2).sum(axis=0)
-    assert np.array_equal(shell_counts(d, square), np.bincount(squares)[: square + 1])
+    assert np.array_equal(shell_counts(d, square), np.bincount(squares, minlength=square + 1)[: square + 1])
     modes = ball(d, square)
     weights = modes.weights(0.0)  # each real wave stands for 2^(axes with f != 0) / 2^(same) frequencies
     held = np.zeros_like(weights, dtype=bool)
@@ -156,7 +156,7 @@ def test_frequencies_left_out_do_not_show(n, d, sigma, precision):
         ) > (kernel.EPS[precision] * kernel.largest_force(n, d, sigma) / 4)
 
 
-@pytest.mark.parametrize("ratio", [0.3, 1.0, 2.4, 8.0, 18.0, 36.0])
+@pytest.mark.parametrize("ratio", [0.3, 1.0, 2.4, 8.0, 13.0, 18.0])
 @pytest.mark.parametrize("precision", ["double", "float"])
 def test_the_polynomial_is_theta(ratio, precision):
     order = kernel.degree(ratio, 1.0, precision)
