@@ -1,7 +1,7 @@
-"""What each evaluation of the energy does, counted in instructions: what a plan compares and benchmarks divide by.
+"""What each evaluation of the energy does, counted in instructions, for plans and benchmarks.
 
-One instruction is a multiplication, an addition or both in one, of one number; comparisons and conversions count
-as one too. Loads and stores do not count. All numbers are of one set.
+One instruction is a multiplication, an addition or both in one, of one number; comparisons and conversions
+count as one too. Loads and stores do not count. All numbers are of one set.
 """
 
 from __future__ import annotations
@@ -13,8 +13,9 @@ from gbnbench.errors import InputError, RefusalError
 from gbnbench.generators.gbn import kernel
 from gbnbench.generators.gbn.modes import MOST_ROWS, TILE, ball_square, volume
 
-# Sigmas beyond which a pair adds less than the precision: errors of 4e-7 and 7e-16 of one pair's largest force.
+# Sigmas beyond which a pair adds less than the precision: 4e-7 and 7e-16 of one pair's largest force.
 CUTOFF = {"double": 9.0, "float": 6.0}
+LARGEST = 1 << 28  # bytes of buffers beyond which the sets of a call are taken in several launches
 MOST_IMAGES = 9  # a dimension
 WIDEST = 18.0  # sigmas a side that a polynomial of theta serves; powers of the cosine cancel beyond 20
 MARGIN = 1.0 + 1e-9  # of a box over twice the cut-off
@@ -82,8 +83,8 @@ def theta(n: int, d: int, sigma: float, precision: str) -> Cost:
     side = kernel.side_of(n, d)
     if side > WIDEST * sigma:
         raise RefusalError(
-            f"the box is {side / sigma:.4g} sigmas wide; method theta goes to {WIDEST:g}: strips or images serve "
-            "such boxes"
+            f"the box is {side / sigma:.4g} sigmas wide; method theta goes to {WIDEST:g}: strips or images "
+            "serve such boxes"
         )
     degree = kernel.degree(side, sigma, precision)
     # Each pair rounds twice a degree and twice a dimension; n pairs may round alike where points coincide.
@@ -139,10 +140,18 @@ def harmonics(n: int, d: int, sigma: float, precision: str, edge: float | None =
     rows = [volume(axes, square) for axes in (lead, d - lead)]
     if max(rows) > MOST_ROWS:
         raise RefusalError(
-            f"frequencies up to |f| = {math.sqrt(square):.4g} are {max(rows):.3g} waves of {lead} axes; method "
-            f"harmonics takes {MOST_ROWS}: a larger sigma or a smaller edge needs fewer, and theta or strips none"
+            f"frequencies up to |f| = {math.sqrt(square):.4g} are {max(rows):.3g} waves of {lead} axes; "
+            f"method harmonics takes {MOST_ROWS}: a larger sigma or a smaller edge needs fewer, and theta or "
+            "strips none"
         )
     padded = [-(-count // tile) * tile for count, tile in zip(rows, TILE, strict=True)]
+    numbers = n * (sum(padded) + d * (2 * math.isqrt(square) + 4)) + 2 * math.prod(padded)
+    nbytes = numbers * (8 if precision == "double" else 4)
+    if nbytes > LARGEST:
+        raise RefusalError(
+            f"the waves of {n} points up to |f| = {math.sqrt(square):.4g} take {nbytes:.3g} bytes; method "
+            f"harmonics takes {LARGEST:.3g}: strips or theta serve such sets, or a smaller edge"
+        )
     # Tiles straddle the ball's surface: about half a tile more along each side.
     products = volume(d, square) * 1.1 + sum(padded)
     waves = sum(count * axes for count, axes in zip(rows, (lead, d - lead), strict=True))
@@ -170,8 +179,8 @@ def strips(n: int, d: int, sigma: float, precision: str, cutoff: float | None = 
     if ratio < 2 * reach * MARGIN:
         least = math.ceil((2 * reach * sigma * MARGIN) ** d)
         raise RefusalError(
-            f"the box is {ratio:.4g} sigmas wide, and pairs reach {reach:g} each way: the nearest image is all there "
-            f"is from {2 * reach:g} sigmas, n={least} at this d and sigma"
+            f"the box is {ratio:.4g} sigmas wide, and pairs reach {reach:g} each way: the nearest image is all "
+            f"there is from {2 * reach:g} sigmas, n={least} at this d and sigma"
         )
     ball = math.pi ** (d / 2) / math.gamma(d / 2 + 1) * (reach * sigma) ** d
     pair = d * (DISPLACEMENT[precision] + 2) + EXP[precision] + 2

@@ -1,7 +1,7 @@
-"""The energy of Gaussian Blue Noise on the torus, evaluated as the plan says (Ahmed, Ren & Wonka 2022, Eq. 15-23).
+"""The energy of Gaussian Blue Noise, evaluated as the plan says (Ahmed, Ren & Wonka 2022, Eq. 15-23).
 
-E = sum over pairs of prod over dimensions of theta, theta being exp(-u^2 / 2 sigma^2) summed over all periods, and
-u = x n^(1/d) counted in spacings.
+E = sum over pairs of prod over dimensions of theta, theta being exp(-u^2 / 2 sigma^2) summed over all
+periods, and u = x n^(1/d) counted in spacings.
 """
 
 from __future__ import annotations

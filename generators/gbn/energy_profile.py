@@ -1,4 +1,4 @@
-"""The kernel itself: its periodised profile and the Fourier transform that truncating it leaves (Fig. 4 and 6)."""
+"""The kernel itself: its periodised profile, and the transform that truncating it leaves (Fig. 4 and 6)."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def theta(u: FloatArray, side: float, sigma: float) -> FloatArray:
 
 def energy_profile(u: FloatArray, side: float, sigma: float) -> FloatArray:
     """Theta over its largest value, that at u = 0: the curves of Fig. 6."""
-    return theta(u, side, sigma) / theta(np.zeros(1), side, sigma)[0]
+    return np.asarray(theta(u, side, sigma) / theta(np.zeros(1), side, sigma)[0])
 
 
 def truncated_transform(nu: FloatArray, sigma: float, cutoff: float, d: int = 1) -> FloatArray:
@@ -110,8 +110,8 @@ def _disc(z: FloatArray, t: float) -> FloatArray:
 
     Notes
     -----
-    exp(-t^2/2) sum over m of (t/z)^m J_m(t z), of which no term exceeds (t^2/2)^m / m!. Where t z < 1 a power and
-    its J_m would over- and underflow apart: their product comes from the series of J_m.
+    exp(-t^2/2) sum over m of (t/z)^m J_m(t z), of which no term exceeds (t^2/2)^m / m!. Where t z < 1 a power
+    and its J_m would over- and underflow apart: their product comes from the series of J_m.
     """
     flat = np.atleast_1d(z).ravel()
     out = np.empty_like(flat)

@@ -1,4 +1,4 @@
-"""The energy in frequency space, E = (1/2n) sum over 0 < |f| <= reach of w_f |F_f|^2: no pair is ever formed."""
+"""The energy in frequency space, E = (1/2n) sum over 0 < |f| <= reach of w_f |F_f|^2: no pair is formed."""
 
 from __future__ import annotations
 
@@ -7,11 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from gbnbench.errors import RefusalError
 from gbnbench.generators.gbn import cost, kernel
 from gbnbench.generators.gbn.field import Gradient
 from gbnbench.generators.gbn.modes import TILE, ball, ball_square
-from gbnbench.generators.gbn.pairs import CHUNK, LARGEST, Evaluation
+from gbnbench.generators.gbn.pairs import CHUNK, Evaluation
 from gbnbench.opencl import Runtime
 from gbnbench.torus import FloatArray
 
@@ -45,6 +44,7 @@ class Harmonics(Evaluation):
     ) -> None:
         super().__init__(runtime, n, d, sigma, precision)
         self.edge = edge
+        self.error = cost.harmonics(n, d, self.sigma, precision, edge).error
         # An odd number of cache lines: rows a power of two apart would drive each other out of the cache.
         line = 2 * self.lanes if self.lanes > 1 else LINE // self.bytes
         self.stride = (-(-n // line) | 1) * line
@@ -52,11 +52,6 @@ class Harmonics(Evaluation):
         self._groups = (modes.leading, modes.trailing)
         fmax = math.isqrt(modes.square)
         self._waves = max(2 * fmax + 1, max(g.rows for g in self._groups if g.axes == 1) if d < 4 else 0)
-        if self.bytes_a_set() > LARGEST:
-            raise RefusalError(
-                f"the waves of {n} points up to |f| = {math.sqrt(modes.square):.4g} take {self.bytes_a_set():.3g} "
-                f"bytes; method harmonics takes {LARGEST:.3g}: strips or theta serve such sets"
-            )
         weights = modes.weights(kernel.decay(self.side, self.sigma))
         self._scale = kernel.uniform_energy(d, self.sigma) * math.exp(-kernel.decay(self.side, self.sigma))
         self._weight = runtime.upload((weights / n).astype(self.real))
@@ -73,7 +68,6 @@ class Harmonics(Evaluation):
             for g, tile in zip(self._groups, TILE, strict=True)
             if d > 1 or g is modes.leading
         ]
-        self.error = cost.harmonics(n, d, self.sigma, precision, edge).error
 
     def bytes_a_set(self) -> int:
         """Size of a set's buffers."""
@@ -94,8 +88,8 @@ class Harmonics(Evaluation):
         weighted = [self.buffer(name, sets * products) for name in ("forward", "backward")]
         energy = self.buffer("energy", sets * count)
         self.launch(
-            self._program, "gbn_amplitudes", sets * count, *tables[0], *tables[1], many, stride, *rows, self._tiles,
-            np.uint32(count), self._weight, *weighted, energy,
+            self._program, "gbn_amplitudes", sets * count, *tables[0], *tables[1], many, stride, *rows,
+            self._tiles, np.uint32(count), self._weight, *weighted, energy,
         )  # fmt: skip
         gradient = self.buffer("gradient", sets * self.stride * self.d)
         for side, program in enumerate(self._slopes):

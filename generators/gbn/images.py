@@ -6,7 +6,7 @@ import numpy as np
 
 from gbnbench.generators.gbn import cost, kernel
 from gbnbench.generators.gbn.field import Gradient
-from gbnbench.generators.gbn.pairs import AllPairs
+from gbnbench.generators.gbn.pairs import AllPairs, means
 from gbnbench.opencl import Runtime
 from gbnbench.torus import FloatArray
 
@@ -16,8 +16,8 @@ class Images(AllPairs):
 
     Notes
     -----
-    The nearest image alone where the box is twice the cut-off wide, two a dimension down to the cut-off, and so
-    on: one exp a pair, and one for each further image of each dimension.
+    The nearest image alone where the box is twice the cut-off wide, two a dimension down to the cut-off, and
+    so on: one exp a pair, and one for each further image of each dimension.
     """
 
     method = "images"
@@ -37,4 +37,4 @@ class Images(AllPairs):
             self._program, "gbn_images", len(x), at, self.real(ratio), self.real(ratio * self._turn)
         )
         uniform = kernel.uniform_energy(self.d, self.sigma)
-        return Gradient(slopes / self.sigma, (np.mean(sums, axis=1, dtype=np.float64) - uniform) / 2)
+        return Gradient(slopes / self.sigma, (means(sums) - uniform) / 2)

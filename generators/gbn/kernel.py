@@ -1,4 +1,4 @@
-"""The kernel of Gaussian Blue Noise on the torus: its theta function as a series, its scale, its largest force.
+"""The kernel of Gaussian Blue Noise on the torus: theta functions as series, scale, largest force.
 
 theta(u) = sum over j of exp(-(u + j L)^2 / 2 sigma^2), L = n^(1/d) spacings a side, is
 mean (1 + 2 sum_{f >= 1} w_f cos 2 pi f u / L) with w_f = exp(-2 pi^2 sigma^2 f^2 / L^2) and
@@ -26,7 +26,7 @@ def side_of(n: int, d: int) -> float:
 
 def uniform_energy(d: int, sigma: float) -> float:
     """Twice the energy a point of a constant density, (2 pi)^(d/2) sigma^d."""
-    return (2 * math.pi) ** (d / 2) * sigma**d
+    return math.pow(2 * math.pi, d / 2) * math.pow(sigma, d)
 
 
 def decay(side: float, sigma: float) -> float:
@@ -44,8 +44,8 @@ def degree(side: float, sigma: float, precision: str) -> int:
 
     Notes
     -----
-    The harmonics left out add up to less than half a rounding of the largest departure from the mean, and so do
-    their slopes: about 1.4 L / sigma in double.
+    The harmonics left out add up to less than half a rounding of the largest departure from the mean, and so
+    do their slopes: about 1.4 L / sigma in double.
     """
     b = decay(side, sigma)
     allowed = EPS[precision] / 4
@@ -78,8 +78,8 @@ def polynomial(side: float, sigma: float, order: int, flat: bool) -> FloatArray:
     Notes
     -----
     From Chebyshev's T_f(c) = cos(2 pi f u / L), in decimals since the powers of T_f cancel. The sum of their
-    sizes stays at theta's largest value up to 18 sigmas a side, so that Horner's scheme loses nothing; beyond 20
-    the series' end makes it grow.
+    sizes stays at theta's largest value up to 18 sigmas a side, so that Horner's scheme loses nothing; beyond
+    20 the series' end makes it grow.
     """
     with localcontext() as context:
         context.prec = 40 + 2 * order
@@ -115,7 +115,7 @@ def largest_force(n: int, d: int, sigma: float) -> float:
 
     Notes
     -----
-    exp(-1/2) / sigma where the box is wide; 4 pi w_1 mean / L times theta(0)^(d-1) where it is a few spacings.
+    exp(-1/2) / sigma where the box is wide; 4 pi w_1 mean / L times theta(0)^(d-1) where it is narrow.
     """
     side = side_of(n, d)
     if side > 20 * sigma:

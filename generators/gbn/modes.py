@@ -1,4 +1,4 @@
-"""The frequencies of a ball as pairs of rows of two tables of real waves, with their weights in the energy."""
+"""The frequencies of a ball as pairs of rows of two tables of real waves, and their weights."""
 
 from __future__ import annotations
 
@@ -34,8 +34,8 @@ def needed(n: int, d: int, sigma: float, precision: str) -> int:
 
     Notes
     -----
-    The forces of one pair at frequencies left out add up to less than half a rounding of the largest force: sum
-    over |f|^2 > s of |f| exp(-b |f|^2), bounded by an integral over the ball's surface.
+    The forces of one pair at frequencies left out add up to less than half a rounding of the largest force:
+    sum over |f|^2 > s of |f| exp(-b |f|^2), bounded by an integral over the ball's surface.
     """
     b = kernel.decay(kernel.side_of(n, d), sigma)
     surface = math.log(2) + d / 2 * math.log(math.pi) - math.lgamma(d / 2)
@@ -43,7 +43,7 @@ def needed(n: int, d: int, sigma: float, precision: str) -> int:
     square = 1
     while True:
         r = math.sqrt(square + 1)
-        # of a surface r^(d-1), |f| = r, at the next shell, over the decay 2 b r of its weight; twice for the lattice
+        # a surface r^(d-1) of |f| = r at the next shell, over its decay 2 b r; twice for the lattice
         tail = surface + d * math.log(r) - b * (r * r) - math.log(min(1.0, 2 * b * r)) + math.log(2)
         if tail <= allowed:
             return square
@@ -58,10 +58,10 @@ def _log_strength(n: int, d: int, sigma: float) -> float:
 
 
 def volume(d: int, square: int) -> float:
-    """Number of frequencies with |f|^2 <= square, exactly where that is quickly counted."""
+    """Count the frequencies with |f|^2 <= square, exactly where that is quick."""
     if square * math.sqrt(square) * d <= 3e5:
         return float(shell_counts(d, square).sum())
-    return math.pi ** (d / 2) / math.gamma(d / 2 + 1) * (math.sqrt(square) + 0.5) ** d
+    return math.pow(math.pi, d / 2) / math.gamma(d / 2 + 1) * math.pow(math.sqrt(square) + 0.5, d)
 
 
 def ball_square(n: int, d: int, sigma: float, precision: str, edge: float | None) -> int:
@@ -111,10 +111,10 @@ class Group:
     @property
     def axes(self) -> int:
         """Axes of the points that the group covers."""
-        return self.index.shape[1]
+        return int(self.index.shape[1])
 
     def derivative(self) -> tuple[NDArray[np.uint32], FloatArray]:
-        """Derivative of each row along each axis, as another row and a factor: (rows, axes) both.
+        """Return the derivative of each row along each axis, as another row and a factor: (rows, axes) both.
 
         Notes
         -----
@@ -146,8 +146,8 @@ def group(first: int, axes: int, square: int, tile: int) -> Group:
     count = volume(axes, square)
     if count > MOST_ROWS:
         raise RefusalError(
-            f"{count:.3g} waves of {axes} axes are within reach; method harmonics takes {MOST_ROWS}: a larger "
-            "sigma or a smaller edge needs fewer, and theta or strips need none"
+            f"{count:.3g} waves of {axes} axes are within reach; method harmonics takes {MOST_ROWS}: a "
+            "larger sigma or a smaller edge needs fewer, and theta or strips need none"
         )
     index, squares = np.zeros((1, 0), np.int64), np.zeros(1, np.int64)
     waves = np.arange(2 * math.isqrt(square) + 1)

@@ -1,4 +1,4 @@
-"""The energy by the nearest image of each pair, runs of points beyond the cut-off skipped, where the box is wide."""
+"""The energy by the nearest image of each pair, runs of points beyond the cut-off skipped."""
 
 from __future__ import annotations
 

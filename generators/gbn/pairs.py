@@ -1,4 +1,4 @@
-"""What evaluations share: points sent as exact fractions of a turn, buffers kept between calls, results back."""
+"""What evaluations share: points sent as exact fractions of a turn, buffers kept between calls."""
 
 from __future__ import annotations
 
@@ -10,14 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.errors import InputError
-from gbnbench.generators.gbn import kernel
+from gbnbench.generators.gbn import cost, kernel
 from gbnbench.generators.gbn.field import Gradient
 from gbnbench.opencl import Program, Runtime
 from gbnbench.torus import FloatArray
 
 PACKAGE = "gbnbench.generators"
 CHUNK = 256  # points summed before their sum is added to the rest, so that float keeps its digits
-LARGEST = 1 << 28  # bytes of buffers beyond which the sets of a call are taken in several launches
 
 
 class Evaluation(ABC):
@@ -101,7 +100,7 @@ class Evaluation(ABC):
         """Evaluate; see ``Field``."""
         if x.ndim != 3 or x.shape[1:] != (self.n, self.d):
             raise InputError(f"x must be (sets, {self.n}, {self.d}); got shape {x.shape}")
-        step = max(1, LARGEST // self.bytes_a_set())
+        step = max(1, cost.LARGEST // self.bytes_a_set())
         parts = [self._sums(x[k : k + step]) for k in range(0, len(x), step)]
         if len(parts) == 1:
             return parts[0]
@@ -151,3 +150,8 @@ class AllPairs(Evaluation):
         slopes = self.runtime.download(gradient, np.empty((sets, self.stride, self.d), self.real))
         sums = self.runtime.download(energy, np.empty((sets, self.stride), self.real))
         return slopes[:, : self.n].astype(np.float64), sums[:, : self.n]
+
+
+def means(sums: NDArray[Any]) -> FloatArray:
+    """Average over the points of each set, (sets, n), in double."""
+    return np.asarray(np.mean(sums, axis=1, dtype=np.float64))

@@ -66,7 +66,7 @@ class Plan:
         return 2 * self.sets * self.chosen.instructions
 
     def seconds(self, which: Cost | None = None) -> float:
-        """Expected CPU seconds of one gradient of all sets on the chosen device, by its measured peak.
+        """Estimate the CPU seconds of one gradient of all sets on the chosen device, by its measured peak.
 
         Raises
         ------
@@ -180,8 +180,8 @@ def _check(
         raise InputError(f"method must be one of {', '.join(METHODS)}; got {method!r}")
     if cutoff is not None and edge is not None:
         raise InputError(
-            "cutoff truncates the kernel in space, edge in frequency, and a sharp cut in one has no end in the "
-            "other: give one of them"
+            "cutoff truncates the kernel in space, edge in frequency, and a sharp cut in one has no end in "
+            "the other: give one of them"
         )
     for name, value, owner in (("cutoff", cutoff, "strips"), ("edge", edge, "harmonics")):
         if value is not None and method not in (None, owner):

@@ -8,7 +8,7 @@ import numpy as np
 
 from gbnbench.generators.gbn import cost, kernel
 from gbnbench.generators.gbn.field import Gradient
-from gbnbench.generators.gbn.pairs import AllPairs
+from gbnbench.generators.gbn.pairs import AllPairs, means
 from gbnbench.opencl import Runtime
 from gbnbench.torus import FloatArray
 
@@ -44,4 +44,4 @@ class Theta(AllPairs):
         # The kernel's theta has mean 1 over the box, and its slope is by y over -2 pi, per box side.
         mean = self._unit * (math.sqrt(2 * math.pi) * self.sigma / self.side) ** self.d
         slopes *= -2 * math.pi * mean / self.side
-        return Gradient(slopes, np.mean(sums, axis=1, dtype=np.float64) * (mean / 2))
+        return Gradient(slopes, means(sums) * (mean / 2))

@@ -67,8 +67,10 @@ HARD = {
 # 324 and 325, 144 and 145, 81 and 82: on both sides of 18, 12 and 9 sigmas a side, where images come in.
 @pytest.mark.parametrize(
     ("n", "d", "sigma"),
-    [(64, 2, 1.0), (81, 2, 1.0), (82, 2, 1.0), (144, 2, 1.0), (145, 2, 1.0), (324, 2, 1.0), (325, 2, 1.0)]
-    + [(509, 2, 0.3), (53, 1, 1.0), (347, 3, 0.35), (500, 2, 3.0)],
+    [
+        *((n, 2, 1.0) for n in (64, 81, 82, 144, 145, 324, 325)),
+        *((509, 2, 0.3), (53, 1, 1.0), (347, 3, 0.35), (500, 2, 3.0)),
+    ],
 )
 def test_all_evaluations_agree_with_image_sums_on_hard_sets(n, d, sigma):
     rng = np.random.default_rng(n)
@@ -106,11 +108,11 @@ def test_a_set_is_bitwise_the_same_in_any_company(n, d, sigma, precision):
 
 
 def test_sets_too_many_for_the_buffers_come_in_turns(monkeypatch):
-    from gbnbench.generators.gbn import pairs
+    from gbnbench.generators.gbn import cost
 
     x = np.random.default_rng(1).random((7, 40, 2))
     whole = field(40, 2, 1.0, method="theta")(x)
-    monkeypatch.setattr(pairs, "LARGEST", 3 * field(40, 2, 1.0, method="theta").bytes_a_set())
+    monkeypatch.setattr(cost, "LARGEST", 3 * field(40, 2, 1.0, method="theta").bytes_a_set())
     parts = field(40, 2, 1.0, method="theta")(x)
     assert np.array_equal(whole.gradient, parts.gradient)
     assert np.array_equal(whole.excess, parts.excess)

@@ -37,11 +37,14 @@ def test_truncated_transforms_agree_with_quadrature(cutoff):
     sigma = 0.8
     nu = np.array([0.0, 1e-3, 0.1, 0.25, 0.6, 2.0])
     line, plane = (truncated_transform(nu, sigma, cutoff, d) for d in (1, 2))
+
+    def gauss(r):
+        return mpmath.exp(-r * r / (2 * mpmath.mpf(sigma) ** 2))
+
     with mpmath.workdps(25):
         panels = mpmath.linspace(0, cutoff * sigma, 20)
         for k, v in enumerate(nu):
             w = 2 * mpmath.pi * mpmath.mpf(float(v))
-            gauss = lambda r: mpmath.exp(-r * r / (2 * mpmath.mpf(sigma) ** 2))  # noqa: E731
             one = 2 * mpmath.quad(lambda r, w=w: gauss(r) * mpmath.cos(w * r), panels)
             two = 2 * mpmath.pi * mpmath.quad(lambda r, w=w: r * gauss(r) * mpmath.besselj(0, w * r), panels)
             assert line[k] == pytest.approx(float(one), rel=0, abs=1e-14 * line[0])

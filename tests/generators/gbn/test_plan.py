@@ -140,7 +140,7 @@ def test_a_ball_has_each_of_its_frequencies_once(d, square):
 )
 @pytest.mark.parametrize("precision", ["double", "float"])
 def test_frequencies_left_out_do_not_show(n, d, sigma, precision):
-    """Their forces add up to less than a rounding of the largest force of one pair, and no shell is wasted."""
+    """Their forces add up to less than a rounding of the largest force of one pair; none is wasted."""
     square, side = needed(n, d, sigma, precision), n ** (1 / d)
     b = 2 * (math.pi * sigma / side) ** 2
     more = square + math.ceil(60 / b) + 60
