@@ -21,7 +21,7 @@ from gbnbench.torus import FloatArray, displacement, spacing
 # n, d, fmax: none a multiple of a vector, a tile or a chunk.
 PERIODOGRAMS = ((7, 1, 19), (131, 2, 11), (333, 2, 5), (61, 3, 3), (29, 5, 1))
 QUICK_PERIODOGRAMS = ((131, 2, 11), (29, 5, 1))
-# n, d, sigma: the first two by the nearest image, the others by theta.
+# n, d, sigma: wide boxes, then narrow ones, each by every evaluation that serves it.
 ENERGIES = ((613, 2, 0.9), (401, 1, 1.0), (83, 2, 1.0), (53, 3, 0.7), (37, 8, 1.0))
 QUICK_ENERGIES = ((401, 2, 1.0), (53, 3, 0.7))
 SWEEP, QUICK_SWEEP = 101, 41  # points of the farthest-point kernel's sweep
@@ -145,18 +145,17 @@ def _periodogram(n: int, d: int, fmax: int, precision: str) -> Iterator[Check]:
 
 def _energy(n: int, d: int, sigma: float, precision: str) -> Iterator[Check]:
     from gbnbench.generators.gbn.energy import field
+    from gbnbench.generators.gbn.plan import plan
 
-    x = np.random.default_rng(n).random((n, d))
-    evaluate = field(n, d, sigma, precision)
-    expected = numpy_gradient(x, sigma)
-    error = float(np.max(np.abs(evaluate(x).gradient - expected)) / np.max(np.abs(expected)))
-    yield Check(
-        f"gbn gradient, {evaluate.method}",
-        f"n={n} d={d} sigma={sigma}",
-        precision,
-        error,
-        GRADIENT[precision],
-    )
+    x = np.random.default_rng(n).random((2, n, d))
+    expected = np.stack([numpy_gradient(one, sigma) for one in x])
+    found = plan(n, d, sigma, precision)
+    for method in sorted(c.method for c in (found.chosen, *found.others)):
+        gradient = field(n, d, sigma, precision, method=method)(x).gradient
+        error = float(np.max(np.abs(gradient - expected)) / np.max(np.abs(expected)))
+        yield Check(
+            f"gbn gradient, {method}", f"n={n} d={d} sigma={sigma}", precision, error, GRADIENT[precision]
+        )
 
 
 def _farthest_points(n: int, precision: str) -> Iterator[Check]:

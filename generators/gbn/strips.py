@@ -9,13 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import chi2
 
-from gbnbench.errors import InputError
+from gbnbench.generators.gbn import cost
 from gbnbench.generators.gbn.field import Gradient
 from gbnbench.opencl import Runtime
 from gbnbench.torus import FloatArray
 
-CUTOFF = {"double": 9.0, "float": 6.0}  # sigmas beyond which a pair adds less than the precision
-ERROR = {"double": 1e-15, "float": 5e-7}
 WIDTH = {"double": 1.8, "float": 2.5}  # of a strip, in spacings
 CELL = 0.5  # length, in spacings
 SKIN = 0.3  # move, in spacings, after which the points are sorted anew
@@ -34,16 +32,15 @@ class Strips:
     sigma : float
         Kernel width in spacings.
     precision : {"double", "float"}
-        Double sums every image within the cut-off, in boxes of any size; float needs boxes of twice the
-        cut-off.
+        Of the forces. Float takes positions as 32-bit fractions of a side.
     cutoff : float, optional
         Where the kernel itself ends, in sigmas (Section 4.4); without it the kernel is whole and pairs that
         add less than the precision are left out.
 
     Raises
     ------
-    InputError
-        If d is beyond 3, or the box is too narrow for float.
+    RefusalError
+        If d is beyond 3, or the box narrower than twice the cut-off.
 
     Notes
     -----
@@ -57,16 +54,9 @@ class Strips:
         self, runtime: Runtime, n: int, d: int, sigma: float, precision: str, cutoff: float | None = None
     ) -> None:
         self.side = n ** (1 / d)
-        reach = (cutoff or CUTOFF[precision]) * sigma
-        if d > 3:
-            raise InputError(f"strips serve one to three dimensions; got d={d}")
-        if precision == "float" and self.side < 2 * reach:
-            raise InputError(
-                f"strips in float need a box of twice the cut-off, {2 * reach:g} spacings; n={n} in d={d} "
-                f"gives {self.side:.3g}; take double"
-            )
+        reach = (cutoff or cost.CUTOFF[precision]) * sigma
         self.n, self.d, self.sigma = n, d, sigma
-        self.error = ERROR[precision]
+        self.error = cost.strips(n, d, sigma, precision, cutoff).error
         self._runtime = runtime
         self._double = precision == "double"
         self._real: type[np.floating[Any]] = np.float64 if self._double else np.float32
