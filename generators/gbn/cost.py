@@ -179,8 +179,8 @@ def strips(n: int, d: int, sigma: float, precision: str, cutoff: float | None = 
     if ratio < 2 * reach * MARGIN:
         least = math.ceil((2 * reach * sigma * MARGIN) ** d)
         raise RefusalError(
-            f"the box is {ratio:.4g} sigmas wide, and pairs reach {reach:g} each way: the nearest image is all "
-            f"there is from {2 * reach:g} sigmas, n={least} at this d and sigma"
+            f"the box is {ratio:.4g} sigmas wide, and pairs reach {reach:g} each way: the nearest image is "
+            f"all there is from {2 * reach:g} sigmas, n={least} at this d and sigma"
         )
     ball = math.pi ** (d / 2) / math.gamma(d / 2 + 1) * (reach * sigma) ** d
     pair = d * (DISPLACEMENT[precision] + 2) + EXP[precision] + 2
