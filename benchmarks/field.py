@@ -2,9 +2,9 @@
 
     python -m gbnbench.benchmarks.field [FOLDER]
 
-On one core. Each evaluation's instructions are those of its inner loop, counted by hand in generators/gbn/cost.py; the
-peak is that of multiply-adds, measured in the same process before and after each case, so that a share of 1 would mean
-that nothing but these instructions takes time, launches and the way to the device and back included.
+On one core. Each evaluation's instructions are those of its inner loop, counted by hand in generators/gbn/cost.py;
+the peak is that of multiply-adds, measured in the same process before and after each case, so that a share of 1
+would mean that nothing but these instructions takes time, launches and the way to the device and back included.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from __future__ import annotations
 import json
 import os
 import sys
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -76,7 +77,7 @@ CASES = (
 
 
 def candidates(case: Case, precision: str) -> list[Cost]:
-    """Evaluations worth timing: the plan's own first."""
+    """List the evaluations worth timing, the plan's own first."""
     found = plan(case.n, case.d, case.sigma, precision, sets=case.sets)
     if found.seconds() > LONGEST:
         return []
@@ -102,9 +103,10 @@ def measure(case: Case) -> list[dict[str, Any]]:
         best = float(timing.cpu.min())
         rows.append(
             {
-                "n": case.n, "d": case.d, "sigma": case.sigma, "sets": case.sets, "precision": p, "method": method,
-                "detail": cost.detail, "chosen": chosen, "rounds": len(timing.cpu), "cpu_ms": 1e3 * best,
-                "cpu_ms_median": 1e3 * float(np.median(timing.cpu)), "bar_ms": case.bar if p == "double" else np.nan,
+                "n": case.n, "d": case.d, "sigma": case.sigma, "sets": case.sets, "precision": p,
+                "method": method, "detail": cost.detail, "chosen": chosen, "rounds": len(timing.cpu),
+                "cpu_ms": 1e3 * best, "cpu_ms_median": 1e3 * float(np.median(timing.cpu)),
+                "bar_ms": case.bar if p == "double" else np.nan,
                 "work_a_second": case.sets * cost.work / best, "instructions": case.sets * cost.instructions,
                 "peak": peak[p] / 2, "share": case.sets * cost.instructions / best / (peak[p] / 2),
                 "double_over_float": _gain(timings, first) if chosen and p == "float" else np.nan,
@@ -119,20 +121,20 @@ def _gain(timings: dict[str, Timing], first: dict[str, str]) -> float:
     return float(np.median(double.over(single)))
 
 
-def main(out: Path = RESULTS) -> None:
-    """Run all cases and write field.csv and machine.json."""
+def main(out: Path = RESULTS, cases: Iterable[Case] = CASES) -> None:
+    """Run cases and write field.csv and machine.json."""
     os.environ.update(ONE_THREAD)  # before the device is opened
     out.mkdir(parents=True, exist_ok=True)
     write_whole(out / "machine.json", (json.dumps(describe(), indent=2) + "\n").encode())
     with Rows(out / "field.csv", COLUMNS) as file:
-        for case in CASES:
+        for case in cases:
             for row in measure(case):
                 file.add(row)
                 mark = "*" if row["chosen"] else " "
                 print(
                     f"{mark} n={row['n']:<8} d={row['d']:<3} sigma={row['sigma']:g} sets={row['sets']:<3} "
-                    f"{row['precision']:<7}{row['method']:<10}{row['cpu_ms']:10.3f} ms  {row['work_a_second']:.3g}/s  "
-                    f"share {row['share']:.2f}  double/float {row['double_over_float']:.2f}",
+                    f"{row['precision']:<7}{row['method']:<10}{row['cpu_ms']:10.3f} ms  "
+                    f"{row['work_a_second']:.3g}/s  share {row['share']:.2f}  double/float {row['double_over_float']:.2f}",
                     flush=True,
                 )
 

@@ -8,10 +8,10 @@ import mpmath
 import numpy as np
 
 
-def theta_field(x, sigma):
-    """Gradient in spacings and excess energy by mpmath's jtheta (Eq. 22), 40 digits beyond cancellation."""
+def theta_field(x, sigma, digits=30):
+    """Gradient in spacings and excess energy by mpmath's jtheta (Eq. 22); flat kernels need more digits."""
     n, d = x.shape
-    with mpmath.workdps(120):
+    with mpmath.workdps(digits):
         side = mpmath.mpf(n) ** (mpmath.mpf(1) / d)
         s = mpmath.mpf(sigma) / side
         nome = mpmath.exp(-2 * mpmath.pi**2 * s**2)

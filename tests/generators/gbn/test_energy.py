@@ -157,12 +157,12 @@ def test_excess_is_the_weighted_sum_of_the_power(n, d, fmax):
         assert found == pytest.approx((weight * power).sum() / (2 * n), rel=1e-12), evaluate.method
 
 
-@pytest.mark.parametrize(("n", "d", "sigma"), [(4, 2, 3.0), (2, 1, 3.0), (4, 20, 3.0), (20, 2, 3.0)])
+@pytest.mark.parametrize(("n", "d", "sigma"), [(4, 2, 3.0), (2, 1, 3.0), (3, 20, 3.0), (9, 2, 3.0)])
 @pytest.mark.parametrize("precision", ["double", "float"])
 def test_a_flat_kernel_keeps_its_digits(n, d, sigma, precision):
     """Where theta departs from its mean by 1e-20 or 1e-70, the forces are as good as anywhere: no stall."""
     x = np.random.default_rng(n).random((n, d))
-    gradient, excess = theta_field(x, sigma)
+    gradient, excess = theta_field(x, sigma, digits=120)
     digits = {"double": 1e-12, "float": 1e-4}[precision]
     for method in ("theta", "harmonics"):
         at = field(n, d, sigma, precision, method=method)(x[None])
