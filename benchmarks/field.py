@@ -3,9 +3,9 @@
     python -m gbnbench.benchmarks.field [FOLDER]
 
 On one core. Each evaluation's instructions are those of its inner loop, counted by hand in
-generators/gbn/cost.py; the peak is that of multiply-adds, measured in the same process before and after each case;
-a share of 1 would mean that nothing but these instructions takes time, launches and the way to the device and back
-included.
+generators/gbn/cost.py; the peak is that of multiply-adds, measured in the same process before and after each
+case. A share of 1 would mean that nothing but these instructions takes time, launches and the way to the device
+and back included.
 """
 
 from __future__ import annotations
