@@ -4,8 +4,8 @@
 
 On one core. Each evaluation's instructions are those of its inner loop, counted by hand in
 generators/gbn/cost.py; the peak is that of multiply-adds, measured in the same process before and after each
-case. A share of 1 would mean that nothing but these instructions takes time, launches and the way to the device
-and back included.
+case. A share of 1 would mean that nothing but these instructions takes time, launches and the way to the
+device and back included.
 """
 
 from __future__ import annotations
@@ -142,4 +142,4 @@ def main(out: Path = RESULTS, cases: Iterable[Case] = CASES) -> None:
 
 
 if __name__ == "__main__":
-    main(*map(Path, sys.argv[1:2]))
+    main(Path(sys.argv[1]) if len(sys.argv) > 1 else RESULTS)
