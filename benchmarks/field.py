@@ -2,9 +2,10 @@
 
     python -m gbnbench.benchmarks.field [FOLDER]
 
-On one core. Each evaluation's instructions are those of its inner loop, counted by hand in generators/gbn/cost.py;
-the peak is that of multiply-adds, measured in the same process before and after each case, so that a share of 1
-would mean that nothing but these instructions takes time, launches and the way to the device and back included.
+On one core. Each evaluation's instructions are those of its inner loop, counted by hand in
+generators/gbn/cost.py; the peak is that of multiply-adds, measured in the same process before and after each
+case. A share of 1 would mean that nothing but these instructions takes time, launches and the way to the
+device and back included.
 """
 
 from __future__ import annotations
@@ -134,10 +135,11 @@ def main(out: Path = RESULTS, cases: Iterable[Case] = CASES) -> None:
                 print(
                     f"{mark} n={row['n']:<8} d={row['d']:<3} sigma={row['sigma']:g} sets={row['sets']:<3} "
                     f"{row['precision']:<7}{row['method']:<10}{row['cpu_ms']:10.3f} ms  "
-                    f"{row['work_a_second']:.3g}/s  share {row['share']:.2f}  double/float {row['double_over_float']:.2f}",
+                    f"{row['work_a_second']:.3g}/s  share {row['share']:.2f}  double/float "
+                    f"{row['double_over_float']:.2f}",
                     flush=True,
                 )
 
 
 if __name__ == "__main__":
-    main(*map(Path, sys.argv[1:2]))
+    main(Path(sys.argv[1]) if len(sys.argv) > 1 else RESULTS)

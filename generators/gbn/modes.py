@@ -59,6 +59,8 @@ def _log_strength(n: int, d: int, sigma: float) -> float:
 
 def volume(d: int, square: int) -> float:
     """Count the frequencies with |f|^2 <= square, exactly where that is quick."""
+    if d < 2:
+        return 1.0 + 2 * d * math.isqrt(square)
     if square * math.sqrt(square) * d <= 3e5:
         return float(shell_counts(d, square).sum())
     return math.pow(math.pi, d / 2) / math.gamma(d / 2 + 1) * math.pow(math.sqrt(square) + 0.5, d)

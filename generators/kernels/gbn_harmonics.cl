@@ -96,16 +96,16 @@ __kernel void gbn_amplitudes(__global const REAL *restrict a, const uint start_a
             for (int j = 0; j < TILE_B; j++)
                 sum[i][j] = (REALV)0;
         for (uint k = first; k < last; k += LANES) {
-            REALV row[TILE_A];
+            REALV column[TILE_B]; /* the fewer of the two are kept: sixteen registers hold all */
             #pragma unroll
-            for (int i = 0; i < TILE_A; i++)
-                row[i] = LOADV(pa, (ulong)i * stride + k);
+            for (int j = 0; j < TILE_B; j++)
+                column[j] = LOADV(pb, (ulong)j * stride + k);
             #pragma unroll
-            for (int j = 0; j < TILE_B; j++) {
-                const REALV column = LOADV(pb, (ulong)j * stride + k);
+            for (int i = 0; i < TILE_A; i++) {
+                const REALV row = LOADV(pa, (ulong)i * stride + k);
                 #pragma unroll
-                for (int i = 0; i < TILE_A; i++)
-                    sum[i][j] += row[i] * column;
+                for (int j = 0; j < TILE_B; j++)
+                    sum[i][j] += row * column[j];
             }
         }
         #pragma unroll

@@ -219,14 +219,14 @@ def test_another_shape_is_refused():
 @pytest.mark.parametrize("precision", ["double", "float"])
 def test_where_the_plan_changes_its_mind_both_agree(precision):
     rng = np.random.default_rng(5)
-    before, changes = None, 0
-    for n in [*range(2, 60, 3), *range(60, 500, 20)]:
-        method = plan(n, 2, 1.0, precision).method
-        if before is not None and method != before:
-            changes += 1
-            x = rng.random((n, 2))
-            one, other = (field(n, 2, 1.0, precision, method=m) for m in (before, method))
-            allowed = (one.error + other.error) * kernel.largest_force(n, 2, 1.0) * np.sqrt(n)
-            assert np.abs(one(x[None]).gradient - other(x[None]).gradient).max() <= allowed
-        before = method
-    assert changes >= 1
+    sizes = [*range(2, 60, 3), *range(60, 500, 20)]
+    methods = [plan(n, 2, 1.0, precision).method for n in sizes]
+    changes = [k for k in range(1, len(sizes)) if methods[k] != methods[k - 1]]
+    assert changes
+    for n in {sizes[k - below] for k in changes for below in (0, 1)}:
+        x = rng.random((1, n, 2))
+        first, *others = serving(n, 2, 1.0, precision)
+        assert others
+        for other in others:
+            allowed = (first.error + other.error) * kernel.largest_force(n, 2, 1.0) * np.sqrt(n)
+            assert np.abs(first(x).gradient - other(x).gradient).max() <= allowed
