@@ -1,7 +1,7 @@
 """The scaled Gram matrix of the amplitudes' Jacobian, times a vector.
 
-Rows are scaled by 1 / (sqrt(n) |q|). Between f and f' the matrix holds (q.q' / |q||q'|) F_{f-f'} / 2n, and the
-same with F_{f+f'} for the conjugate of the vector: for each axis a convolution with F.
+Rows are scaled by 1 / (sqrt(n) |q|). Between f and f' the matrix holds (q.q' / |q||q'|) F_{f-f'} / 2n, and
+-F_{f+f'} in its place for the conjugate of the vector: for each axis a convolution with F.
 """
 
 from __future__ import annotations

@@ -91,8 +91,8 @@ def modes(n: int, d: int, edge: float) -> Modes:
 def bound(n: int, d: int, edge: float) -> float:
     """Real numbers bound by the amplitudes below the edge: integer vectors with 0 < nu < edge, both halves.
 
-    Counted by the theta series, without a list, or in large balls by their volume; at most 1e150. Disordered solutions exist while they are well
-    fewer than the coordinates, n d.
+    Counted by the theta series, without a list, or in large balls by their volume; at most 1e150. Disordered
+    solutions exist while they are well fewer than the coordinates, n d.
 
     Examples
     --------

@@ -1,7 +1,7 @@
 """Points moved by the least displacement to given amplitudes: damped minimum-norm Gauss-Newton.
 
-Each step solves J du = T - F for the shortest du = J^T (J J^T)^-1 (T - F) by conjugate gradients, only as well
-as the step deserves (inexact Newton: Dembo, Eisenstat & Steihaug 1982).
+Each step solves J du = T - F for the shortest du = J^T (J J^T)^-1 (T - F) by conjugate gradients, only as
+well as the step deserves (inexact Newton: Dembo, Eisenstat & Steihaug 1982).
 """
 
 from __future__ import annotations

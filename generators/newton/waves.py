@@ -98,10 +98,11 @@ class Waves:
         return self._gather(leading, self._sign) + self._sign * self._gather(trailing, self._sign)
 
     def _gather(self, sums: FloatArray, sign: IntArray) -> ComplexArray:
-        """Sums of the products of cosines and sines -> those of exp(-i (first + sign second))."""
+        """Turn sums of products of cosines and sines into those of exp(-i (first + sign second))."""
         row, column = 2 * self._row, 2 * self._column
-        out: ComplexArray = sums[row, column] - sign * sums[row + 1, column + 1] + 0j
-        out -= 1j * (sums[row + 1, column] + sign * sums[row, column + 1])
+        out = np.empty(len(row), np.complex128)
+        out.real = sums[row, column] - sign * sums[row + 1, column + 1]
+        out.imag = -(sums[row + 1, column] + sign * sums[row, column + 1])
         return out
 
     def _blocks(self) -> Iterator[tuple[slice, NDArray[Any], NDArray[Any]]]:
