@@ -7,6 +7,7 @@ import numbers
 import numpy as np
 
 from gbnbench.errors import InputError, RefusalError
+from gbnbench.generators.deep import Deep
 from gbnbench.generators.fpo import FarthestPoint
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.grid import Grid
@@ -32,6 +33,7 @@ GENERATORS: dict[str, type[Generator]] = {
     "lloyd": Lloyd,
     "fpo": FarthestPoint,
     "gbn": GaussianBlueNoise,
+    "deep": Deep,
 }
 
 
