@@ -79,6 +79,7 @@ class Convolution:
         self._places = _Places(modes.f, self._shape)
         # Differences of frequencies below the edge: all |f| <= twice the largest, on its sphere too.
         doubled = half_ball(4 * int(modes.square.max()), d)
+        doubled = doubled[np.abs(doubled).max(axis=1) <= 2 * reach]  # no difference is longer on an axis
         places = _Places(doubled, self._shape)
         amplitudes = Waves(x, doubled, single=True).amplitudes()
         spectrum = places.spread(amplitudes / (2 * n))
