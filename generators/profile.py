@@ -1,4 +1,4 @@
-"""Target radial profiles: the exponential one of Gaussian Blue Noise made steeper, and tables of one's own."""
+"""Target radial profiles: the exponential one of Gaussian Blue Noise, made steeper, and tables."""
 
 from __future__ import annotations
 
