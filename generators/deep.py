@@ -19,7 +19,7 @@ from gbnbench.torus import FloatArray
 BOUND = math.pi * 0.72**2 / 2  # share of the coordinates that the default edge binds, in any dimension
 MOST_BOUND = 0.96  # beyond, there are no disordered sets
 WORK = 1e12  # most points times modes
-LONGER = (1, 3, 10)  # starts, in times of ``gradients``
+LONGER = ((1, 0), (3, 100), (10, 1000))  # starts: times ``gradients``, and at least so many
 
 Target = str | Table | Callable[[FloatArray], FloatArray] | None
 
@@ -138,8 +138,8 @@ class Deep:
         if reason := self.refusal(n, d):
             raise RefusalError(reason)
         target, edge = self.profile(d)
-        for times in LONGER:
-            outcome = reach(start(n, d, rng, times * self.gradients), target, edge)
+        for times, least in LONGER:
+            outcome = reach(start(n, d, rng, max(times * self.gradients, least)), target, edge)
             if outcome.converged:
                 return outcome.x
         raise RefusalError(

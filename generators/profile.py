@@ -1,4 +1,4 @@
-"""Target radial profiles: the exponential one of Gaussian Blue Noise made steeper, and tables of one's own."""
+"""Target radial profiles: the exponential one of Gaussian Blue Noise, made steeper, and tables."""
 
 from __future__ import annotations
 
@@ -70,9 +70,7 @@ class Table:
                     "1e-30 is none at all in double"
                 )
             if not (math.isfinite(nu) and nu >= 0 and (k == 0 or nu > self.nu[k - 1])):
-                raise InputError(
-                    f"the nu of a target must be >= 0 and rise from row to row; row {k + 1}: {nu}"
-                )
+                raise InputError(f"the nu of a target must be >= 0 and rise; got {nu} in row {k + 1}")
 
     @property
     def edge(self) -> float:

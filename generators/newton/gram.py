@@ -77,9 +77,9 @@ class Convolution:
         self._shape = (_side(reach),) * d
         self._direction = modes.direction
         self._places = _Places(modes.f, self._shape)
-        # Differences of frequencies below the edge: all |f| <= twice the largest, on its sphere too.
+        # Differences of frequencies below the edge
         doubled = half_ball(4 * int(modes.square.max()), d)
-        doubled = doubled[np.abs(doubled).max(axis=1) <= 2 * reach]  # no difference is longer on an axis
+        doubled = doubled[np.abs(doubled).max(axis=1) <= 2 * reach]
         places = _Places(doubled, self._shape)
         amplitudes = Waves(x, doubled, single=True).amplitudes()
         spectrum = places.spread(amplitudes / (2 * n))
