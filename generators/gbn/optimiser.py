@@ -7,7 +7,7 @@ from collections import deque
 
 import numpy as np
 
-from gbnbench.generators.gbn.energy import Field
+from gbnbench.generators.gbn.field import Field
 from gbnbench.generators.gbn.lowband import LowBand
 from gbnbench.torus import FloatArray
 
@@ -66,10 +66,10 @@ def descend(x: FloatArray, field: Field, sigma: float, iterations: int, excess: 
     side = n ** (1 / d)
     size = step_size(n, d, sigma)
     for _ in range(iterations):
-        at = field(x)
-        if at.excess <= excess:
+        at = field(x[None])
+        if at.excess[0] <= excess:
             break
-        x = x - _capped(size * at.gradient) / side
+        x = x - _capped(size * at.gradient[0]) / side
     return x
 
 
@@ -87,18 +87,19 @@ def accelerate(x: FloatArray, field: Field, sigma: float, gradients: int, excess
     y, momentum = x, 1.0
     recent: deque[float] = deque(maxlen=PATIENCE + 1)
     for _ in range(gradients):
-        at = field(y)
-        if at.excess <= excess:
+        at = field(y[None])
+        slope = at.gradient[0]
+        if at.excess[0] <= excess:
             return y
-        recent.append(at.excess)
+        recent.append(float(at.excess[0]))
         if len(recent) > PATIENCE and recent[-1] > recent[0]:
             size /= 2
             recent.clear()
-        step = size * at.gradient
+        step = size * slope
         if band is not None:
-            step = step + band.correction(y, at.gradient, size)
+            step = step + band.correction(y, slope, size)
         moved = y - _capped(step) / side
-        if np.vdot(at.gradient, moved - x) > 0:
+        if np.vdot(slope, moved - x) > 0:
             y, momentum = moved, 1.0
         else:
             following = (1 + math.sqrt(1 + 4 * momentum**2)) / 2

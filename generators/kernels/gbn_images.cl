@@ -1,80 +1,103 @@
-/* Energy and gradient of Gaussian Blue Noise by the nearest image of each pair, for boxes of at least twice the
- * cut-off: e_k = sum_l exp(-r^2/2), r in sigmas, and its gradient with respect to x_k (Ahmed, Ren & Wonka 2022,
- * Eq. 18). The pair k = l adds 1 to the energy and nothing to the gradient.
+/* Energy and gradient of Gaussian Blue Noise over all pairs, each dimension's theta function as a sum over images:
+ * theta(u) = sum_j exp(-(u + j L)^2 / 2) in sigmas (Ahmed, Ren & Wonka 2022, Eq. 22), the IMAGES nearest of them.
  *
- * Points come ordered so that neighbours in space are near in memory; boxes hold the centre and half width of each
- * run of BOX points. One work-item sums LANES points over every box that comes within the cut-off.
+ * With u brought to [-L/2, L/2], the nearest image is exp(-u^2/2) and the others, in order of distance, are
+ * exp(-m L (m L / 2 -+ |u|)) of it, m = 1, 1, 2, 2, ...: one exp for the nearest of all dimensions together and one for
+ * each further image, none of which can overflow. e_k = sum_l prod_a theta_a with the pair k = l.
+ *
+ * at (sets * n, DIM): turns in float, so that displacements are exact and nearest by integer wrap; in double, sides
+ * from the nearest integer. One work-item sums LANES points of one set over all points of the set, in chunks of CHUNK.
+ * Needs vector.cl and exp.cl; rows and items as in gbn_theta.cl.
  */
 #if DOUBLE
+#define PLACE REAL
+#define PLACEV REALV
+#define GATHER_PLACES GATHER
 #define NEAREST 6755399441055744.0 /* 1.5 * 2^52: adding and subtracting it rounds to an integer */
-#else
-#define NEAREST 12582912.0f
-#endif
-#define COORDINATE(x, a, k) (x)[(a) * stride + (k)]
-
-/* One work-item bounds one run of BOX points on the torus: widths are taken around its first point. */
-__kernel void boxes(__global const REAL *x, const uint n, const uint stride, __global REAL *box, const uint count)
+static REALV displacement(REALV k, REAL l)
 {
-    const uint b = get_global_id(0);
-    if (b >= count) return;
-    const uint first = b * BOX, last = min(first + BOX, n);
-    #pragma unroll
-    for (uint a = 0; a < DIM; a++) {
-        const REAL origin = COORDINATE(x, a, first);
-        REAL low = 0, high = 0;
-        for (uint k = first + 1; k < last; k++) {
-            REAL u = COORDINATE(x, a, k) - origin;
-            u -= rint(u);
-            low = min(low, u);
-            high = max(high, u);
-        }
-        box[(2 * a) * count + b] = origin + (REAL)0.5 * (low + high);
-        box[(2 * a + 1) * count + b] = (REAL)0.5 * (high - low);
-    }
+    const REALV u = k - l;
+    return u - ((u + NEAREST) - NEAREST);
 }
-
-/* scale is the box's side in sigmas, reach the cut-off in sides. */
-__kernel void gbn_images(__global const REAL *x, const uint n, const uint stride, __global const REAL *box,
-                         const uint count, const REAL scale, const REAL reach, __global REAL *gradient,
-                         __global REAL *energy)
+#else
+#define PLACE TURN
+#define PLACEV TURNV
+#define GATHER_PLACES GATHER_TURNS
+static REALV displacement(TURNV k, TURN l)
 {
-    const uint k = get_global_id(0) * LANES;
-    if (k >= stride) return;
-    REALV at[DIM], force[DIM], total = (REALV)0;
+    return TO_REALV(AS_STURNV(k - l));
+}
+#endif
+
+/* side is L in sigmas, scale what brings a displacement to sigmas. */
+__kernel void gbn_images(__global const PLACE *restrict at, const uint sets, const uint n, const uint stride,
+                         const uint items, const REAL side, const REAL scale, __global REAL *restrict gradient,
+                         __global REAL *restrict energy)
+{
+    const uint set = get_global_id(0) / items;
+    const uint k = (get_global_id(0) - set * items) * LANES;
+    if (set >= sets || k >= stride) return;
+    __global const PLACE *restrict points = at + (ulong)set * n * DIM;
+    PLACEV here[DIM];
+    REALV forces[DIM], total = (REALV)0;
     #pragma unroll
-    for (uint a = 0; a < DIM; a++) {
-        at[a] = LOADV(x, a * stride + k);
-        force[a] = (REALV)0;
+    for (int a = 0; a < DIM; a++) {
+        here[a] = GATHER_PLACES(points + (ulong)k * DIM + a, DIM);
+        forces[a] = (REALV)0;
     }
-    const uint own = k / BOX;
-    for (uint b = 0; b < count; b++) {
-        REAL gap2 = 0;
+    for (uint first = 0; first < n; first += CHUNK) {
+        const uint last = first + CHUNK < n ? first + CHUNK : n;
+        REALV force[DIM], sum = (REALV)0;
         #pragma unroll
-        for (uint a = 0; a < DIM; a++) {
-            REAL apart = box[(2 * a) * count + b] - box[(2 * a) * count + own];
-            apart -= (apart + NEAREST) - NEAREST;
-            apart = (apart < 0 ? -apart : apart) - box[(2 * a + 1) * count + b] - box[(2 * a + 1) * count + own];
-            gap2 += apart > 0 ? apart * apart : (REAL)0;
-        }
-        if (gap2 > reach * reach) continue;
-        const uint last = min((b + 1) * BOX, n);
-        for (uint l = b * BOX; l < last; l++) {
-            REALV u[DIM], half_square = (REALV)0;
+        for (int a = 0; a < DIM; a++)
+            force[a] = (REALV)0;
+        for (uint l = first; l < last; l++) {
+            REALV u[DIM], square = (REALV)0;
             #pragma unroll
-            for (uint a = 0; a < DIM; a++) {
-                u[a] = at[a] - COORDINATE(x, a, l);
-                u[a] = (u[a] - ((u[a] + NEAREST) - NEAREST)) * scale;
-                half_square += u[a] * u[a];
+            for (int a = 0; a < DIM; a++) {
+                u[a] = displacement(here[a], points[(ulong)l * DIM + a]) * scale;
+                square += u[a] * u[a];
             }
-            const REALV g = exp_negative(half_square * (REAL)0.5);
-            total += g;
+            REALV g = exp_negative(square * (REAL)0.5);
+#if IMAGES == 1
             #pragma unroll
-            for (uint a = 0; a < DIM; a++)
+            for (int a = 0; a < DIM; a++)
                 force[a] -= g * u[a];
+#else
+            REALV value[DIM], slope[DIM];
+            #pragma unroll
+            for (int a = 0; a < DIM; a++) {
+                const REALV far = u[a] < (REAL)0 ? -u[a] : u[a];
+                REALV pull = (REALV)0;
+                value[a] = (REALV)1;
+                #pragma unroll
+                for (int image = 1; image < IMAGES; image++) {
+                    const REAL m = (image + 1) / 2, shift = m * side;
+                    const REALV rest = image % 2 ? (REAL)0.5 * shift - far : (REAL)0.5 * shift + far;
+                    const REALV y = exp_negative(shift * rest);
+                    value[a] += y;
+                    pull += (image % 2 ? shift : -shift) * y;
+                }
+                slope[a] = ((u[a] < (REAL)0 ? -pull : pull) - u[a] * value[a]) * g; /* g: all dimensions before */
+                g *= value[a];
+            }
+            REALV after = (REALV)1;
+            #pragma unroll
+            for (int a = DIM - 1; a >= 0; a--) {
+                force[a] += slope[a] * after;
+                after *= value[a];
+            }
+#endif
+            sum += g;
         }
+        total += sum;
+        #pragma unroll
+        for (int a = 0; a < DIM; a++)
+            forces[a] += force[a];
     }
+    __global REAL *out = gradient + ((ulong)set * stride + k) * DIM;
     #pragma unroll
-    for (uint a = 0; a < DIM; a++)
-        STOREV(force[a], gradient, a * stride + k);
-    STOREV(total, energy, k);
+    for (int a = 0; a < DIM; a++)
+        SPREAD(forces[a], out + a, DIM);
+    STOREV(total, energy, (ulong)set * stride + k);
 }

@@ -1,0 +1,40 @@
+"""The energy over all pairs, each dimension's theta function as a sum over the images it needs."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gbnbench.generators.gbn import cost, kernel
+from gbnbench.generators.gbn.field import Gradient
+from gbnbench.generators.gbn.pairs import AllPairs
+from gbnbench.opencl import Runtime
+from gbnbench.torus import FloatArray
+
+
+class Images(AllPairs):
+    """All pairs by the nearest images in each dimension; see ``Field`` and kernels/gbn_images.cl.
+
+    Notes
+    -----
+    The nearest image alone where the box is twice the cut-off wide, two a dimension down to the cut-off, and so
+    on: one exp a pair, and one for each further image of each dimension.
+    """
+
+    method = "images"
+
+    def __init__(self, runtime: Runtime, n: int, d: int, sigma: float, precision: str) -> None:
+        super().__init__(runtime, n, d, sigma, precision)
+        ratio = self.side / self.sigma
+        self.error = cost.images(n, d, self.sigma, precision).error
+        self.images = cost.images_needed(ratio, precision)
+        self._program = self.program("/exp.cl", "gbn_images.cl", IMAGES=self.images)
+        self._turn = 1.0 if self.double else 2.0**-32  # box sides that a unit of a position stands for
+
+    def _sums(self, x: FloatArray) -> Gradient:
+        ratio = self.side / self.sigma
+        at = self.send("at", x - np.rint(x)) if self.double else self.send_turns(x)
+        slopes, sums = self.sum_pairs(
+            self._program, "gbn_images", len(x), at, self.real(ratio), self.real(ratio * self._turn)
+        )
+        uniform = kernel.uniform_energy(self.d, self.sigma)
+        return Gradient(slopes / self.sigma, (np.mean(sums, axis=1, dtype=np.float64) - uniform) / 2)

@@ -1,0 +1,188 @@
+"""Which evaluation of the energy is used, and why: the cheapest of those that are exact to the precision."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from gbnbench.errors import InputError, RefusalError
+from gbnbench.generators.gbn import cost, kernel
+from gbnbench.generators.gbn.cost import Cost
+
+TOLERATED = 5.0  # times the least error: image sums lose digits where images overlap
+METHODS = ("strips", "images", "theta", "harmonics")
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A choice between evaluations, with what the others would have cost.
+
+    Attributes
+    ----------
+    n, d, sets : int
+        Size.
+    sigma : float
+        In spacings.
+    precision : {"double", "float"}
+        Of the arithmetic.
+    cutoff, edge : float or None
+        Kernel truncated in space (sigmas) or in frequency (nu).
+    chosen : Cost
+        The evaluation.
+    why : str
+        In words.
+    others : tuple of Cost
+        What would do as well, cheapest first, then what would lose digits.
+    refused : tuple of (str, str)
+        Methods that cannot, and why.
+    """
+
+    n: int
+    d: int
+    sets: int
+    sigma: float
+    precision: str
+    cutoff: float | None
+    edge: float | None
+    chosen: Cost
+    why: str
+    others: tuple[Cost, ...]
+    refused: tuple[tuple[str, str], ...]
+
+    @property
+    def method(self) -> str:
+        """Name of the evaluation."""
+        return self.chosen.method
+
+    @property
+    def error(self) -> float:
+        """Bound on a component's error, as ``Field.error``."""
+        return self.chosen.error
+
+    @property
+    def flops(self) -> float:
+        """Floating-point operations of all sets, two an instruction."""
+        return 2 * self.sets * self.chosen.instructions
+
+    def seconds(self, which: Cost | None = None) -> float:
+        """Expected CPU seconds of one gradient of all sets on the chosen device, by its measured peak.
+
+        Raises
+        ------
+        DeviceError
+            If there is no device.
+        """
+        from gbnbench.opencl.speed import peak
+
+        found = which or self.chosen
+        launches = cost.LAUNCH * cost.LAUNCHES[found.method]
+        return (self.sets * (found.effort - launches) + launches) * 2 / peak(self.precision)
+
+    def __str__(self) -> str:
+        """Explain the choice, a line for each method."""
+        head = f"{self.method}: {self.chosen.detail}; {self.why}"
+        lines = [f"{self.n} points, {self.d}D, sigma {self.sigma:g}, {self.precision}: {head}"]
+        lines.extend(
+            f"  {c.method:<10} {c.detail:<34} {1e3 * self.seconds(c):10.4g} ms  error {c.error:.1e}"
+            for c in (self.chosen, *self.others)
+        )
+        lines.extend(f"  {name:<10} not here: {reason}" for name, reason in self.refused)
+        return "\n".join(lines)
+
+
+def plan(
+    n: int,
+    d: int,
+    sigma: float,
+    precision: str,
+    *,
+    sets: int = 1,
+    cutoff: float | None = None,
+    edge: float | None = None,
+    method: str | None = None,
+) -> Plan:
+    """Choose how the energy of sets of n points is evaluated.
+
+    Parameters
+    ----------
+    n, d : int
+        Size of a set.
+    sigma : float
+        Kernel width in spacings n**(-1/d).
+    precision : {"double", "float"}
+        Of the arithmetic.
+    sets : int
+        Sets a call; changes what is expected, never the choice, so that a set's points do not depend on it.
+    cutoff : float, optional
+        Truncate the kernel: only pairs with r <= cutoff * sigma (Fig. 4 and 5). Strips only.
+    edge : float, optional
+        Truncate the energy in frequency: only 0 < nu <= edge, a ball. Harmonics only.
+    method : {"strips", "images", "theta", "harmonics"}, optional
+        Instead of the cheapest.
+
+    Raises
+    ------
+    InputError
+        If a value makes no sense, or cutoff or edge is asked of a method that has none.
+    RefusalError
+        If the method asked for cannot serve this size.
+    """
+    _check(n, d, sigma, precision, sets, cutoff, edge, method)
+    makers: dict[str, Callable[[], Cost]] = {
+        "strips": lambda: cost.strips(n, d, sigma, precision, cutoff),
+        "images": lambda: cost.images(n, d, sigma, precision),
+        "theta": lambda: cost.theta(n, d, sigma, precision),
+        "harmonics": lambda: cost.harmonics(n, d, sigma, precision, edge),
+    }
+    only = "strips" if cutoff is not None else "harmonics" if edge is not None else None
+    if only:
+        reason = (
+            "the only one that cuts the kernel off" if cutoff is not None else "the only one with an edge"
+        )
+        chosen = makers[only]()
+        return Plan(n, d, sets, sigma, precision, cutoff, edge, chosen, reason, (), ())
+    found, refused = [], []
+    for name, make in makers.items():
+        try:
+            found.append(make())
+        except RefusalError as refusal:
+            if name == method:
+                raise
+            refused.append((name, str(refusal)))
+    if not found:
+        raise RefusalError("; ".join(f"{name}: {reason}" for name, reason in refused))
+    exact = TOLERATED * min(c.error for c in found)
+    found.sort(key=lambda c: (c.error > exact, c.effort))
+    chosen = next((c for c in found if c.method == method), found[0])
+    why = "asked for" if method else "the cheapest that is exact to the precision"
+    others = tuple(c for c in found if c is not chosen)
+    return Plan(n, d, sets, sigma, precision, None, None, chosen, why, others, tuple(refused))
+
+
+def _check(
+    n: int,
+    d: int,
+    sigma: float,
+    precision: str,
+    sets: int,
+    cutoff: float | None,
+    edge: float | None,
+    method: str | None,
+) -> None:
+    if min(n, d, sets) < 1:
+        raise InputError(f"n, d and sets must be at least 1; got n={n}, d={d}, sets={sets}")
+    if not (math.isfinite(sigma) and sigma > 0):
+        raise InputError(f"sigma must be positive, in spacings; got {sigma}")
+    if precision not in kernel.EPS:
+        raise InputError(f'precision must be "double" or "float"; got {precision!r}')
+    if method is not None and method not in METHODS:
+        raise InputError(f"method must be one of {', '.join(METHODS)}; got {method!r}")
+    if cutoff is not None and edge is not None:
+        raise InputError(
+            "cutoff truncates the kernel in space, edge in frequency, and a sharp cut in one has no end in the "
+            "other: give one of them"
+        )
+    for name, value, owner in (("cutoff", cutoff, "strips"), ("edge", edge, "harmonics")):
+        if value is not None and method not in (None, owner):
+            raise InputError(f"{name} is a setting of method {owner}; got method={method!r}")
