@@ -20,6 +20,7 @@ from gbnbench.generators.protocol import Generator, realization_rng
 from gbnbench.generators.settings import configure, nearest, parse
 from gbnbench.generators.sobol import Sobol
 from gbnbench.generators.uniform import Uniform
+from gbnbench.generators.watch import Watch, Watchable
 from gbnbench.torus import FloatArray
 
 GENERATORS: dict[str, type[Generator]] = {
@@ -69,7 +70,13 @@ def find(text: str, **settings: object) -> Generator:
 
 
 def generate(
-    name: str, n: int, d: int = 2, seed: int = 0, realizations: int = 1, **settings: object
+    name: str,
+    n: int,
+    d: int = 2,
+    seed: int = 0,
+    realizations: int = 1,
+    watch: Watch | None = None,
+    **settings: object,
 ) -> FloatArray:
     """Draw point sets on the unit torus.
 
@@ -86,6 +93,8 @@ def generate(
         whatever the generator and however many are asked for.
     realizations : int
         Sets, >= 1.
+    watch : Watch, optional
+        Progress, a trace of the optimiser, checkpoints to go on from.
     **settings
         The generator's settings.
 
@@ -97,7 +106,8 @@ def generate(
     Raises
     ------
     InputError
-        If the name, a setting or an argument is wrong.
+        If the name, a setting or an argument is wrong, a checkpoint is of another run, or a trace or a
+        checkpoint is asked of a generator that has none.
     RefusalError
         If the generator cannot make n points in d dimensions.
 
@@ -111,8 +121,24 @@ def generate(
     n, d = _whole("n", n, 1), _whole("d", d, 1)
     if reason := generator.refusal(n, d):
         raise RefusalError(reason)
-    sets = [generator(n, d, realization_rng(seed, k)) for k in range(realizations)]
-    return sets[0] if realizations == 1 else np.stack(sets)
+    sets = _draw(generator, n, d, [realization_rng(seed, k) for k in range(realizations)], watch or Watch())
+    return sets[0] if realizations == 1 else sets
+
+
+def _draw(generator: Generator, n: int, d: int, rngs: list[np.random.Generator], watch: Watch) -> FloatArray:
+    if isinstance(generator, Watchable):
+        return generator.draw(n, d, rngs, watch)
+    for what in ("trace", "checkpoint"):
+        if getattr(watch, what) is not None:
+            raise InputError(
+                f"{generator.name} has no {what}: it is for generators that optimise, such as gbn"
+            )
+    sets = []
+    for k, rng in enumerate(rngs):
+        sets.append(generator(n, d, rng))
+        if watch.progress is not None:
+            watch.progress(k + 1, len(rngs), generator.name)
+    return np.stack(sets)
 
 
 def _whole(what: str, value: object, least: int) -> int:

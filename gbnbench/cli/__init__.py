@@ -9,10 +9,11 @@ from collections.abc import Sequence
 import click
 
 from gbnbench import __version__
+from gbnbench.cli.analyze import analyze
 from gbnbench.cli.bench import bench
 from gbnbench.cli.compare import compare
+from gbnbench.cli.generate import generate
 from gbnbench.cli.machine import devices, doctor
-from gbnbench.cli.points import analyze, generate
 from gbnbench.cli.report import report
 from gbnbench.cli.spectrum import spectrum
 from gbnbench.errors import GbnbenchError

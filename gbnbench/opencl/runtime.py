@@ -163,9 +163,9 @@ class Runtime:
         self._cl.enqueue_copy(self.queue, out, buffer)
         return out
 
-    def update(self, buffer: Any, array: NDArray[Any]) -> None:
-        """Copy an array into the head of an existing buffer."""
-        self._cl.enqueue_copy(self.queue, buffer, np.ascontiguousarray(array))
+    def update(self, buffer: Any, array: NDArray[Any], offset: int = 0) -> None:
+        """Copy an array into an existing buffer, from the byte offset on."""
+        self._cl.enqueue_copy(self.queue, buffer, np.ascontiguousarray(array), dst_offset=offset)
 
     def clear(self, buffer: Any, nbytes: int) -> None:
         """Fill the head of a buffer with zeros."""

@@ -9,8 +9,8 @@ from __future__ import annotations
 from gbnbench.generators.gbn.field import Field
 from gbnbench.generators.gbn.harmonics import Harmonics
 from gbnbench.generators.gbn.images import Images
-from gbnbench.generators.gbn.nearest import NearestImage as Strips
 from gbnbench.generators.gbn.plan import plan
+from gbnbench.generators.gbn.strips import Strips
 from gbnbench.generators.gbn.theta import Theta
 from gbnbench.opencl import runtime
 

@@ -33,7 +33,8 @@ class Field(Protocol):
     method : str
         The evaluation, as a plan names it.
     error : float
-        Bound on the error of a gradient's component, in units of the largest force of one pair, times n^(1/2).
+        Bound on the error of a gradient's component, in units of the largest force of one pair, times
+        n^(1/2).
     """
 
     method: str

@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from gbnbench.errors import InputError
 from gbnbench.generators.gbn.energy import field
-from gbnbench.generators.gbn.optimiser import accelerate, descend
+from gbnbench.generators.gbn.optimiser import Descent, Nesterov, authors_step, step_size
+from gbnbench.generators.gbn.run import optimise
+from gbnbench.generators.settings import specification
+from gbnbench.generators.watch import Watch
 from gbnbench.torus import FloatArray, wrap
+
+PAPER_ITERATIONS = 10_000  # what the paper recommends
 
 
 @dataclass(frozen=True)
@@ -23,12 +29,23 @@ class GaussianBlueNoise:
     sigma : float
         Width of the energy's kernel in spacings n**(-1/d), 0.3 to 3; the paper recommends 1.
     gradients : int
-        Evaluations of Nesterov's method; 300 reach the quality of the paper's recommended 10,000 steps.
+        Evaluations of Nesterov's method; 320 reach the quality of the paper's recommended 10,000 steps.
     iterations : int
         If not 0, so many steps of the paper's own descent instead.
+    method : {"auto", "nesterov", "descent"}
+        "descent" alone takes the paper's 10,000 steps; "auto" is descent where iterations are given.
+    step : str
+        The first step in squared spacings: "auto" is 1.2 over the energy's largest curvature, "authors" that
+        of the authors' programs, 0.25 n^(2/d) / n, which is right in scale for d = 2 only; or a number.
     excess : float
         Stop early once the excess energy a point is at most this; in 2D 4.5e-6 is the paper's quality at
         10,000 steps, 1.1e-6 that at 100,000. 0 never stops early.
+    cutoff : float
+        Where the kernel itself is cut off, in sigmas (Section 4.4, Figures 4 and 5); 0 leaves it whole.
+    edge : float
+        Highest nu = |f| n**(-1/d) that the energy sees (supplement B); 0 for all.
+    precision : {"auto", "double", "float"}
+        Of the forces; positions are double either way. "auto" is double where the device has it.
 
     Notes
     -----
@@ -41,9 +58,14 @@ class GaussianBlueNoise:
     summary: ClassVar[str] = "Gaussian Blue Noise (Ahmed, Ren & Wonka 2022)"
 
     sigma: float = 1.0
-    gradients: int = 300
+    gradients: int = 320
     iterations: int = 0
+    method: Literal["auto", "nesterov", "descent"] = "auto"
+    step: str = "auto"
     excess: float = 0.0
+    cutoff: float = 0.0
+    edge: float = 0.0
+    precision: Literal["auto", "double", "float"] = "auto"
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.sigma) and 0.3 <= self.sigma <= 3):
@@ -51,19 +73,76 @@ class GaussianBlueNoise:
         for name in ("gradients", "iterations"):
             if getattr(self, name) < 0:
                 raise InputError(f"{name} must be 0 or more; got {getattr(self, name)}")
-        if not (math.isfinite(self.excess) and self.excess >= 0):
-            raise InputError(f"excess must be 0 or more; got {self.excess}")
+        for name in ("excess", "cutoff", "edge"):
+            if not (math.isfinite(getattr(self, name)) and getattr(self, name) >= 0):
+                raise InputError(f"{name} must be 0 or more; got {getattr(self, name)}")
+        if self.method == "nesterov" and self.iterations:
+            raise InputError(
+                f"iterations count the steps of method=descent, gradients those of nesterov; got both "
+                f"method=nesterov and iterations={self.iterations}"
+            )
+        if self.cutoff and self.edge:
+            raise InputError(
+                "a kernel is cut off in space or in frequency; got both "
+                f"cutoff={self.cutoff} and edge={self.edge}"
+            )
+        self._step(2, 2)
 
-    def refusal(self, n: int, d: int) -> str | None:  # noqa: ARG002 - any size will do
-        """Serve every n and d."""
+    def refusal(self, n: int, d: int) -> str | None:
+        """Why this energy cannot be had for n points in d dimensions; None for the whole kernel."""
+        side = n ** (1 / d)
+        if self.cutoff and d > 3:
+            return f"d must be at most 3 where the kernel is cut off; got d={d}"
+        if 2 * self.cutoff * self.sigma > side:
+            least = math.ceil((2 * self.cutoff * self.sigma) ** d)
+            return (
+                f"n must be at least {least} in d={d} for cutoff={self.cutoff:g}, sigma={self.sigma:g}: "
+                f"the box must be twice the cut-off wide; got n={n}"
+            )
+        if self.edge and self.edge * side < 1:
+            return (
+                f"edge must be at least {1 / side:.3g} for n={n}, d={d}, or no frequency is left; "
+                f"got {self.edge}"
+            )
         return None
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization; see ``Generator``."""
-        x = rng.random((n, d))
+        one: FloatArray = self.draw(n, d, [rng], Watch())[0]
+        return one
+
+    def draw(self, n: int, d: int, rngs: Sequence[np.random.Generator], watch: Watch) -> FloatArray:
+        """Draw one set from each stream; see ``Watchable``."""
+        starts = np.stack([rng.random((n, d)) for rng in rngs])
         if n == 1:
-            return x
-        energy = field(n, d, self.sigma)
-        if self.iterations:
-            return wrap(descend(x, energy, self.sigma, self.iterations, self.excess))
-        return wrap(accelerate(x, energy, self.sigma, self.gradients, self.excess))
+            return starts
+        count = self.iterations or (PAPER_ITERATIONS if self.method == "descent" else self.gradients)
+        return wrap(optimise(starts, self._optimiser, count, watch, specification(self)))
+
+    def _optimiser(self, starts: FloatArray) -> Descent:
+        _, n, d = starts.shape
+        energy = field(
+            n,
+            d,
+            self.sigma,
+            None if self.precision == "auto" else self.precision,
+            cutoff=self.cutoff or None,
+            edge=self.edge or None,
+        )
+        step = self._step(n, d)
+        if self.iterations or self.method == "descent":
+            return Descent(energy, starts, step, self.excess)
+        return Nesterov(energy, starts, step, self.excess, sigma=self.sigma)
+
+    def _step(self, n: int, d: int) -> float:
+        if self.step == "auto":
+            return step_size(n, d, self.sigma)
+        if self.step == "authors":
+            return authors_step(n, d)
+        try:
+            step = float(self.step)
+        except ValueError:
+            step = math.nan
+        if not (math.isfinite(step) and step > 0):
+            raise InputError(f"step must be auto, authors or a number above 0; got {self.step!r}")
+        return step

@@ -8,46 +8,45 @@ lowest modes need far more steps than the middle band. Only nu <= 0.15 is treate
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import fft, sparse
 
 from gbnbench.torus import FloatArray
 
 EDGE = 0.15  # in nu
+STEP = 0.75  # of the grid, in spacings: the cubic spline's aliases are 3e-4 of the band
+SLACK = 0.02  # moves in spacings over which a point keeps its weights: 2% of the band's fastest phase
 
 
 class LowBand:
-    """Modes with 0 < nu <= 0.15 of n points in d dimensions, in single precision: 1e-3 would do.
+    """Modes with 0 < nu <= 0.15 of a set of n points in d dimensions, by a grid: n log n.
 
-    The modes are a grid over two groups of dimensions; f and -f being one mode, the first axis takes f >= 0.
+    Points give their forces to a grid by cubic B-splines and take displacements from it by the same weights,
+    so that the correction is a symmetric operator of the forces; single precision is more than it needs,
+    since the forces that it reads vanish where it has done its work.
     """
 
     def __init__(self, n: int, d: int, sigma: float) -> None:
-        side = math.pow(n, 1 / d)
-        self._reach = math.floor(EDGE * side)
-        self._leading = max(1, d // 2)
-        axes = [np.arange(0 if a == 0 else -self._reach, self._reach + 1) for a in range(d)]
-        q = 2 * math.pi / side * np.stack(np.meshgrid(*axes, indexing="ij"))  # (d, modes of each axis...)
-        q2 = np.sum(q**2, axis=0)
+        side = n ** (1 / d)
+        self._n, self._d, self._side = n, d, side
+        self._cells = fft.next_fast_len(max(4, math.ceil(side / STEP)), real=True)
+        whole = fft.fftfreq(self._cells, 1 / self._cells)
+        half = fft.rfftfreq(self._cells, 1 / self._cells)
+        f = np.meshgrid(*[whole] * (d - 1), half, indexing="ij", sparse=True)
+        q2 = sum((2 * math.pi / side * axis) ** 2 for axis in f)
         inside = (q2 > 0) & (q2 <= (2 * math.pi * EDGE) ** 2)
-        # A mode on the plane f_0 = 0 stands there twice, as f and as -f.
-        self._weight = np.where(inside, np.where(q[0] > 0, 2.0, 1.0), 0.0) / n
-        q2[~inside] = 1.0
-        self._inverse = 1 / (q2 * (2 * math.pi) ** (d / 2) * sigma**d * np.exp(-(sigma**2) * q2 / 2))
-        self._direction = q / np.sqrt(q2)
-
-    def _waves(self, x: FloatArray, first: bool) -> NDArray[np.complex64]:
-        """exp(-2 pi i f.x) over the grid of one group of dimensions: (n, modes)."""
-        table = np.ones((len(x), 1), np.complex64)
-        for a, coordinate in enumerate(x.T):
-            powers = np.ones((len(x), self._reach + 1), np.complex64)
-            powers[:, 1:] = np.exp(-2j * np.pi * coordinate)[:, None]
-            axis = np.cumprod(powers, axis=1)
-            if not (first and a == 0):
-                axis = np.concatenate([axis[:, :0:-1].conj(), axis], axis=1)
-            table = (table[:, :, None] * axis[:, None, :]).reshape(len(x), -1)
-        return table
+        q2 = np.where(inside, q2, 1.0)
+        self._curvature = q2 * (2 * math.pi) ** (d / 2) * sigma**d * np.exp(-(sigma**2) * q2 / 2)
+        spline = np.ones(())
+        for axis in f:
+            spline = spline * np.sinc(axis / self._cells) ** 4
+        # Once for giving and once for taking; the inverse transform divides by the number of cells.
+        self._weight = np.where(inside, self._cells**d / (self._n * spline**2), 0.0)
+        self._direction = [2 * math.pi / side * axis / np.sqrt(q2) for axis in f]
+        self.anchor: FloatArray | None = None
 
     def correction(self, x: FloatArray, gradient: FloatArray, size: float) -> FloatArray:
         """Return what to add to size * gradient so that each mode is divided by its own curvature.
@@ -66,23 +65,36 @@ class LowBand:
         (n, d) float64
             sum over the band of (1 / lambda_q - size) times the gradient's projection on the mode.
         """
-        out = np.zeros_like(gradient)
-        if not self._weight.any():
-            return out
-        first = self._waves(x[:, : self._leading], first=True)
-        second = self._waves(x[:, self._leading :], first=False)
-        shape = self._inverse.shape
-        force = gradient.astype(np.float32)
-        along = np.zeros(shape, np.complex128)
+        if self.anchor is None or np.abs(x - self.anchor).max() > SLACK / self._side:
+            self.place(x)
+        shape = (self._cells,) * self._d
+        given = self._splines.T @ gradient.astype(np.float32)
+        along = np.zeros(self._weight.shape, np.complex64)
         for a, direction in enumerate(self._direction):
-            along += direction * (first.T @ (second * force[:, a : a + 1])).reshape(shape)
-        along *= self._weight * (self._inverse - size)
-        backward = second.conj()
+            along += direction.astype(np.float32) * fft.rfftn(given[:, a].reshape(shape))
+        along *= (self._weight * (1 / self._curvature - size)).astype(np.float32)
+        taken = np.empty((math.prod(shape), self._d), np.float32)
         for a, direction in enumerate(self._direction):
-            coefficient = (direction * along).astype(np.complex64).reshape(first.shape[1], second.shape[1])
-            # Re(conj(first) (backward @ coefficient.T)), summed over the first group's modes
-            wave = backward @ coefficient.T
-            out[:, a] = np.einsum("km,km->k", first.real, wave.real) + np.einsum(
-                "km,km->k", first.imag, wave.imag
-            )
+            taken[:, a] = fft.irfftn(direction.astype(np.float32) * along, shape).ravel()
+        out: FloatArray = (self._splines @ taken).astype(np.float64)
         return out
+
+    def place(self, x: FloatArray) -> None:
+        """Find the weights of points (n, d), four on each axis."""
+        self.anchor = x.copy()
+        cell: NDArray[Any] = np.zeros((self._n, 1), np.int32)
+        weight: NDArray[Any] = np.ones((self._n, 1), np.float32)
+        for a in range(self._d):
+            at = (x[:, a] - np.floor(x[:, a])) * self._cells
+            first = np.floor(at)
+            t = (at - first).astype(np.float32)
+            back = 1 - t
+            middle = (4 - 6 * t**2 + 3 * t**3, 4 - 6 * back**2 + 3 * back**3)
+            four = np.stack([back**3, *middle, t**3], 1)
+            near = (first.astype(np.int32)[:, None] + np.arange(-1, 3, dtype=np.int32)) % self._cells
+            cell = (cell[:, :, None] * self._cells + near[:, None, :]).reshape(self._n, -1)
+            weight = (weight[:, :, None] * (four / 6)[:, None, :]).reshape(self._n, -1)
+        taps = cell.shape[1]
+        ends = np.arange(0, taps * self._n + 1, taps, dtype=np.int32 if taps * self._n < 2**31 else np.int64)
+        size = (self._n, self._cells**self._d)
+        self._splines = sparse.csr_matrix((weight.ravel(), cell.ravel(), ends), shape=size)

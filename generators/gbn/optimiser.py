@@ -1,11 +1,13 @@
-"""Minimisers of the Gaussian Blue Noise energy: Nesterov with adaptive restart, and the paper's descent."""
+"""Minimisers of the Gaussian Blue Noise energy for many sets at once: the paper's descent, and Nesterov's."""
 
 from __future__ import annotations
 
 import math
-from collections import deque
+from collections.abc import Callable, Mapping
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gbnbench.generators.gbn.field import Field
 from gbnbench.generators.gbn.lowband import LowBand
@@ -21,7 +23,7 @@ def largest_curvature(n: int, d: int, sigma: float) -> float:
     Notes
     -----
     max over q != 0 of |q|^2 (2 pi)^(d/2) sigma^d exp(-sigma^2 |q|^2 / 2), q = 2 pi f n^(-1/d): 4.62 for d =
-    2, sigma = 1. The official step of 0.25 n^(2/d) / n is right in scale for d = 2 only.
+    2, sigma = 1.
     """
     unit = 2 * math.pi / n ** (1 / d)
     top = max(1, round(2 / (sigma * unit) ** 2))  # |f|^2 of the maximum, on the continuum
@@ -35,75 +37,178 @@ def step_size(n: int, d: int, sigma: float) -> float:
     return 1.2 / max(largest_curvature(n, d, sigma), 2 / sigma**2)
 
 
-def _capped(step: FloatArray) -> FloatArray:
-    """Shorten the step where its longest displacement exceeds one spacing."""
-    longest = math.sqrt(float(np.max(np.sum(step**2, axis=1))))
-    return step / longest if longest > 1 else step
+def authors_step(n: int, d: int) -> float:
+    """Step of the authors' programs, 0.25 / n for box sides, in squared spacings: fit for d = 2 only."""
+    return 0.25 * float(n ** (2 / d)) / n
 
 
-def descend(x: FloatArray, field: Field, sigma: float, iterations: int, excess: float = 0.0) -> FloatArray:
-    """Take the paper's fixed steps (Algorithm 1), with the step scaled to the dimension.
+class Descent:
+    """The paper's fixed steps (Algorithm 1).
 
     Parameters
     ----------
-    x : (n, d) float64
-        Start, box sides.
     field : Field
         Energy.
-    sigma : float
-        In spacings.
-    iterations : int
-        Steps; the paper recommends 10,000.
+    x : (sets, n, d) float64
+        Start, box sides.
+    step : float
+        In squared spacings: a displacement in spacings over a gradient.
     excess : float
-        Stop once the excess energy is at most this.
+        A set is finished once its excess energy is at most this; 0 never finishes.
+    confine : callable, optional
+        Takes points (sets, n, d) and returns them inside their domain.
 
-    Returns
-    -------
-    (n, d) float64
-        In box sides, not wrapped.
+    Attributes
+    ----------
+    x : (sets, n, d) float64
+        The points, box sides, not wrapped.
+    gradients : int
+        Evaluations so far.
+    excess, largest : (sets,) float64
+        Excess energy a point and longest force at the last evaluation, spacings.
+    size : (sets,) float64
+        The steps.
+    finished : (sets,) bool
+        Sets that do not move any more.
     """
-    n, d = x.shape
-    side = n ** (1 / d)
-    size = step_size(n, d, sigma)
-    for _ in range(iterations):
-        at = field(x[None])
-        if at.excess[0] <= excess:
-            break
-        x = x - _capped(size * at.gradient[0]) / side
-    return x
+
+    def __init__(
+        self,
+        field: Field,
+        x: FloatArray,
+        step: float,
+        excess: float = 0.0,
+        confine: Callable[[FloatArray], FloatArray] | None = None,
+    ) -> None:
+        sets, n, d = x.shape
+        self.x = np.array(x)
+        self.gradients = 0
+        self.excess = np.full(sets, np.nan)
+        self.largest = np.full(sets, np.nan)
+        self.size = np.full(sets, step)
+        self.finished = np.zeros(sets, bool)
+        self._side = n ** (1 / d)
+        self._field, self._enough = field, excess
+        self._confine = confine or (lambda points: points)
+
+    def advance(self) -> None:
+        """Evaluate once and move every set that is not finished."""
+        slope = self._evaluate(self.x)
+        moved = self._confine(self.x - self._capped(self.size[:, None, None] * slope) / self._side)
+        self.x = np.where(self.finished[:, None, None], self.x, moved)
+
+    def state(self) -> dict[str, NDArray[Any]]:
+        """Everything that the next steps depend on."""
+        state = {
+            "x": self.x,
+            "gradients": np.array(self.gradients),
+            "excess": self.excess,
+            "largest": self.largest,
+            "size": self.size,
+            "finished": self.finished,
+        }
+        if (anchor := getattr(self._field, "anchor", None)) is not None:
+            state["anchor"] = anchor
+        return state
+
+    def restore(self, state: Mapping[str, NDArray[Any]]) -> None:
+        """Go on from a state, bit by bit as if never interrupted."""
+        self.x = np.array(state["x"])
+        self.gradients = int(state["gradients"])
+        self.excess, self.largest = np.array(state["excess"]), np.array(state["largest"])
+        self.size, self.finished = np.array(state["size"]), np.array(state["finished"])
+        if "anchor" in state:
+            self._field.anchor = np.array(state["anchor"])  # type: ignore[attr-defined]
+
+    def _evaluate(self, x: FloatArray) -> FloatArray:
+        at = self._field(x)
+        self.gradients += 1
+        self.excess = at.excess
+        self.largest = np.sqrt(_longest(at.gradient))
+        self.finished = self.finished | (at.excess <= self._enough)
+        return at.gradient
+
+    @staticmethod
+    def _capped(step: FloatArray) -> FloatArray:
+        """Shorten a set's step where its longest displacement exceeds one spacing."""
+        return step / np.sqrt(np.maximum(_longest(step), 1.0))[:, None, None]
 
 
-def accelerate(x: FloatArray, field: Field, sigma: float, gradients: int, excess: float = 0.0) -> FloatArray:
+class Nesterov(Descent):
     """Nesterov's method with adaptive restart: 300 gradients do the work of 10,000 steps of descent.
 
-    Parameters and returns are those of ``descend``. Above 45 spacings a side, 2,048 points in the plane, the
-    lowest band is preconditioned, since its modes are too slow for any step that the middle band allows. The
-    restart is that of O'Donoghue & Candes (2015).
+    Parameters are those of ``Descent`` and
+
+    sigma : float, optional
+        Kernel width in spacings: where given, boxes of more than 45 spacings a side, 2,048 points in the
+        plane, have their lowest band preconditioned, whose modes are too slow for any step that the middle
+        band allows.
+
+    Notes
+    -----
+    The restart is that of O'Donoghue & Candes (2015). The step is halved where the excess energy has risen
+    over 20 gradients.
     """
-    n, d = x.shape
-    side = n ** (1 / d)
-    size = step_size(n, d, sigma)
-    band = LowBand(n, d, sigma) if side > PRECONDITION_ABOVE else None
-    y, momentum = x, 1.0
-    recent: deque[float] = deque(maxlen=PATIENCE + 1)
-    for _ in range(gradients):
-        at = field(y[None])
-        slope = at.gradient[0]
-        if at.excess[0] <= excess:
-            return y
-        recent.append(float(at.excess[0]))
-        if len(recent) > PATIENCE and recent[-1] > recent[0]:
-            size /= 2
-            recent.clear()
-        step = size * slope
-        if band is not None:
-            step = step + band.correction(y, slope, size)
-        moved = y - _capped(step) / side
-        if np.vdot(slope, moved - x) > 0:
-            y, momentum = moved, 1.0
-        else:
-            following = (1 + math.sqrt(1 + 4 * momentum**2)) / 2
-            y = moved + (momentum - 1) / following * (moved - x)
-            momentum = following
-        x = moved
-    return x
+
+    def __init__(
+        self,
+        field: Field,
+        x: FloatArray,
+        step: float,
+        excess: float = 0.0,
+        confine: Callable[[FloatArray], FloatArray] | None = None,
+        sigma: float | None = None,
+    ) -> None:
+        super().__init__(field, x, step, excess, confine)
+        sets, n, d = x.shape
+        self._y = np.array(x)  # where the next gradient is taken
+        self._momentum = np.ones(sets)
+        self._recent = np.full((sets, PATIENCE + 1), np.nan)  # excess energies, the last one last
+        treated = sigma is not None and d <= 3 and self._side > PRECONDITION_ABOVE
+        self._bands = [LowBand(n, d, sigma) for _ in range(sets)] if sigma is not None and treated else []
+
+    def advance(self) -> None:
+        """Evaluate once and move every set that is not finished."""
+        before = self.finished
+        slope = self._evaluate(self._y)
+        reached = (self.finished & ~before)[:, None, None]
+        self._shorten()
+        step = self.size[:, None, None] * slope
+        for k, band in enumerate(self._bands):
+            if not self.finished[k]:
+                step[k] += band.correction(self._y[k], slope[k], float(self.size[k]))
+        moved = self._confine(self._y - self._capped(step) / self._side)
+        ahead = moved - self.x
+        uphill = np.array([np.multiply(g, a).sum() > 0 for g, a in zip(slope, ahead, strict=True)])
+        following = (1 + np.sqrt(1 + 4 * self._momentum**2)) / 2
+        inertia = np.where(uphill, 0.0, (self._momentum - 1) / following)
+        self._momentum = np.where(uphill, 1.0, following)
+        live = ~self.finished[:, None, None]
+        self.x = np.where(live, moved, np.where(reached, self._y, self.x))
+        self._y = np.where(live, self._confine(moved + inertia[:, None, None] * ahead), self._y)
+
+    def state(self) -> dict[str, NDArray[Any]]:
+        """Everything that the next steps depend on."""
+        state = super().state() | {"y": self._y, "momentum": self._momentum, "recent": self._recent}
+        anchors = [band.anchor for band in self._bands if band.anchor is not None]
+        return state | ({"bands": np.array(anchors)} if anchors else {})
+
+    def restore(self, state: Mapping[str, NDArray[Any]]) -> None:
+        """Go on from a state, bit by bit as if never interrupted."""
+        super().restore(state)
+        self._y, self._momentum = np.array(state["y"]), np.array(state["momentum"])
+        self._recent = np.array(state["recent"])
+        for band, anchor in zip(self._bands, state.get("bands", ()), strict=False):
+            band.place(anchor)
+
+    def _shorten(self) -> None:
+        self._recent = np.concatenate([self._recent[:, 1:], self.excess[:, None]], axis=1)
+        risen = self._recent[:, -1] > self._recent[:, 0]  # not while the first is nan
+        self.size = np.where(risen, self.size / 2, self.size)
+        self._recent[risen] = np.nan
+
+
+def _longest(vectors: FloatArray) -> FloatArray:
+    """Squared length of the longest vector of each set."""
+    longest: FloatArray = np.einsum("kna,kna->kn", vectors, vectors).max(axis=1)
+    return longest

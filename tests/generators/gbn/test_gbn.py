@@ -105,6 +105,12 @@ def test_a_mode_of_the_low_band_is_divided_by_its_own_curvature():
         ({"gradients": -1}, "gradients"),
         ({"iterations": -1}, "iterations"),
         ({"excess": -1.0}, "excess"),
+        ({"cutoff": -1.0}, "cutoff"),
+        ({"edge": math.inf}, "edge"),
+        ({"edge": 0.5, "cutoff": 2.0}, "in space or in frequency"),
+        ({"method": "nesterov", "iterations": 5}, "iterations count the steps of method=descent"),
+        ({"step": "fast"}, "step must be auto, authors or a number"),
+        ({"step": "-1"}, "step must be"),
     ],
 )
 def test_settings_out_of_range_are_refused(settings, says):

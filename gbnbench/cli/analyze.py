@@ -1,4 +1,4 @@
-"""``gbnbench generate`` and ``gbnbench analyze``: point sets made into files, and files measured."""
+"""``gbnbench analyze``: files of point sets measured."""
 
 from __future__ import annotations
 
@@ -14,31 +14,6 @@ from gbnbench.errors import GbnbenchError
 
 if TYPE_CHECKING:
     from gbnbench.results import Measures
-
-
-@click.command()
-@click.argument("name")
-@click.option("-n", "n", type=click.IntRange(1), default=1024, show_default=True, help="Points a set.")
-@click.option("-d", "d", type=click.IntRange(1), default=2, show_default=True, help="Dimension.")
-@click.option("--realizations", type=click.IntRange(1), default=1, show_default=True, help="Sets.")
-@options.seed
-@click.option(
-    "-o", "--out", type=click.Path(path_type=Path, dir_okay=False), required=True,
-    help="File to write, replacing any; its format goes by the suffix.",
-)  # fmt: skip
-@options.device
-def generate(name: str, n: int, d: int, realizations: int, seed: int, out: Path) -> None:
-    """Write sets of the generator NAME, such as gbn or 'gbn[iterations=1000]'."""
-    from gbnbench.generators.registry import generate as draw
-    from gbnbench.points import save
-    from gbnbench.points.write import encode
-
-    encode(out, [[0.0]])  # a suffix that cannot be written is refused before the work
-    x = draw(name, n=n, d=d, seed=seed, realizations=realizations)
-    replaced = ", replacing what was there" if out.exists() else ""
-    save(out, x)
-    sets = "1 set" if realizations == 1 else f"{realizations} sets"
-    click.echo(f"wrote {out}: {sets} of {n} points, d={d}{replaced}")
 
 
 @click.command()

@@ -1,0 +1,139 @@
+"""``gbnbench generate``: point sets made into a file, watched while they are made."""
+
+from __future__ import annotations
+
+import contextlib
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from gbnbench.cli import options
+from gbnbench.errors import InputError
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from gbnbench.generators.watch import Trace, Watch
+
+PATIENCE = 1.0  # seconds before progress is shown
+
+
+@click.command()
+@click.argument("name")
+@click.option("-n", "n", type=click.IntRange(1), default=1024, show_default=True, help="Points a set.")
+@click.option("-d", "d", type=click.IntRange(1), default=2, show_default=True, help="Dimension.")
+@click.option("--realizations", type=click.IntRange(1), default=1, show_default=True, help="Sets.")
+@options.seed
+@click.option(
+    "-o", "--out", type=click.Path(path_type=Path, dir_okay=False), required=True,
+    help="File to write, replacing any; its format goes by the suffix.",
+)  # fmt: skip
+@click.option(
+    "--checkpoint", type=click.Path(path_type=Path, dir_okay=False),
+    help="File for the state of a long run; the same command goes on from it. Removed at the end.",
+)  # fmt: skip
+@click.option(
+    "--trace", type=click.Path(path_type=Path, dir_okay=False),
+    help="CSV of the optimiser's excess energy, largest force and step, gradient by gradient.",
+)  # fmt: skip
+@click.option(
+    "--spectra-at", type=options.Whole(), default=(), metavar="GRADIENTS",
+    help="With --trace: radial power after so many gradients, such as 10,100,300, to TRACE-spectra.csv.",
+)  # fmt: skip
+@click.option("--explain", is_flag=True, help="Say how the energy would be found, at what cost; do nothing.")
+@click.option("--quiet", is_flag=True, help="No progress.")
+@options.device
+def generate(
+    name: str, n: int, d: int, realizations: int, seed: int, out: Path, checkpoint: Path | None,
+    trace: Path | None, spectra_at: tuple[int, ...], explain: bool, quiet: bool,
+) -> None:  # fmt: skip
+    """Write sets of the generator NAME, such as gbn or 'gbn[iterations=1000]'."""
+    from gbnbench.generators.registry import find
+    from gbnbench.generators.registry import generate as draw
+    from gbnbench.generators.watch import Trace
+    from gbnbench.points import save
+    from gbnbench.points.write import encode, write_atomically
+
+    encode(out, [[0.0]])  # a suffix that cannot be written is refused before the work
+    if spectra_at and trace is None:
+        raise click.UsageError("--spectra-at goes with --trace FILE")
+    if trace is not None and trace.suffix != ".csv":
+        raise InputError(f"a trace is a .csv file; got {trace}")
+    if explain:
+        generator = find(name)
+        tell = getattr(generator, "explain", None)
+        click.echo(tell(n, d, realizations) if tell else f"{generator.name}: {generator.summary}")
+        return
+    kept = None if trace is None else Trace(keep_at=spectra_at)
+    with _watched(kept, checkpoint, quiet) as watch:
+        x = draw(name, n=n, d=d, seed=seed, realizations=realizations, watch=watch)
+    replaced = ", replacing what was there" if out.exists() else ""
+    save(out, x)
+    sets = "1 set" if realizations == 1 else f"{realizations} sets"
+    click.echo(f"wrote {out}: {sets} of {n} points, d={d}{replaced}")
+    if trace is not None and kept is not None:
+        write_atomically(trace, kept.to_frame().to_csv(index=False).encode())
+        click.echo(f"wrote {trace}: {len(kept.rows)} rows")
+        if spectra_at:
+            beside = trace.with_name(f"{trace.stem}-spectra.csv")
+            write_atomically(beside, _spectra(kept).to_csv(index=False).encode())
+            click.echo(
+                f"wrote {beside}: radial power after {', '.join(map(str, sorted(kept.kept)))} gradients"
+            )
+    if checkpoint is not None:
+        checkpoint.unlink(missing_ok=True)
+
+
+@contextlib.contextmanager
+def _watched(trace: Trace | None, checkpoint: Path | None, quiet: bool) -> Iterator[Watch]:
+    """Progress once a draw has taken a second; on being stopped, say how to go on."""
+    from gbnbench import progress
+    from gbnbench.generators.watch import Watch
+
+    began = time.monotonic()
+    with contextlib.ExitStack() as stack:
+        shown: progress.Progress | None = None
+        counted = 0
+
+        def tell(done: int, total: int, doing: str) -> None:
+            nonlocal shown, counted
+            if shown is None:
+                if time.monotonic() - began < PATIENCE:
+                    return
+                shown = stack.enter_context(progress.choose(quiet))
+                shown.start(total, done, doing)
+            else:
+                shown.advance(doing, done - counted)
+            counted = done
+
+        try:
+            yield Watch(tell, trace, checkpoint)
+        except KeyboardInterrupt:
+            if checkpoint is not None and checkpoint.exists():
+                raise KeyboardInterrupt(f"repeat the command to go on from {checkpoint}") from None
+            raise
+
+
+def _spectra(trace: Trace) -> pd.DataFrame:
+    """Columns gradients, frequency, nu, power, filtered, count: shells of the mean spectrum (Figure 7)."""
+    import pandas as pd
+
+    from gbnbench.analysis.limits import default_fmax
+    from gbnbench.analysis.periodogram import periodogram
+    from gbnbench.analysis.radial import radial
+
+    frames = []
+    for at in sorted(trace.kept):
+        x = trace.points(at)
+        sets, n, d = x.shape
+        spectrum = periodogram(x, default_fmax(n, d, sets))
+        frame = radial(spectrum).to_frame()
+        frame.insert(0, "gradients", at)
+        frame.insert(4, "filtered", radial(spectrum).filtered(1.0).power)
+        frames.append(frame)
+    if not frames:
+        raise InputError("none of the counts of --spectra-at was reached")
+    return pd.concat(frames)
