@@ -1,7 +1,7 @@
 """Power of sets of the bounded box by cosines, the box's own modes: a torus's periodogram shows its border.
 
 The cosines prod cos(pi f_a x_a) are the waves of a box through whose faces nothing flows; their sum over
-points is the periodogram of the set and its mirror images on the torus of side 2, without a step at the border.
+points is the periodogram of the set and its mirror images on the torus of side 2, whose border shows no step.
 """
 
 from __future__ import annotations

@@ -19,6 +19,7 @@ from gbnbench.generators.lloyd import Lloyd
 from gbnbench.generators.protocol import Generator, realization_rng
 from gbnbench.generators.settings import configure, nearest, parse
 from gbnbench.generators.sobol import Sobol
+from gbnbench.generators.stealthy import Stealthy
 from gbnbench.generators.uniform import Uniform
 from gbnbench.generators.watch import Watch, Watchable
 from gbnbench.torus import FloatArray
@@ -35,6 +36,7 @@ GENERATORS: dict[str, type[Generator]] = {
     "fpo": FarthestPoint,
     "gbn": GaussianBlueNoise,
     "deep": Deep,
+    "stealthy": Stealthy,
 }
 
 
