@@ -1,4 +1,4 @@
-"""Stealthy, or step, blue noise: no power below an edge, none asked beyond (Uche et al. 2006; Supplement B)."""
+"""Stealthy, or step, blue noise: no power below an edge, none asked beyond (Uche et al. 2006; Supp. B)."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def edge_of(share: float, d: int) -> float:
     Examples
     --------
     >>> [round(edge_of(0.6, d), 3) for d in (1, 2, 3, 5)]
-    [0.3, 0.618, 0.755, 0.893]
+    [0.3, 0.618, 0.755, 0.894]
     """
     log_ball = d / 2 * math.log(math.pi) - math.lgamma(d / 2 + 1)
     return math.exp((math.log(share * d) - log_ball) / d)

@@ -93,8 +93,8 @@ def box_curvature(n: int, d: int, sigma: float) -> float:
     -----
     The torus's where the box is at least 8 sigma wide. Else the largest over displacements that are, along
     each of j axes, phi(u_a) times chi(u_b) of every other axis: (A B + (j - 1) C^2) B^(j - 2) B_0^(d - j),
-    phi being an eigenfunction of the kernel -g'', A its eigenvalue, chi one of g, B its eigenvalue and B_0 the
-    largest, and C = <phi, g' chi>. In high dimension the breathing of all axes at once is the stiffest.
+    phi being an eigenfunction of the kernel -g'', A its eigenvalue, chi one of g, B its eigenvalue and B_0
+    the largest, and C = <phi, g' chi>. In high dimension the breathing of all axes at once is the stiffest.
     """
     side = n ** (1 / d)
     if side >= WIDE * sigma:

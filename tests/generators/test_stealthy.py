@@ -63,7 +63,7 @@ def test_band_power_is_the_periodograms():
 
 
 def test_one_dimension_has_blue_noise_below_half_and_none_of_the_grids_order():
-    """Fig. 13: the mean periodogram of sets is 0 in the band, then rises; no spike at nu = 1 as a grid has."""
+    """Fig. 13: the mean periodogram of sets is 0 in the band, then rises; no spike at nu = 1 as in a grid."""
     x = np.stack([Stealthy(edge=0.3, gradients=150)(64, 1, realization_rng(s, 0)) for s in range(16)])
     power = periodogram(x, 128).power[128:]
     nu = np.arange(129) / 64
