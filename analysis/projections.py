@@ -73,7 +73,7 @@ def projections(
 
     Notes
     -----
-    The projection's power at f is the whole set's at the frequency that is f on those axes and 0 on the others.
+    The projection's power at f is the whole set's at the frequency that is f on those axes and 0 elsewhere.
 
     Examples
     --------

@@ -95,8 +95,8 @@ def shares(n: int, d: int, chosen: Sequence[Subset], edge: float | None = None) 
     Notes
     -----
     2 chi m / d, chi = V_m edge^m / 2 m and m = |S|, counted over actual frequencies. Frequencies of a
-    projection that lie below the whole set's edge too are counted for both. Where the sum is beyond 1 the terms
-    compete.
+    projection that lie below the whole set's edge too are counted for both. Where the sum is beyond 1 the
+    terms compete.
     """
     whole = tuple(range(d))
     return {
