@@ -5,9 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from gbnbench.analysis.edge_density import edge_density
 from gbnbench.generators.gbn import box
 from gbnbench.generators.gbn.box import BoxField, domain_energy, domain_pull, fold
 from gbnbench.generators.gbn.pencils import pencils
+from gbnbench.generators.registry import generate
 
 ALLOWED = {"double": 5e-13, "float": 1e-5}  # of the largest component
 
@@ -186,3 +188,20 @@ def test_descent_leaves_no_point_outside_even_from_the_border_with_large_steps(n
             if factor == 1:
                 assert field(x).excess[0] < first
                 assert field(placed).excess == pytest.approx(field(x).excess, abs=1e-10)
+
+
+@pytest.mark.parametrize(("n", "d"), [(256, 2), (100, 3), (40, 1), (60, 8)])
+def test_the_generator_draws_in_the_box_and_beats_uniform_points(n, d):
+    x = generate("gbn", n=n, d=d, realizations=2, domain="box", gradients=150)
+    assert np.all((x >= 0) & (x < 1))
+    start = generate("gbn", n=n, d=d, realizations=2, domain="box", gradients=0)
+    field = BoxField(n, d, 1.0)
+    assert np.all(field(x).excess < 0.05 * field(start).excess)
+    assert np.array_equal(x[1], generate("gbn[domain=box,gradients=150]", n=n, d=d, realizations=2)[1])
+
+
+def test_the_extreme_points_end_a_quarter_spacing_inside():
+    found = edge_density(generate("gbn", n=256, d=2, realizations=8, domain="box", gradients=150))
+    assert found.extreme == pytest.approx(0.27, abs=0.05)
+    deep = found.edges[:-1] > 1
+    assert np.average(found.density[deep]) == pytest.approx(1, abs=0.05)
