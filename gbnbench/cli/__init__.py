@@ -11,6 +11,7 @@ import click
 from gbnbench import __version__
 from gbnbench.cli.analyze import analyze
 from gbnbench.cli.bench import bench
+from gbnbench.cli.check import check
 from gbnbench.cli.compare import compare
 from gbnbench.cli.generate import generate
 from gbnbench.cli.machine import devices, doctor
@@ -36,7 +37,7 @@ def gbnbench() -> None:
     """
 
 
-for _command in (compare, generate, analyze, spectrum, report, bench, devices, doctor):
+for _command in (compare, generate, analyze, spectrum, report, check, bench, devices, doctor):
     gbnbench.add_command(_command)
 
 

@@ -13,7 +13,7 @@ from gbnbench.generators.gbn.strips import SKIN, Strips
 from gbnbench.opencl import runtime
 from gbnbench.opencl.runtime import Runtime
 
-ALLOWED = {"double": 2e-14, "float": 2e-6}  # of the sum of the pairs' forces, each at most exp(-1/2) / sigma
+ALLOWED = {"double": 5e-14, "float": 2e-6}  # of the sum of the pairs' forces, each at most exp(-1/2) / sigma
 
 
 def pair_sums(x, sigma, cutoff=math.inf):
@@ -125,7 +125,7 @@ def test_the_form_for_gpus_agrees(monkeypatch, precision):
 
 
 def test_a_million_points_give_what_their_neighbours_say():
-    """On a jittered million, ten points' forces against their neighbours picked by distance, in long double."""
+    """On a jittered million, ten points and their neighbours by distance, in long double."""
     side, d = 1000, 2
     rng = np.random.default_rng(5)
     cells = np.stack(np.meshgrid(*[np.arange(side)] * d, indexing="ij"), -1).reshape(-1, d)

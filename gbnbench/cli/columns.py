@@ -1,0 +1,18 @@
+"""Tables in plain text: columns aligned, words left and numbers right."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+
+def aligned(head: Sequence[str], rows: Sequence[Sequence[Any]]) -> Iterator[str]:
+    """Lay out a table: a line a row, under its head."""
+    columns = list(zip(head, *(map(str, row) for row in rows), strict=True))
+    shown = []
+    for column in columns:
+        width = max(map(len, column))
+        words = not any(cell[:1].isdigit() for cell in column[1:])
+        shown.append([cell.ljust(width) if words else cell.rjust(width) for cell in column])
+    for line in zip(*shown, strict=True):
+        yield "  ".join(line).rstrip()
