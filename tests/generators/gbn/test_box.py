@@ -10,6 +10,7 @@ from gbnbench.generators.gbn import box
 from gbnbench.generators.gbn.box import BoxField, domain_energy, domain_pull, fold
 from gbnbench.generators.gbn.pencils import pencils
 from gbnbench.generators.registry import generate
+from gbnbench.opencl.runtime import Runtime
 
 ALLOWED = {"double": 5e-13, "float": 1e-5}  # of the largest component
 
@@ -205,3 +206,15 @@ def test_the_extreme_points_end_a_quarter_spacing_inside():
     assert found.extreme == pytest.approx(0.27, abs=0.05)
     deep = found.edges[:-1] > 1
     assert np.average(found.density[deep]) == pytest.approx(1, abs=0.05)
+
+
+@pytest.mark.parametrize("precision", ["double", "float"])
+@pytest.mark.parametrize(("n", "d", "sigma"), [(900, 2, 0.5), (60, 3, 1.0)])
+def test_one_lane_and_groups_of_64_give_the_same(monkeypatch, n, d, sigma, precision):
+    x = np.random.default_rng(n).random((2, n, d))
+    vectors = BoxField(n, d, sigma, precision)(x)
+    monkeypatch.setattr(Runtime, "lanes", lambda self, name: 1)
+    monkeypatch.setattr(Runtime, "group", property(lambda self: 64))
+    scalars = BoxField(n, d, sigma, precision)(x)
+    assert scalars.gradient == pytest.approx(vectors.gradient, abs=20 * ALLOWED[precision])
+    assert scalars.excess == pytest.approx(vectors.excess, rel=ALLOWED[precision])
