@@ -7,6 +7,7 @@ import numbers
 import numpy as np
 
 from gbnbench.errors import InputError, RefusalError
+from gbnbench.generators.deep import Deep
 from gbnbench.generators.fpo import FarthestPoint
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.grid import Grid
@@ -18,6 +19,7 @@ from gbnbench.generators.lloyd import Lloyd
 from gbnbench.generators.protocol import Generator, realization_rng
 from gbnbench.generators.settings import configure, nearest, parse
 from gbnbench.generators.sobol import Sobol
+from gbnbench.generators.stealthy import Stealthy
 from gbnbench.generators.uniform import Uniform
 from gbnbench.generators.watch import Watch, Watchable
 from gbnbench.torus import FloatArray
@@ -33,6 +35,8 @@ GENERATORS: dict[str, type[Generator]] = {
     "lloyd": Lloyd,
     "fpo": FarthestPoint,
     "gbn": GaussianBlueNoise,
+    "deep": Deep,
+    "stealthy": Stealthy,
 }
 
 

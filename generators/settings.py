@@ -56,7 +56,8 @@ def configure(kind: type[Generator], settings: Mapping[str, object]) -> Generato
     kind : type
         A frozen dataclass, one of ``GENERATORS``.
     settings : mapping
-        Setting -> text, read by its field's type, or a value of that type.
+        Setting -> text, read by its field's type, or a value of that type; a field may bring a function of
+        its own as the metadata ``read``.
 
     Raises
     ------
@@ -79,7 +80,8 @@ def configure(kind: type[Generator], settings: Mapping[str, object]) -> Generato
                 f"{kind.name} has no setting {key!r}{nearest(key, fields)}; "
                 + (f"its settings and defaults: {have}" if have else "it has none")
             )
-        values[key] = _convert(f"{key} of {kind.name}", hints[key], value)
+        read = fields[key].metadata.get("read")
+        values[key] = read(value) if read else _convert(f"{key} of {kind.name}", hints[key], value)
     return cast(Callable[..., Generator], kind)(**values)
 
 

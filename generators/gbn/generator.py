@@ -10,8 +10,11 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from gbnbench.errors import InputError
+from gbnbench.generators.gbn.box import BoxField, box_curvature, fold
 from gbnbench.generators.gbn.energy import field
+from gbnbench.generators.gbn.field import Field
 from gbnbench.generators.gbn.optimiser import Descent, Nesterov, authors_step, step_size
+from gbnbench.generators.gbn.projective import ProjectiveField, subsets
 from gbnbench.generators.gbn.run import optimise
 from gbnbench.generators.settings import specification
 from gbnbench.generators.watch import Watch
@@ -46,6 +49,13 @@ class GaussianBlueNoise:
         Highest nu = |f| n**(-1/d) that the energy sees (supplement B); 0 for all.
     precision : {"auto", "double", "float"}
         Of the forces; positions are double either way. "auto" is double where the device has it.
+    domain : {"torus", "box"}
+        "box" has no periods: the domain itself attracts the points (Section 4.6).
+    projections : str
+        Coordinate subsets whose projections are to be blue noise too, such as ``1``, ``1/2`` or ``0+1/+2``;
+        see ``gbnbench.generators.gbn.projective.subsets``. On the torus.
+    projection_edge : float
+        Highest nu, in its own spacings, that the energy of a projection sees; 0 for all.
 
     Notes
     -----
@@ -66,6 +76,9 @@ class GaussianBlueNoise:
     cutoff: float = 0.0
     edge: float = 0.0
     precision: Literal["auto", "double", "float"] = "auto"
+    domain: Literal["torus", "box"] = "torus"
+    projections: str = "none"
+    projection_edge: float = 0.0
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.sigma) and 0.3 <= self.sigma <= 3):
@@ -73,7 +86,7 @@ class GaussianBlueNoise:
         for name in ("gradients", "iterations"):
             if getattr(self, name) < 0:
                 raise InputError(f"{name} must be 0 or more; got {getattr(self, name)}")
-        for name in ("excess", "cutoff", "edge"):
+        for name in ("excess", "cutoff", "edge", "projection_edge"):
             if not (math.isfinite(getattr(self, name)) and getattr(self, name) >= 0):
                 raise InputError(f"{name} must be 0 or more; got {getattr(self, name)}")
         if self.method == "nesterov" and self.iterations:
@@ -86,11 +99,25 @@ class GaussianBlueNoise:
                 "a kernel is cut off in space or in frequency; got both "
                 f"cutoff={self.cutoff} and edge={self.edge}"
             )
+        if self.domain == "box" and (self.cutoff or self.edge or self.projections != "none"):
+            raise InputError(
+                "domain=box has the whole energy alone; leave out cutoff, edge and projections beside it"
+            )
+        if self.projections != "none" and (self.cutoff or self.edge):
+            raise InputError(
+                "projections go with the whole energy; got cutoff or edge beside them: leave these out, or "
+                "truncate the projections by projection_edge"
+            )
         self._step(2, 2)
 
     def refusal(self, n: int, d: int) -> str | None:
         """Why this energy cannot be had for n points in d dimensions; None for the whole kernel."""
         side = n ** (1 / d)
+        if self.projections != "none":
+            try:
+                subsets(self.projections, d)
+            except InputError as error:
+                return f"{error}; d={d}"
         if self.cutoff and d > 3:
             return f"d must be at most 3 where the kernel is cut off; got d={d}"
         if 2 * self.cutoff * self.sigma > side:
@@ -117,25 +144,39 @@ class GaussianBlueNoise:
         if n == 1:
             return starts
         count = self.iterations or (PAPER_ITERATIONS if self.method == "descent" else self.gradients)
-        return wrap(optimise(starts, self._optimiser, count, watch, specification(self)))
+        ends = optimise(starts, self._optimiser, count, watch, specification(self))
+        return fold(ends) if self.domain == "box" else wrap(ends)
 
     def _optimiser(self, starts: FloatArray) -> Descent:
         _, n, d = starts.shape
-        energy = field(
-            n,
-            d,
-            self.sigma,
-            None if self.precision == "auto" else self.precision,
-            cutoff=self.cutoff or None,
-            edge=self.edge or None,
-        )
+        energy = self._energy(n, d)
         step = self._step(n, d)
         if self.iterations or self.method == "descent":
             return Descent(energy, starts, step, self.excess)
-        return Nesterov(energy, starts, step, self.excess, sigma=self.sigma)
+        # The lowest band's preconditioner knows the torus's whole energy alone: in the box, and in one
+        # dimension below an edge, it diverges.
+        plain = self.domain == "torus" and not self.edge and self.projections == "none"
+        return Nesterov(energy, starts, step, self.excess, sigma=self.sigma if plain else None)
+
+    def _energy(self, n: int, d: int) -> Field:
+        precision = None if self.precision == "auto" else self.precision
+        if self.domain == "box":
+            return BoxField(n, d, self.sigma, precision)
+        if self.projections != "none":
+            return ProjectiveField(
+                n,
+                d,
+                self.sigma,
+                subsets(self.projections, d),
+                edge=self.projection_edge or None,
+                precision=precision,
+            )
+        return field(n, d, self.sigma, precision, cutoff=self.cutoff or None, edge=self.edge or None)
 
     def _step(self, n: int, d: int) -> float:
         if self.step == "auto":
+            if self.domain == "box":
+                return 1.2 / max(box_curvature(n, d, self.sigma), 2 / self.sigma**2)
             return step_size(n, d, self.sigma)
         if self.step == "authors":
             return authors_step(n, d)

@@ -16,5 +16,6 @@ PAGE = (Path(__file__).parents[2] / "docs" / "generators.md").read_text()
 def test_every_setting_is_on_the_page(name):
     (row,) = [line for line in PAGE.splitlines() if line.startswith(f"| `{name}` |")]
     for field in dataclasses.fields(GENERATORS[name]):
-        shown = str(field.default).lower() if isinstance(field.default, bool) else f"{field.default:g}"
+        plain = field.default is None or isinstance(field.default, bool | str)
+        shown = str(field.default).lower() if plain else f"{field.default:g}"
         assert f"`{field.name}` ({shown}" in row.replace("(1.0 ", "(1 "), field.name

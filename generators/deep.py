@@ -1,0 +1,148 @@
+"""Deep blue noise: short Gaussian Blue Noise brought to a steep profile by minimum-norm Gauss-Newton."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import ClassVar
+
+import numpy as np
+
+from gbnbench.errors import InputError, RefusalError
+from gbnbench.generators.gbn.generator import GaussianBlueNoise
+from gbnbench.generators.newton.modes import bound
+from gbnbench.generators.newton.reach import reach
+from gbnbench.generators.profile import Exponential, Table
+from gbnbench.torus import FloatArray
+
+BOUND = math.pi * 0.72**2 / 2  # share of the coordinates that the default edge binds, in any dimension
+MOST_BOUND = 0.96  # beyond, there are no disordered sets
+WORK = 1e12  # most points times modes
+LONGER = ((1, 0), (3, 100), (10, 1000))  # starts: times ``gradients``, and at least so many
+
+Target = str | Table | Callable[[FloatArray], FloatArray] | None
+
+
+def default_edge(d: int) -> float:
+    """Edge in nu that binds the share of coordinates which 0.72 binds in the plane: V_d nu**d / d equal.
+
+    Examples
+    --------
+    >>> [round(default_edge(d), 3) for d in (1, 2, 3, 5)]
+    [0.407, 0.72, 0.835, 0.949]
+    """
+    log_ball = d / 2 * math.log(math.pi) - math.lgamma(d / 2 + 1)
+    return math.exp((math.log(BOUND * d) - log_ball) / d)
+
+
+def start(n: int, d: int, rng: np.random.Generator, gradients: int) -> FloatArray:
+    """Draw the disordered set that is then deepened."""
+    return GaussianBlueNoise(gradients=gradients)(n, d, rng)
+
+
+def _as_target(value: object) -> Target:
+    """Accept a file's name, a callable, a table or (k, 2) numbers."""
+    if value is None or isinstance(value, str | Table) or callable(value):
+        return None if isinstance(value, str) and value.lower() == "none" else value
+    return Table.of(value)  # type: ignore[arg-type]
+
+
+@dataclass(frozen=True)
+class Deep:
+    """Random points, a few steps of Gaussian Blue Noise, then the least move to a target radial profile.
+
+    Attributes
+    ----------
+    c : float
+        Steepness of the profile P = exp(-c (edge**2 - nu**2)), > 0; Gaussian Blue Noise has 4 pi**2.
+    edge : float or None
+        Where it ends, in nu; by default 0.72 in the plane and elsewhere what binds as many coordinates.
+    target : str, callable, (k, 2) array_like or None
+        A profile of your own in place of the exponential: a CSV of nu and power, a function of nu, or a
+        table. A table ends at its last nu unless ``edge`` is less.
+    gradients : int
+        Of the start: more give more order.
+
+    Raises
+    ------
+    InputError
+        If a setting is out of range or the target cannot be read.
+
+    Notes
+    -----
+    The amplitudes below the edge keep the phase and the spread of the start, so the power around a ring stays
+    as scattered as noise. A set that does not converge is drawn anew with a longer start and, if that fails
+    too, refused: a set off its target would spoil the mean over a batch, and a warning would be lost in it.
+    Powers below about 1e-28 are rounding.
+    """
+
+    name: ClassVar[str] = "deep"
+    summary: ClassVar[str] = "deep blue noise: Gaussian Blue Noise moved least to a steeper profile"
+
+    c: float = 8 * math.pi**2
+    edge: float | None = None
+    target: Target = field(default=None, metadata={"read": _as_target})
+    gradients: int = 100
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "target", _as_target(self.target))
+        if not (math.isfinite(self.c) and self.c > 0):
+            raise InputError(f"c must be positive and finite; got {self.c}")
+        if self.edge is not None and not (math.isfinite(self.edge) and self.edge > 0):
+            raise InputError(f"edge must be positive and finite, in nu; got {self.edge}")
+        if self.gradients < 0:
+            raise InputError(f"gradients must be 0 or more; got {self.gradients}")
+        table = self._table()
+        if table is not None and self.edge is not None and self.edge > table.edge:
+            raise InputError(f"edge must be at most the last nu of the target, {table.edge}; got {self.edge}")
+
+    def _table(self) -> Table | None:
+        if isinstance(self.target, str):
+            return Table.read(self.target)
+        return self.target if isinstance(self.target, Table) else None
+
+    def profile(self, d: int) -> tuple[Callable[[FloatArray], FloatArray], float]:
+        """Target power as a function of nu, and its edge, in d dimensions."""
+        table = self._table()
+        if table is not None:
+            return table, table.edge if self.edge is None else self.edge
+        edge = default_edge(d) if self.edge is None else self.edge
+        return self.target if callable(self.target) else Exponential(self.c, edge), edge
+
+    def refusal(self, n: int, d: int) -> str | None:
+        """Why n points in d dimensions cannot follow the profile."""
+        edge = self.profile(d)[1]
+        numbers = bound(n, d, edge)
+        if numbers > MOST_BOUND * n * d:
+            return (
+                f"a profile up to nu={edge:.4g} binds {numbers:.6g} of the {n * d} coordinates of n={n} "
+                f"points in d={d}, and no disordered set can meet more than {MOST_BOUND:.0%}; lower the edge "
+                "or take another n"
+            )
+        if n * numbers / 2 > WORK:
+            return (
+                f"n={n} points in d={d} have {numbers / 2:.3g} modes below nu={edge:.4g}, too much work: "
+                f"their product must be at most {WORK:.0e}; take fewer points"
+            )
+        return None
+
+    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
+        """Draw one realization; see ``Generator``.
+
+        Raises
+        ------
+        RefusalError
+            Where ``refusal`` has a reason, or no start converged.
+        """
+        if reason := self.refusal(n, d):
+            raise RefusalError(reason)
+        target, edge = self.profile(d)
+        for times, least in LONGER:
+            outcome = reach(start(n, d, rng, max(times * self.gradients, least)), target, edge)
+            if outcome.converged:
+                return outcome.x
+        raise RefusalError(
+            f"n={n} points in d={d} do not reach this profile from {len(LONGER)} starts: {outcome.reason}; "
+            f"lower the edge, now {edge:.4g}, or take more points"
+        )
