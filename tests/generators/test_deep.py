@@ -77,6 +77,15 @@ def test_the_default_edge_binds_one_share_in_every_dimension():
         assert ball * default_edge(d) ** d / d == pytest.approx(math.pi * 0.72**2 / 2, rel=1e-12)
 
 
+def test_the_default_steepness_has_one_depth_in_every_dimension():
+    assert Deep().profile(2)[0](np.array([0.72 / math.sqrt(2)])) == pytest.approx(
+        math.exp(-(8 * math.pi**2) * 0.72**2 / 2)
+    )
+    for d in range(1, 9):
+        assert Deep().profile(d)[0](np.zeros(1)) == pytest.approx(1.67e-18, rel=0.01)
+    assert Deep(edge=0.6).profile(2)[0](np.zeros(1)) == pytest.approx(1.67e-18, rel=0.01)
+
+
 def test_steepness_and_edge_are_settings():
     x = generate("deep[c=40,edge=0.6]", n=400)
     nu, power = shells(x, 0.6)
