@@ -158,8 +158,8 @@ def _turned(x: FloatArray, f: IntArray) -> ComplexArray:
 def _product(a: NDArray[Any], b: NDArray[Any]) -> NDArray[Any]:
     """Multiply matrices to the same bits whatever the number of threads.
 
-    BLAS parts a large product in ways that depend on its threads, and adds in another order; tiles of 64**3 are
-    below what OpenBLAS parts at all, and cost a few percent.
+    BLAS parts a large product in ways that depend on its threads, and adds in another order; tiles of 64**3
+    are below what OpenBLAS parts at all, and cost a few percent.
     """
     whole = a.shape[1] // TILE * TILE
     out = np.empty((a.shape[0], b.shape[1]), a.dtype)
@@ -175,7 +175,7 @@ def _product(a: NDArray[Any], b: NDArray[Any]) -> NDArray[Any]:
     return out
 
 
-def _combine(a: FloatArray, b: FloatArray) -> FloatArray:
+def _combine(a: NDArray[Any], b: NDArray[Any]) -> FloatArray:
     """Multiply a thin matrix without BLAS, for the same reason."""
     product: FloatArray = np.einsum("ij,jk->ik", a, b)
     return product
