@@ -11,6 +11,7 @@ import numpy as np
 
 from gbnbench.errors import InputError, RefusalError
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
+from gbnbench.generators.newton.cost import work
 from gbnbench.generators.newton.modes import bound
 from gbnbench.generators.newton.reach import reach
 from gbnbench.generators.profile import Exponential, Table
@@ -18,8 +19,9 @@ from gbnbench.torus import FloatArray
 
 BOUND = math.pi * 0.72**2 / 2  # share of the coordinates that the default edge binds, in any dimension
 DEPTH = 8 * math.pi**2 * 0.72**2  # c edge**2 by default: a power of 1.7e-18 at nu = 0, in any dimension
-MOST_BOUND = 0.985  # beyond, no start was seen to converge
-WORK = 1e12  # most points times modes
+MOST_BOUND = 0.995  # up to .992 sets were seen to converge, slowly
+WORK = 5e14  # operations: some hours; a million points in the plane come to half of it
+STEPS = 60  # five to ten are usual, forty where nearly every coordinate is bound
 LONGER = ((1, 0), (3, 100), (10, 1000))  # starts: times ``gradients``, and at least so many
 
 Target = str | Table | Callable[[FloatArray], FloatArray] | None
@@ -124,10 +126,11 @@ class Deep:
                 f"points in d={d}, and no disordered set can meet more than {MOST_BOUND:.0%}; lower the edge "
                 "or take another n"
             )
-        if n * numbers / 2 > WORK:
+        operations = work(n, d, edge)
+        if operations > WORK:
             return (
-                f"n={n} points in d={d} have {numbers / 2:.3g} modes below nu={edge:.4g}, too much work: "
-                f"their product must be at most {WORK:.0e}; take fewer points"
+                f"n={n} points in d={d} up to nu={edge:.4g} are too much work: {operations:.2g} operations, "
+                f"of {WORK:.0e} at most; take fewer points or a lower edge"
             )
         return None
 
@@ -143,10 +146,10 @@ class Deep:
             raise RefusalError(reason)
         target, edge = self.profile(d)
         for times, least in LONGER:
-            outcome = reach(start(n, d, rng, max(times * self.gradients, least)), target, edge)
+            outcome = reach(start(n, d, rng, max(times * self.gradients, least)), target, edge, steps=STEPS)
             if outcome.converged:
                 return outcome.x
         raise RefusalError(
             f"n={n} points in d={d} do not reach this profile from {len(LONGER)} starts: {outcome.reason}; "
-            f"lower the edge, now {edge:.4g}, or take more points"
+            f"lower the edge, now {edge:.4g}, ask for less power, or take more points"
         )
