@@ -67,7 +67,7 @@ def reach(
     Parameters
     ----------
     x : (n, d) float64
-        Start, box sides.
+        Start, box sides; disordered, since amplitudes that are rounding alone have no phase to keep.
     target : callable or float
         Power at nu, (m,) -> (m,); >= 0. Each amplitude of the start keeps its phase and its place in the
         spread of its ring; 0 everywhere gives a stealthy set.
