@@ -11,14 +11,17 @@ import numpy as np
 
 from gbnbench.errors import InputError, RefusalError
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
+from gbnbench.generators.newton.cost import work
 from gbnbench.generators.newton.modes import bound
 from gbnbench.generators.newton.reach import reach
 from gbnbench.generators.profile import Exponential, Table
 from gbnbench.torus import FloatArray
 
 BOUND = math.pi * 0.72**2 / 2  # share of the coordinates that the default edge binds, in any dimension
-MOST_BOUND = 0.96  # beyond, there are no disordered sets
-WORK = 1e12  # most points times modes
+DEPTH = 8 * math.pi**2 * 0.72**2  # c edge**2 by default: a power of 1.7e-18 at nu = 0, in any dimension
+MOST_BOUND = 0.995  # up to .992 sets were seen to converge, slowly
+WORK = 5e14  # operations: some hours; a million points in the plane come to half of it
+STEPS = 60  # five to ten are usual, forty where nearly every coordinate is bound
 LONGER = ((1, 0), (3, 100), (10, 1000))  # starts: times ``gradients``, and at least so many
 
 Target = str | Table | Callable[[FloatArray], FloatArray] | None
@@ -30,7 +33,7 @@ def default_edge(d: int) -> float:
     Examples
     --------
     >>> [round(default_edge(d), 3) for d in (1, 2, 3, 5)]
-    [0.407, 0.72, 0.835, 0.949]
+    [0.407, 0.72, 0.835, 0.95]
     """
     log_ball = d / 2 * math.log(math.pi) - math.lgamma(d / 2 + 1)
     return math.exp((math.log(BOUND * d) - log_ball) / d)
@@ -54,8 +57,9 @@ class Deep:
 
     Attributes
     ----------
-    c : float
-        Steepness of the profile P = exp(-c (edge**2 - nu**2)), > 0; Gaussian Blue Noise has 4 pi**2.
+    c : float or None
+        Steepness of the profile P = exp(-c (edge**2 - nu**2)), > 0; Gaussian Blue Noise has 4 pi**2. By
+        default exp(-c edge**2) is 1.7e-18, with the default edge 8 pi**2 in the plane.
     edge : float or None
         Where it ends, in nu; by default 0.72 in the plane and elsewhere what binds as many coordinates.
     target : str, callable, (k, 2) array_like or None
@@ -80,14 +84,14 @@ class Deep:
     name: ClassVar[str] = "deep"
     summary: ClassVar[str] = "deep blue noise: Gaussian Blue Noise moved least to a steeper profile"
 
-    c: float = 8 * math.pi**2
+    c: float | None = None
     edge: float | None = None
     target: Target = field(default=None, metadata={"read": _as_target})
     gradients: int = 100
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "target", _as_target(self.target))
-        if not (math.isfinite(self.c) and self.c > 0):
+        if self.c is not None and not (math.isfinite(self.c) and self.c > 0):
             raise InputError(f"c must be positive and finite; got {self.c}")
         if self.edge is not None and not (math.isfinite(self.edge) and self.edge > 0):
             raise InputError(f"edge must be positive and finite, in nu; got {self.edge}")
@@ -108,7 +112,9 @@ class Deep:
         if table is not None:
             return table, table.edge if self.edge is None else self.edge
         edge = default_edge(d) if self.edge is None else self.edge
-        return self.target if callable(self.target) else Exponential(self.c, edge), edge
+        if callable(self.target):
+            return self.target, edge
+        return Exponential(DEPTH / edge**2 if self.c is None else self.c, edge), edge
 
     def refusal(self, n: int, d: int) -> str | None:
         """Why n points in d dimensions cannot follow the profile."""
@@ -120,10 +126,11 @@ class Deep:
                 f"points in d={d}, and no disordered set can meet more than {MOST_BOUND:.0%}; lower the edge "
                 "or take another n"
             )
-        if n * numbers / 2 > WORK:
+        operations = work(n, d, edge)
+        if operations > WORK:
             return (
-                f"n={n} points in d={d} have {numbers / 2:.3g} modes below nu={edge:.4g}, too much work: "
-                f"their product must be at most {WORK:.0e}; take fewer points"
+                f"n={n} points in d={d} up to nu={edge:.4g} are too much work: {operations:.2g} operations, "
+                f"of {WORK:.0e} at most; take fewer points or a lower edge"
             )
         return None
 
@@ -139,10 +146,10 @@ class Deep:
             raise RefusalError(reason)
         target, edge = self.profile(d)
         for times, least in LONGER:
-            outcome = reach(start(n, d, rng, max(times * self.gradients, least)), target, edge)
+            outcome = reach(start(n, d, rng, max(times * self.gradients, least)), target, edge, steps=STEPS)
             if outcome.converged:
                 return outcome.x
         raise RefusalError(
             f"n={n} points in d={d} do not reach this profile from {len(LONGER)} starts: {outcome.reason}; "
-            f"lower the edge, now {edge:.4g}, or take more points"
+            f"lower the edge, now {edge:.4g}, ask for less power, or take more points"
         )

@@ -72,11 +72,12 @@ def aims(amplitudes: ComplexArray, modes: Modes, power: FloatArray) -> ComplexAr
     return scaled
 
 
-def rounding(modes: Modes) -> float:
-    """Error of an amplitude over sqrt(n) that rounding the coordinates to double leaves, at the edge.
+def rounding(modes: Modes) -> FloatArray:
+    """Error of each amplitude over sqrt(n) that rounding the coordinates to double can leave, (m,).
 
-    A coordinate errs by up to 2**-54 of the box, its wave by 2 pi |f| times that; a hundred of the typical
-    sum is the allowance.
+    A coordinate errs by 2**-53 / sqrt(12) of the box, a wave by 2 pi |f| times that, and so does their sum
+    over sqrt(n); the sum itself errs by about 5e-16. Eight times that is allowed: the largest of a million
+    such errors is five times the typical.
     """
-    top = math.sqrt(float(modes.square.max()))
-    return 100 * (2 * math.pi * top + 1) * 2.0**-54
+    error: FloatArray = 2 * math.pi * np.sqrt(modes.square) * 2.0**-53 / math.sqrt(12) + 5e-16
+    return 8 * error

@@ -12,11 +12,10 @@ from typing import Protocol
 import numpy as np
 from scipy import fft
 
+from gbnbench.generators.newton.cost import by_transforms
 from gbnbench.generators.newton.modes import IntArray, Modes, half_ball
 from gbnbench.generators.newton.waves import ComplexArray, Waves
 from gbnbench.torus import FloatArray
-
-FFT_COST = 4.0  # of a real transform's log2 factor, in the time of one multiplication of a matrix product
 
 
 class Gram(Protocol):
@@ -30,15 +29,10 @@ class Gram(Protocol):
 
 
 def gram(x: FloatArray, modes: Modes, waves: Waves) -> Gram:
-    """Choose the cheaper of the two exact products: by transforms, or by sums over the points."""
-    transforms = 2 * modes.d * FFT_COST * _grid_points(modes) * math.log2(_grid_points(modes) + 1)
-    sums = 4 * modes.n * math.prod(waves.shape)
-    return Convolution(x, modes) if transforms < sums else Points(modes, waves)
-
-
-def _grid_points(modes: Modes) -> float:
-    reach = int(np.abs(modes.f).max())
-    return float(_side(reach)) ** modes.d
+    """Choose the cheaper of the two products: by transforms, or by sums over the points."""
+    if by_transforms(modes.n, modes.d, int(modes.square.max())):
+        return Convolution(x, modes)
+    return Points(modes, waves)
 
 
 def _side(reach: int) -> int:

@@ -91,15 +91,21 @@ def modes(n: int, d: int, edge: float) -> Modes:
 def bound(n: int, d: int, edge: float) -> float:
     """Real numbers bound by the amplitudes below the edge: integer vectors with 0 < nu < edge, both halves.
 
-    Counted by the theta series, without a list, or in large balls by their volume; at most 1e150. Disordered
-    solutions exist while they are well fewer than the coordinates, n d.
+    Disordered solutions exist while they are fewer than the coordinates, n d.
 
     Examples
     --------
     >>> bound(1024, 2, 0.1), len(modes(1024, 2, 0.1))
     (36.0, 18)
     """
-    reach = squared_reach(n, d, edge)
+    return count(squared_reach(n, d, edge), d)
+
+
+def count(reach: int, d: int) -> float:
+    """Integer vectors with 0 < |f|**2 <= reach, at most 1e150.
+
+    By the theta series, without a list; in large balls by their volume, to 1e-3.
+    """
     if reach > COUNTED:
         return math.exp(min(d / 2 * math.log(math.pi * reach) - math.lgamma(d / 2 + 1), math.log(MANY)))
     theta = np.zeros(reach + 1)

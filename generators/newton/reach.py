@@ -21,7 +21,7 @@ from gbnbench.generators.newton.waves import ComplexArray, Waves
 from gbnbench.torus import FloatArray, wrap
 
 LONGEST = 0.5  # spacings: cap of one step's longest displacement
-SHORTEST = 1 / 64  # share of a step below which a start is given up
+HALVINGS = 6  # of a step before a start is given up
 
 
 @dataclass(frozen=True)
@@ -67,7 +67,7 @@ def reach(
     Parameters
     ----------
     x : (n, d) float64
-        Start, box sides.
+        Start, box sides; disordered, since amplitudes that are rounding alone have no phase to keep.
     target : callable or float
         Power at nu, (m,) -> (m,); >= 0. Each amplitude of the start keeps its phase and its place in the
         spread of its ring; 0 everywhere gives a stealthy set.
@@ -159,7 +159,7 @@ class _Run:
         move = self.state.waves.gradient(self.scale * y, self.side)
         longest = math.sqrt(float(np.max(np.sum(move**2, axis=1))))
         share = min(1.0, LONGEST / longest) if longest > 0 else 1.0
-        while share >= SHORTEST:
+        for _ in range(HALVINGS + 1):
             tried = _State(self, wrap(self.state.x + share * move / self.side))
             tried.measure(self)
             if tried.norm <= (1 - 0.1 * share * (1 - forced)) * self.state.norm or tried.residual <= 1:

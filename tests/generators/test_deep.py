@@ -34,11 +34,15 @@ def sets():
     return generate("deep", n=1024, realizations=4, seed=1)
 
 
+@pytest.fixture(scope="module")
+def measured(sets):
+    return gbnbench.measures(sets)
+
+
 class TestPlane:
     """The bars of the method, from four sets; the paper's 10,000 steps have 6.6e-10, .603, .426, 2.22."""
 
-    def test_floor_and_order(self, sets):
-        measured = gbnbench.measures(sets)
+    def test_floor_and_order(self, measured):
         assert measured["noise_floor"] < 1e-16
         assert measured["valence6"] < 0.60
         assert measured["psi6"] < 0.43
@@ -54,8 +58,8 @@ class TestPlane:
         assert np.average(share, weights=radial.count[band]) == pytest.approx(1, abs=0.05)
         assert np.sqrt(np.mean((10 * np.log10(share)) ** 2)) < 1.5
 
-    def test_power_is_as_scattered_as_noise_around_each_ring(self, sets):
-        assert gbnbench.measures(sets)["anisotropy_db"] == pytest.approx(-10 * math.log10(4), abs=1)
+    def test_power_is_as_scattered_as_noise_around_each_ring(self, measured):
+        assert measured["anisotropy_db"] == pytest.approx(-10 * math.log10(4), abs=1)
 
 
 @pytest.mark.parametrize(("n", "d"), [(200, 1), (50, 2), (100, 3), (150, 4), (100, 5), (150, 8)])
@@ -75,6 +79,15 @@ def test_the_default_edge_binds_one_share_in_every_dimension():
     for d in range(1, 9):
         ball = math.pi ** (d / 2) / math.gamma(d / 2 + 1)
         assert ball * default_edge(d) ** d / d == pytest.approx(math.pi * 0.72**2 / 2, rel=1e-12)
+
+
+def test_the_default_steepness_has_one_depth_in_every_dimension():
+    assert Deep().profile(2)[0](np.array([0.72 / math.sqrt(2)])) == pytest.approx(
+        math.exp(-(8 * math.pi**2) * 0.72**2 / 2)
+    )
+    for d in range(1, 9):
+        assert Deep().profile(d)[0](np.zeros(1)) == pytest.approx(1.67e-18, rel=0.01)
+    assert Deep(edge=0.6).profile(2)[0](np.zeros(1)) == pytest.approx(1.67e-18, rel=0.01)
 
 
 def test_steepness_and_edge_are_settings():
@@ -176,7 +189,7 @@ class TestRefusals:
     def test_a_start_that_fails_is_drawn_longer_and_then_refused(self, monkeypatch):
         asked = []
 
-        def never(x, target, edge):
+        def never(x, target, edge, *, steps):
             return Outcome(x, 7.0, 3, 9, False, "it was not to be")
 
         def counted(n, d, rng, gradients):
