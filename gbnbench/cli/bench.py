@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from gbnbench.cli import options
+from gbnbench.cli.columns import number, table
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -84,13 +85,13 @@ def _report(outcome: Outcome) -> Iterator[str]:
     yield f"{machine['processor']}, {machine['cores']} cores; {machine['device']}"
     for name, part in outcome.speed.groupby("case", sort=False):
         yield f"\n{name}"
-        yield from _table(
+        yield from table(
             SPEED_HEAD,
             [
                 (
-                    row.method, *map(_number, (row.cpu_ms, row.cpu_ms_median, row.wall_ms, row.ratio)),
+                    row.method, *map(number, (row.cpu_ms, row.cpu_ms_median, row.wall_ms, row.ratio)),
                     f"{row.ratio_min:.2f} to {row.ratio_max:.2f}",
-                    *map(_number, (row.error_rms, row.resolvable)), _share(row.share_of_peak),
+                    *map(number, (row.error_rms, row.resolvable)), _share(row.share_of_peak),
                 )
                 for row in part.itertuples()
             ],
@@ -100,11 +101,11 @@ def _report(outcome: Outcome) -> Iterator[str]:
     first = outcome.speed.method.iloc[0]
     yield f"\nratio: CPU time over that of {first}, the median over rounds; P to 1%: least power known to 1%"
     yield "\nSlope of CPU time against work, from 1e7 operations; share of peak of the plain product"
-    yield from _table(
+    yield from table(
         ("more", "method", "sizes", "slope", "steepest", "least share", "most share"),
         [
             (
-                row.sweep, row.method, str(row.sizes), _number(row.slope), _number(row.steepest),
+                row.sweep, row.method, str(row.sizes), number(row.slope), number(row.steepest),
                 _share(row.share_least), _share(row.share_most),
             )
             for row in slopes(outcome.scaling).itertuples()
@@ -128,32 +129,14 @@ def _hard(hard: pd.DataFrame, least: pd.DataFrame) -> Iterator[str]:
         f"in {passed} the statement is also tight: the worst case at most {SLACK} times an error met at that "
         f"n, the typical error right within {TYPICAL} times"
     )
-    yield from _table(
+    yield from table(
         ("method", "precision", "n", "rms error", "P to 1%"),
         [
-            (row.method, row.precision, str(row.n), _number(row.rms), _number(row.power))
+            (row.method, row.precision, str(row.n), number(row.rms), number(row.power))
             for row in least.itertuples()
         ],
     )
 
 
-def _number(value: Any) -> str:
-    from gbnbench.reports.numbers import number
-
-    return number(float(value))
-
-
 def _share(value: Any) -> str:
     return "–" if value != value else f"{100 * value:.0f}%"
-
-
-def _table(head: Sequence[str], rows: Sequence[Sequence[Any]]) -> Iterator[str]:
-    """Align columns: words left, numbers right."""
-    columns = list(zip(head, *(map(str, row) for row in rows), strict=True))
-    shown = []
-    for column in columns:
-        width = max(map(len, column))
-        words = not any(cell[:1].isdigit() for cell in column[1:])
-        shown.append([cell.ljust(width) if words else cell.rjust(width) for cell in column])
-    for line in zip(*shown, strict=True):
-        yield "  ".join(line).rstrip()
