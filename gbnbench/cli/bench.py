@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from gbnbench.cli import options
+from gbnbench.cli.bench_gbn import gbn
 from gbnbench.cli.columns import number, table
 
 if TYPE_CHECKING:
@@ -25,6 +26,9 @@ SPEED_HEAD = (
 @click.group()
 def bench() -> None:
     """Measure speed and error here, beside other ways to the same."""
+
+
+bench.add_command(gbn)
 
 
 @bench.command()
