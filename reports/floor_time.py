@@ -39,6 +39,7 @@ CAPTION = (
     "the largest force of one pair; the kernel called whole leaves out pairs beyond 9 sigma in double and 6 "
     "in float. "
 )
+GRID = "In one dimension the last sets are regular grids, whose floor is rounding. "
 
 
 @style.styled
@@ -62,7 +63,7 @@ def figure(floors: pd.DataFrame, forces: pd.DataFrame, machine: Mapping[str, Any
     panels += [(f"{case}, forces", _forces, rows) for case, rows in forces.groupby("case", sort=False)]
     sheet = style.sheet(
         "How deep in what time: Gaussian Blue Noise",
-        CAPTION + machine_line(machine),
+        CAPTION + (GRID if _regular(whole) else "") + machine_line(machine),
         len(panels),
         WIDTH,
         [HEIGHT],
@@ -93,6 +94,12 @@ def figure(floors: pd.DataFrame, forces: pd.DataFrame, machine: Mapping[str, Any
         columnspacing=1.6,
     )
     return sheet.figure
+
+
+def _regular(whole: pd.DataFrame) -> bool:
+    """Whether sets on the line became regular grids: a peak of n, all of the power."""
+    line = whole[whole.d == 1]
+    return bool((line.peak > 0.99 * line.n).any())
 
 
 def _race(ax: Axes, rows: pd.DataFrame) -> None:
@@ -135,8 +142,9 @@ def _forces(ax: Axes, rows: pd.DataFrame) -> None:
         whole = part[part.kernel == "whole"]
         ax.plot(whole.error_rms, whole.cpu_ms, "*", color=colour, markersize=8, zorder=5)
         for cutoff, error, spent in zip(cut.cutoff, cut.error_rms, cut.cpu_ms, strict=True):
-            beside = precision == "float" and cutoff > CUTOFF["float"]  # no more exact: one over the other
-            shift, side = ((5, 0), "left") if beside else ((0, 4 if precision == "double" else -4), "center")
+            shift, side = (0, 4 if precision == "double" else -4), "center"
+            if precision == "float" and cutoff > CUTOFF["float"]:  # no more exact: one over the other
+                shift, side = (-5, 0), "right"
             _name(ax, f"{cutoff:g}", (error, spent), shift, side)
     handles = [
         Line2D([], [], color=style.COLOURS[1], marker="o", markersize=3.4, label="double"),
@@ -171,7 +179,8 @@ def _curve(ax: Axes, part: pd.DataFrame, colour: str, marker: str, precision: st
     )  # fmt: skip
     if numbered:
         at = float(mean.cpu_s.to_numpy()[-1]), float(mean.noise_floor.to_numpy()[-1])
-        _name(ax, f"{int(mean.index[-1]):,}", at, (0, -6), "center", colour)
+        above = set(part.step) == {"authors"}  # where descent is below
+        _name(ax, f"{int(mean.index[-1]):,}", at, (0, 5 if above else -6), "center", colour)
 
 
 def _floor_axes(ax: Axes, rows: pd.DataFrame, room: float = 12) -> None:
@@ -181,8 +190,8 @@ def _floor_axes(ax: Axes, rows: pd.DataFrame, room: float = 12) -> None:
         low = min(low, AUTHORS_FLOOR)
         ax.axhline(AUTHORS_FLOOR, color=style.FAINT, linewidth=0.8, zorder=1)
         text = ax.text(
-            0.015, AUTHORS_FLOOR * 1.25, f"authors' sets: {AUTHORS_FLOOR:.1e}", size=6.2, color=style.FAINT,
-            transform=ax.get_yaxis_transform(), ha="left", va="bottom", zorder=6,
+            0.015, AUTHORS_FLOOR / 1.25, f"authors' sets: {AUTHORS_FLOOR:.1e}", size=6.2, color=style.FAINT,
+            transform=ax.get_yaxis_transform(), ha="left", va="top", zorder=6,
         )  # fmt: skip
         text.set_path_effects([withStroke(linewidth=2, foreground="white")])
     ax.set_ylim(low / room, high * 3)
@@ -205,7 +214,7 @@ def _name(
 ) -> None:
     note = ax.annotate(
         text, at, xytext=shift, textcoords="offset points", ha=side, size=6.2, color=colour, zorder=6,
-        va="bottom" if shift[1] > 0 else "top",
+        va=("top", "center", "bottom")[1 + (shift[1] > 0) - (shift[1] < 0)],
     )  # fmt: skip
     note.set_path_effects([withStroke(linewidth=2, foreground="white")])
 
