@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import json
 import math
+import os
+import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -245,3 +248,27 @@ def test_help_says_what_it_does():
     for words in ("Noise floor against CPU time", "--quick", "--out", "--device", "cut-off"):
         assert words in done.stdout
     assert "--tiny" not in done.stdout
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no such signal")
+def test_a_run_that_is_stopped_keeps_its_rows(tmp_path):
+    running = subprocess.Popen(
+        [*COMMAND, "--quick", "--quiet", "--out", "here"],
+        cwd=tmp_path,
+        stderr=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    table = tmp_path / "here" / "floor_time.csv"
+    until = time.monotonic() + 120
+    while time.monotonic() < until and not (table.exists() and table.read_text().count("\n") > 2):
+        time.sleep(0.05)
+    os.kill(running.pid, signal.SIGINT)
+    _, error = running.communicate(timeout=60)
+    assert running.returncode == 130
+    assert "what was measured is in here" in error
+    assert "Traceback" not in error
+    rows = pd.read_csv(table)
+    assert len(rows) >= 2
+    assert (rows.noise_floor > 0).all()
+    assert (tmp_path / "here" / "machine.json").exists()
