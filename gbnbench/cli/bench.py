@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from gbnbench.cli import options
-from gbnbench.cli.columns import aligned
+from gbnbench.cli.bench_gbn import gbn
+from gbnbench.cli.columns import aligned, number
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -25,6 +26,9 @@ SPEED_HEAD = (
 @click.group()
 def bench() -> None:
     """Measure speed and error here, beside other ways to the same."""
+
+
+bench.add_command(gbn)
 
 
 @bench.command()
@@ -89,9 +93,9 @@ def _report(outcome: Outcome) -> Iterator[str]:
             SPEED_HEAD,
             [
                 (
-                    row.method, *map(_number, (row.cpu_ms, row.cpu_ms_median, row.wall_ms, row.ratio)),
+                    row.method, *map(number, (row.cpu_ms, row.cpu_ms_median, row.wall_ms, row.ratio)),
                     f"{row.ratio_min:.2f} to {row.ratio_max:.2f}",
-                    *map(_number, (row.error_rms, row.resolvable)), _share(row.share_of_peak),
+                    *map(number, (row.error_rms, row.resolvable)), _share(row.share_of_peak),
                 )
                 for row in part.itertuples()
             ],
@@ -105,7 +109,7 @@ def _report(outcome: Outcome) -> Iterator[str]:
         ("more", "method", "sizes", "slope", "steepest", "least share", "most share"),
         [
             (
-                row.sweep, row.method, str(row.sizes), _number(row.slope), _number(row.steepest),
+                row.sweep, row.method, str(row.sizes), number(row.slope), number(row.steepest),
                 _share(row.share_least), _share(row.share_most),
             )
             for row in slopes(outcome.scaling).itertuples()
@@ -132,16 +136,10 @@ def _hard(hard: pd.DataFrame, least: pd.DataFrame) -> Iterator[str]:
     yield from aligned(
         ("method", "precision", "n", "rms error", "P to 1%"),
         [
-            (row.method, row.precision, str(row.n), _number(row.rms), _number(row.power))
+            (row.method, row.precision, str(row.n), number(row.rms), number(row.power))
             for row in least.itertuples()
         ],
     )
-
-
-def _number(value: Any) -> str:
-    from gbnbench.reports.numbers import number
-
-    return number(float(value))
 
 
 def _share(value: Any) -> str:

@@ -6,6 +6,13 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 
+def number(value: Any) -> str:
+    """Three significant digits."""
+    from gbnbench.reports.numbers import number
+
+    return number(float(value))
+
+
 def aligned(head: Sequence[str], rows: Sequence[Sequence[Any]]) -> Iterator[str]:
     """Lay out a table: a line a row, under its head."""
     columns = list(zip(head, *(map(str, row) for row in rows), strict=True))

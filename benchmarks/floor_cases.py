@@ -1,0 +1,164 @@
+"""What the benchmark of Gaussian Blue Noise runs over: sizes, and the optimisers that race on each."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+SIGMA = 1.0  # spacings, the paper's
+CUTOFFS = (3.0, 4.0, 5.0, 6.0, 7.5, 9.0)  # sigmas
+FIRST, A_DECADE = 10, 4  # the first stop, and stops a decade
+
+
+@dataclass(frozen=True)
+class Curve:
+    """One optimiser, and how far it is taken.
+
+    Attributes
+    ----------
+    method : {"nesterov", "descent"}
+        Ours, or the paper's fixed steps.
+    gradients : int
+        The last stop.
+    precision : {"double", "float"}
+        Of the forces.
+    step : {"auto", "authors"}
+        1.2 over the largest curvature, or the authors' 0.25 n^(2/d) / n, in squared spacings.
+    cutoff : float
+        Where the kernel itself ends, in sigmas; 0 leaves it whole.
+    """
+
+    method: Literal["nesterov", "descent"]
+    gradients: int
+    precision: Literal["double", "float"] = "double"
+    step: Literal["auto", "authors"] = "auto"
+    cutoff: float = 0.0
+
+    @property
+    def title(self) -> str:
+        """What tables and pictures call it, without its precision."""
+        name = "Nesterov" if self.method == "nesterov" else "descent"
+        step = ", authors' step" if self.step == "authors" else ""
+        end = f", kernel to {self.cutoff:g} sigma" if self.cutoff else ""
+        return name + step + end
+
+    def stops(self) -> list[int]:
+        """Return the counts of gradients at which the floor is taken: geometric, the last one always.
+
+        Examples
+        --------
+        >>> Curve("nesterov", 320).stops()
+        [10, 18, 32, 56, 100, 178, 320]
+        """
+        ladder = [round(FIRST * 10 ** (k / A_DECADE)) for k in range(10 * A_DECADE)]
+        return [k for k in ladder if 1.2 * k < self.gradients] + [self.gradients]
+
+
+@dataclass(frozen=True)
+class Case:
+    """Sets of one size and what races on them.
+
+    Attributes
+    ----------
+    n, d : int
+        Size.
+    curves : tuple of Curve
+        Run in turn, stop by stop.
+    sets : int
+        Seeds, each run by itself.
+    """
+
+    n: int
+    d: int
+    curves: tuple[Curve, ...]
+    sets: int = 3
+
+    @property
+    def title(self) -> str:
+        """What tables and pictures call it."""
+        return f"n={self.n} {self.d}D"
+
+    @property
+    def gradients(self) -> int:
+        """All gradients of all curves and sets."""
+        return self.sets * sum(curve.gradients for curve in self.curves)
+
+
+@dataclass(frozen=True)
+class Plan:
+    """How much of it is done.
+
+    Attributes
+    ----------
+    cases : tuple of Case
+        Noise floor against time.
+    forces : tuple of (int, int)
+        Sizes (n, d) whose forces are timed and checked at every cut-off.
+    seconds : float
+        For timing one of these.
+    probes : int
+        Points whose exact forces are taken.
+    """
+
+    cases: tuple[Case, ...]
+    forces: tuple[tuple[int, int], ...]
+    seconds: float
+    probes: int
+
+    @property
+    def steps(self) -> int:
+        """Steps of progress: gradients."""
+        return sum(case.gradients for case in self.cases)
+
+
+def race(ours: int, descent: int, authors: int = 0, in_float: int = 0) -> tuple[Curve, ...]:
+    """Nesterov in both precisions, and descents as far as said."""
+    curves = [Curve("nesterov", ours), Curve("nesterov", ours, "float"), Curve("descent", descent)]
+    if in_float:
+        curves.append(Curve("descent", in_float, "float"))
+    if authors:
+        curves.append(Curve("descent", authors, step="authors"))
+    return tuple(curves)
+
+
+def truncated(gradients: int, cutoffs: tuple[float, ...] = CUTOFFS) -> tuple[Curve, ...]:
+    """Nesterov on kernels that end at each cut-off."""
+    return tuple(Curve("nesterov", gradients, cutoff=cutoff) for cutoff in cutoffs)
+
+
+def full() -> Plan:
+    """Under five minutes on one quiet core."""
+    cases = (
+        Case(256, 1, race(1000, 3162)),
+        Case(256, 2, race(1000, 10_000)),
+        Case(1024, 2, race(1000, 10_000, authors=1000, in_float=3162) + truncated(1000)),
+        Case(4096, 2, race(562, 1778)),
+        Case(16384, 2, race(320, 320), sets=1),
+        Case(1000, 3, race(320, 320, authors=178)),
+        Case(4096, 3, race(100, 100, authors=100), sets=1),
+        Case(1024, 8, race(100, 100, authors=100)),
+    )
+    return Plan(cases, ((1024, 2), (4096, 2), (4096, 3)), 3.0, 200)
+
+
+def quick() -> Plan:
+    """Under half a minute."""
+    cases = (
+        Case(256, 2, race(320, 1000), sets=2),
+        Case(1024, 2, race(320, 1000, in_float=320) + truncated(320), sets=1),
+        Case(4096, 2, race(100, 100), sets=1),
+        Case(1000, 3, race(56, 56, authors=56), sets=1),
+        Case(1024, 8, race(18, 18, authors=18), sets=1),
+    )
+    return Plan(cases, ((1024, 2),), 0.8, 50)
+
+
+def tiny() -> Plan:
+    """Seconds: what tests run."""
+    cases = (
+        Case(100, 2, race(56, 178, authors=56), sets=2),
+        Case(400, 2, truncated(100, (3.0, 9.0)), sets=1),
+        Case(64, 3, race(32, 32), sets=1),
+        Case(100, 6, race(18, 18, authors=18), sets=1),
+    )
+    return Plan(cases, ((400, 2),), 0.02, 20)

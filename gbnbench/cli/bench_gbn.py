@@ -1,0 +1,125 @@
+"""``gbnbench bench gbn``: how deep Gaussian Blue Noise gets in what time, ours beside the paper's descent."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from gbnbench.cli import options
+from gbnbench.cli.columns import aligned, number
+
+if TYPE_CHECKING:
+    from gbnbench.benchmarks.floor_time import Outcome
+
+END_HEAD = (
+    "case", "method", "precision", "gradients", "CPU s a set", "ms a gradient", "noise floor", "P(1)",
+    "excess", "peak", "v6", "psi6",
+)  # fmt: skip
+SPEEDUP_HEAD = (
+    "case", "precision", "beside", "to floor", "Nesterov CPU s", "gradients", "its CPU s", "gradients",
+    "ratio", "over sets",
+)  # fmt: skip
+FORCE_HEAD = ("case", "precision", "kernel", "sigmas", "CPU ms", "median", "rms error")
+
+
+@click.command()
+@click.option(
+    "--quick", is_flag=True, help="Under half a minute instead of under five; fewer sizes and steps."
+)
+@click.option(
+    "--out", type=click.Path(path_type=Path), default=Path("bench-gbn"), show_default=True,
+    help="Folder for the tables and the picture; files of the same names are replaced.",
+)  # fmt: skip
+@click.option("--quiet", is_flag=True, help="No progress.")
+@click.option("--tiny", is_flag=True, hidden=True, help="Sizes that tests run.")
+@options.device
+def gbn(quick: bool, out: Path, quiet: bool, tiny: bool) -> None:
+    """Noise floor against CPU time: Nesterov's method and the paper's descent, float and double, cut-offs.
+
+    The optimisers take turns in one process on one thread; each is stopped at a ladder of gradient counts
+    and its points are measured in double beside the clock. Forces are timed and checked at every cut-off
+    from 3 to 9 sigma. Tables are kept as they come, so a run that is stopped leaves what it has measured.
+    """
+    from gbnbench.workers import ONE_THREAD
+
+    for variable in ("POCL_MAX_PTHREAD_COUNT", "POCL_CPU_MAX_CU_COUNT"):  # read when the device is opened
+        os.environ.setdefault(variable, ONE_THREAD[variable])
+    from gbnbench import progress
+    from gbnbench.benchmarks import floor_cases
+    from gbnbench.benchmarks.floor_time import run
+
+    plan = floor_cases.tiny() if tiny else floor_cases.quick() if quick else floor_cases.full()
+    try:
+        with progress.choose(quiet) as teller:
+            outcome = run(out, plan, teller)
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(f"what was measured is in {out}") from None
+    draw(outcome, out)
+    for line in report(outcome):
+        click.echo(line)
+    click.echo(f"picture: {out / 'floor_time.png'}")
+
+
+def draw(outcome: Outcome, out: Path) -> None:
+    """Write the picture as PNG and PDF."""
+    from gbnbench.disk import write_whole
+    from gbnbench.reports import floor_time
+    from gbnbench.reports.figures import pdf, png
+
+    figure = floor_time.figure(outcome.floors, outcome.forces, outcome.machine)
+    write_whole(out / "floor_time.png", png(figure))
+    write_whole(out / "floor_time.pdf", pdf(figure))
+
+
+def report(outcome: Outcome) -> Iterator[str]:
+    """Say what was found."""
+    from gbnbench.benchmarks.floor_time import AUTHORS_FLOOR, MEASURES
+
+    machine = outcome.machine
+    yield f"{machine['processor']}, {machine['cores']} cores; {machine['device']}"
+    yield "\nWhere each ended: medians over sets, each set run by itself"
+    floors, curve = outcome.floors, ["case", "curve", "precision"]
+    last = floors[floors.gradients == floors.groupby(curve).gradients.transform("max")]
+    ends = last.groupby(curve, sort=False)[["gradients", "cpu_s", *MEASURES]].median().reset_index()
+    yield from aligned(
+        END_HEAD,
+        [
+            (
+                row.case, row.curve, row.precision, int(row.gradients), number(row.cpu_s),
+                number(1e3 * row.cpu_s / row.gradients), *(number(row[name]) for name in MEASURES),
+            )
+            for _, row in ends.iterrows()
+        ],
+    )  # fmt: skip
+    yield (
+        f"\nCPU seconds a set to one noise floor: {AUTHORS_FLOOR:g}, that of the authors' sets (10,000 "
+        "steps, n=1024 2D), or the deepest that both reach here where that is higher"
+    )
+    yield from aligned(
+        SPEEDUP_HEAD,
+        [
+            (
+                row.case, row.precision, row.against, number(row.floor), number(row.cpu_s),
+                f"{row.gradients:.0f}", number(row.their_cpu_s), f"{row.their_gradients:.0f}",
+                number(row.ratio), f"{number(row.ratio_min)} to {number(row.ratio_max)}",
+            )
+            for row in outcome.speedups.itertuples()
+        ],
+    )  # fmt: skip
+    yield (
+        "\nForces by cut-off: pairs further apart are left out; error in units of the largest force of a pair"
+    )
+    yield from aligned(
+        FORCE_HEAD,
+        [
+            (
+                row.case, row.precision, row.kernel, number(row.cutoff), number(row.cpu_ms),
+                number(row.cpu_ms_median), number(row.error_rms),
+            )
+            for row in outcome.forces.itertuples()
+        ],
+    )  # fmt: skip
