@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from gbnbench.benchmarks.floor_cases import CUTOFFS, SIGMA
 from gbnbench.benchmarks.interleave import interleave
+from gbnbench.generators.gbn.cost import CUTOFF
 from gbnbench.generators.gbn.energy import field
 from gbnbench.generators.gbn.optimiser import Nesterov, step_size
-from gbnbench.generators.gbn.strips import CUTOFF
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.opencl import runtime
 from gbnbench.torus import FloatArray

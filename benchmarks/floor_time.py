@@ -24,9 +24,9 @@ from gbnbench.benchmarks.machine import Rows, describe
 from gbnbench.benchmarks.threads import one_blas_thread
 from gbnbench.disk import write_whole
 from gbnbench.errors import InputError, RefusalError
+from gbnbench.generators.gbn.cost import CUTOFF
 from gbnbench.generators.gbn.energy import field
 from gbnbench.generators.gbn.optimiser import Descent, Nesterov, authors_step, step_size
-from gbnbench.generators.gbn.strips import CUTOFF
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.opencl import runtime
 from gbnbench.progress import Progress

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import ClassVar
 
 import numpy as np
@@ -12,9 +13,10 @@ import numpy as np
 from gbnbench.errors import InputError, RefusalError
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.newton.cost import work
-from gbnbench.generators.newton.modes import bound
+from gbnbench.generators.newton.modes import bound, edge_of
 from gbnbench.generators.newton.reach import reach
 from gbnbench.generators.profile import Exponential, Table
+from gbnbench.generators.watch import Watch
 from gbnbench.torus import FloatArray
 
 BOUND = math.pi * 0.72**2 / 2  # share of the coordinates that the default edge binds, in any dimension
@@ -22,26 +24,10 @@ DEPTH = 8 * math.pi**2 * 0.72**2  # c edge**2 by default: a power of 1.7e-18 at 
 MOST_BOUND = 0.995  # up to .992 sets were seen to converge, slowly
 WORK = 5e14  # operations: some hours; a million points in the plane come to half of it
 STEPS = 60  # five to ten are usual, forty where nearly every coordinate is bound
-LONGER = ((1, 0), (3, 100), (10, 1000))  # starts: times ``gradients``, and at least so many
+LONGER = ((3, 100), (10, 1000))  # further starts: times ``gradients``, and at least so many
+USUAL = 10  # steps that progress expects of a set
 
 Target = str | Table | Callable[[FloatArray], FloatArray] | None
-
-
-def default_edge(d: int) -> float:
-    """Edge in nu that binds the share of coordinates which 0.72 binds in the plane: V_d nu**d / d equal.
-
-    Examples
-    --------
-    >>> [round(default_edge(d), 3) for d in (1, 2, 3, 5)]
-    [0.407, 0.72, 0.835, 0.95]
-    """
-    log_ball = d / 2 * math.log(math.pi) - math.lgamma(d / 2 + 1)
-    return math.exp((math.log(BOUND * d) - log_ball) / d)
-
-
-def start(n: int, d: int, rng: np.random.Generator, gradients: int) -> FloatArray:
-    """Draw the disordered set that is then deepened."""
-    return GaussianBlueNoise(gradients=gradients)(n, d, rng)
 
 
 def _as_target(value: object) -> Target:
@@ -111,7 +97,7 @@ class Deep:
         table = self._table()
         if table is not None:
             return table, table.edge if self.edge is None else self.edge
-        edge = default_edge(d) if self.edge is None else self.edge
+        edge = edge_of(BOUND, d) if self.edge is None else self.edge
         if callable(self.target):
             return self.target, edge
         return Exponential(DEPTH / edge**2 if self.c is None else self.c, edge), edge
@@ -135,21 +121,57 @@ class Deep:
         return None
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
-        """Draw one realization; see ``Generator``.
+        """Draw one realization; see ``Generator`` and ``draw``."""
+        one: FloatArray = self.draw(n, d, [rng], Watch())[0]
+        return one
+
+    def draw(self, n: int, d: int, rngs: Sequence[np.random.Generator], watch: Watch) -> FloatArray:
+        """Draw one set from each stream; see ``Watchable``. Trace and checkpoint are the starts' own.
 
         Raises
         ------
         RefusalError
-            Where ``refusal`` has a reason, or no start converged.
+            Where ``refusal`` has a reason, or no start of a set converged.
         """
         if reason := self.refusal(n, d):
             raise RefusalError(reason)
+        ahead, counted = len(rngs) * USUAL, 0
+
+        def started(done: int, total: int, doing: str) -> None:
+            nonlocal counted
+            counted = total
+            if watch.progress is not None:
+                watch.progress(done, total + ahead, doing)
+
+        def stepped(k: int, step: int, residual: float) -> None:
+            if watch.progress is not None:
+                done = counted + k * USUAL + min(step, USUAL - 1)
+                told = f"deep, set {k + 1}, {residual:.1e} times what is allowed"
+                watch.progress(done, counted + ahead, told)
+
+        short = GaussianBlueNoise(gradients=self.gradients)
+        starts = short.draw(n, d, rngs, replace(watch, progress=started))
+        ends = [
+            self._deepened(x, rng, partial(stepped, k))
+            for k, (x, rng) in enumerate(zip(starts, rngs, strict=True))
+        ]
+        return np.stack(ends)
+
+    def _deepened(
+        self, x: FloatArray, rng: np.random.Generator, progress: Callable[[int, float], None]
+    ) -> FloatArray:
+        """Bring one start to the profile, or others drawn from its stream."""
+        n, d = x.shape
         target, edge = self.profile(d)
+        outcome = reach(x, target, edge, steps=STEPS, progress=progress)
         for times, least in LONGER:
-            outcome = reach(start(n, d, rng, max(times * self.gradients, least)), target, edge, steps=STEPS)
             if outcome.converged:
-                return outcome.x
-        raise RefusalError(
-            f"n={n} points in d={d} do not reach this profile from {len(LONGER)} starts: {outcome.reason}; "
-            f"lower the edge, now {edge:.4g}, ask for less power, or take more points"
-        )
+                break
+            longer = GaussianBlueNoise(gradients=max(times * self.gradients, least))
+            outcome = reach(longer(n, d, rng), target, edge, steps=STEPS, progress=progress)
+        if not outcome.converged:
+            raise RefusalError(
+                f"n={n} points in d={d} do not reach this profile from {1 + len(LONGER)} starts: "
+                f"{outcome.reason}; lower the edge, now {edge:.4g}, ask for less power, or take more points"
+            )
+        return outcome.x

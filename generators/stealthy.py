@@ -13,7 +13,7 @@ from gbnbench.generators.gbn.energy import field
 from gbnbench.generators.gbn.optimiser import Nesterov, step_size
 from gbnbench.generators.newton.conjugate import solve
 from gbnbench.generators.newton.gram import gram
-from gbnbench.generators.newton.modes import bound, modes
+from gbnbench.generators.newton.modes import bound, edge_of, modes
 from gbnbench.generators.newton.reach import reach
 from gbnbench.generators.newton.waves import Waves
 from gbnbench.torus import FloatArray, wrap
@@ -26,18 +26,6 @@ SIGMA = 1.0  # of the truncated energy
 FORCING = 1e-4  # residual of the last step's linear solve
 PRODUCTS = 3000
 CHUNK = 50  # gradients between two looks at the band
-
-
-def edge_of(share: float, d: int) -> float:
-    """Edge in nu below which a share of the coordinates is bound: V_d nu^d = share d.
-
-    Examples
-    --------
-    >>> [round(edge_of(0.6, d), 3) for d in (1, 2, 3, 5)]
-    [0.3, 0.618, 0.755, 0.894]
-    """
-    log_ball = d / 2 * math.log(math.pi) - math.lgamma(d / 2 + 1)
-    return math.exp((math.log(share * d) - log_ball) / d)
 
 
 def band_power(x: FloatArray, edge: float) -> FloatArray:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.torus import FloatArray, wrap
+from gbnbench.torus import FloatArray
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -50,14 +50,14 @@ class Trace:
     rows: list[tuple[int, int, float, float, float]] = dataclasses.field(default_factory=list)
     kept: dict[int, list[FloatArray]] = dataclasses.field(default_factory=dict)
 
-    def record(self, optimiser: Watched, first: int) -> None:
-        """Add a row for each set of a batch, whose first set has this number."""
+    def record(self, optimiser: Watched, first: int, inside: Callable[[FloatArray], FloatArray]) -> None:
+        """Add a row for each set of a batch, whose first set has this number; inside keeps to the domain."""
         for k, (excess, largest, step) in enumerate(
             zip(optimiser.excess, optimiser.largest, optimiser.size, strict=True)
         ):
             self.rows.append((first + k, optimiser.gradients, float(excess), float(largest), float(step)))
         if optimiser.gradients in self.keep_at:
-            self.kept.setdefault(optimiser.gradients, []).extend(wrap(optimiser.x))
+            self.kept.setdefault(optimiser.gradients, []).extend(inside(optimiser.x))
 
     def state(self) -> dict[str, NDArray[Any]]:
         """Give what a checkpoint keeps of it."""

@@ -16,7 +16,7 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from gbnbench.benchmarks.floor_time import AUTHORS_FLOOR
-from gbnbench.generators.gbn.strips import CUTOFF
+from gbnbench.generators.gbn.cost import CUTOFF
 from gbnbench.reports import style
 from gbnbench.reports.speed_error import machine_line
 

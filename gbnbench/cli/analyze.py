@@ -13,15 +13,28 @@ from gbnbench.cli import options
 from gbnbench.errors import GbnbenchError
 
 if TYPE_CHECKING:
+    import pandas as pd
+
     from gbnbench.results import Measures
+    from gbnbench.torus import FloatArray
+
+
+LOW = 0.25  # nu of the shells of a box's own spectrum that are shown
 
 
 @click.command()
 @click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="FILE...")
 @click.option("--json", "as_json", is_flag=True, help="Print a list of {path, set, n, d, measures}.")
 @click.option("--explain", is_flag=True, help="Say how the spectra would be found, at what cost; do nothing.")
+@click.option(
+    "--projections", metavar="SUBSETS",
+    help="Also measure projections: 1 for every axis, 2 for every plane, 0+2 for one; parted by /.",
+)  # fmt: skip
+@click.option("--box", is_flag=True, help="Also measure sets of the box: density by depth, own spectrum.")
 @options.device
-def analyze(files: tuple[Path, ...], as_json: bool, explain: bool) -> None:
+def analyze(
+    files: tuple[Path, ...], as_json: bool, explain: bool, projections: str | None, box: bool
+) -> None:
     """Measure every set in every FILE, one row a set."""
     if explain and as_json:
         raise click.UsageError("--explain and --json do not go together: leave one out")
@@ -32,11 +45,14 @@ def analyze(files: tuple[Path, ...], as_json: bool, explain: bool) -> None:
     from gbnbench.points import read
 
     rows: list[tuple[Path, int, int, int, Measures]] = []
+    more: list[dict[str, pd.DataFrame]] = []
     failed = False
     for path in files:
         try:
             for index, x in enumerate(read(path)):
+                tables = _tables(x, projections, box)
                 rows.append((path, index, x.shape[0], x.shape[1], measures(x)))
+                more.append(tables)
         except GbnbenchError as error:
             failed = True
             click.echo(f"gbnbench: error: {error}", err=True)
@@ -48,14 +64,39 @@ def analyze(files: tuple[Path, ...], as_json: bool, explain: bool) -> None:
                 "n": n,
                 "d": d,
                 "measures": {name: v if math.isfinite(v) else None for name, v in found.items()},
+                **{name: json.loads(table.to_json(orient="records")) for name, table in tables.items()},
             }
-            for path, index, n, d, found in rows
+            for (path, index, n, d, found), tables in zip(rows, more, strict=True)
         ]
         click.echo(json.dumps(listed, indent=2, allow_nan=False))
     elif rows:
         _table(rows)
+        for (path, index, *_), tables in zip(rows, more, strict=True):
+            for name, table in tables.items():
+                click.echo(f"\n{path}, set {index}, {name}:")
+                click.echo(table.to_string(index=False, float_format=lambda v: f"{v:.4g}"))
     if failed:
         click.get_current_context().exit(2)
+
+
+def _tables(x: FloatArray, projections: str | None, box: bool) -> dict[str, pd.DataFrame]:
+    """Tables beside the measures of one set, by name."""
+    n, d = x.shape
+    tables: dict[str, pd.DataFrame] = {}
+    if projections is not None:
+        from gbnbench.analysis import projections as projected
+        from gbnbench.generators.gbn.projective import subsets
+
+        tables["projections"] = projected.frame(projected.projections(x, subsets(projections, d)))
+    if box:
+        from gbnbench.analysis.cosine_power import cosine_power, cosine_radial
+        from gbnbench.analysis.edge_density import edge_density
+        from gbnbench.analysis.limits import default_fmax
+
+        tables["edge density"] = edge_density(x).to_frame()
+        shells = cosine_radial(cosine_power(x, default_fmax(n, d)), n).to_frame()
+        tables["cosine power"] = shells[shells.nu <= LOW]
+    return tables
 
 
 def _explain(files: tuple[Path, ...]) -> None:

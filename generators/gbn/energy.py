@@ -15,6 +15,11 @@ from gbnbench.generators.gbn.theta import Theta
 from gbnbench.opencl import runtime
 
 
+def default_precision() -> str:
+    """Double where the chosen device has it, else float."""
+    return "double" if runtime().device.has_double else "float"
+
+
 def field(
     n: int,
     d: int,
@@ -42,7 +47,7 @@ def field(
         If there is no device, or it has no such precision.
     """
     chosen = runtime()
-    name = precision or ("double" if chosen.device.has_double else "float")
+    name = precision or default_precision()
     found = plan(n, d, sigma, name, method=method, cutoff=cutoff, edge=edge)
     if found.method == "strips":
         return Strips(chosen, n, d, sigma, name, cutoff)

@@ -11,9 +11,12 @@ import numpy as np
 
 from gbnbench.errors import InputError
 from gbnbench.generators.gbn.box import BoxField, box_curvature, fold
-from gbnbench.generators.gbn.energy import field
+from gbnbench.generators.gbn.energy import default_precision, field
 from gbnbench.generators.gbn.field import Field
-from gbnbench.generators.gbn.optimiser import Descent, Nesterov, authors_step, step_size
+from gbnbench.generators.gbn.kernel import energy_error
+from gbnbench.generators.gbn.optimiser import Descent, Nesterov, authors_step, stable_step, step_size
+from gbnbench.generators.gbn.plan import plan
+from gbnbench.generators.gbn.polish import polished
 from gbnbench.generators.gbn.projective import ProjectiveField, subsets
 from gbnbench.generators.gbn.run import optimise
 from gbnbench.generators.settings import specification
@@ -38,8 +41,9 @@ class GaussianBlueNoise:
     method : {"auto", "nesterov", "descent"}
         "descent" alone takes the paper's 10,000 steps; "auto" is descent where iterations are given.
     step : str
-        The first step in squared spacings: "auto" is 1.2 over the energy's largest curvature, "authors" that
-        of the authors' programs, 0.25 n^(2/d) / n, which is right in scale for d = 2 only; or a number.
+        The first step in squared spacings: "auto" is 1.2 over the energy's largest curvature, 1 over it where
+        d > 3; "authors" that of the authors' programs, 0.25 n^(2/d) / n, right in scale for d = 2 only; or a
+        number.
     excess : float
         Stop early once the excess energy a point is at most this; in 2D 4.5e-6 is the paper's quality at
         10,000 steps, 1.1e-6 that at 100,000. 0 never stops early.
@@ -56,6 +60,8 @@ class GaussianBlueNoise:
         see ``gbnbench.generators.gbn.projective.subsets``. On the torus.
     projection_edge : float
         Highest nu, in its own spacings, that the energy of a projection sees; 0 for all.
+    polish : float
+        An extension of the paper: empty the band 0 < nu < polish afterwards, 0.25 say; 0 leaves it.
 
     Notes
     -----
@@ -79,6 +85,7 @@ class GaussianBlueNoise:
     domain: Literal["torus", "box"] = "torus"
     projections: str = "none"
     projection_edge: float = 0.0
+    polish: float = 0.0
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.sigma) and 0.3 <= self.sigma <= 3):
@@ -86,7 +93,7 @@ class GaussianBlueNoise:
         for name in ("gradients", "iterations"):
             if getattr(self, name) < 0:
                 raise InputError(f"{name} must be 0 or more; got {getattr(self, name)}")
-        for name in ("excess", "cutoff", "edge", "projection_edge"):
+        for name in ("excess", "cutoff", "edge", "projection_edge", "polish"):
             if not (math.isfinite(getattr(self, name)) and getattr(self, name) >= 0):
                 raise InputError(f"{name} must be 0 or more; got {getattr(self, name)}")
         if self.method == "nesterov" and self.iterations:
@@ -108,6 +115,8 @@ class GaussianBlueNoise:
                 "projections go with the whole energy; got cutoff or edge beside them: leave these out, or "
                 "truncate the projections by projection_edge"
             )
+        if self.polish and self.domain == "box":
+            raise InputError("polish empties a band of the torus; leave it out beside domain=box")
         self._step(2, 2)
 
     def refusal(self, n: int, d: int) -> str | None:
@@ -144,8 +153,20 @@ class GaussianBlueNoise:
         if n == 1:
             return starts
         count = self.iterations or (PAPER_ITERATIONS if self.method == "descent" else self.gradients)
-        ends = optimise(starts, self._optimiser, count, watch, specification(self))
-        return fold(ends) if self.domain == "box" else wrap(ends)
+        inside = fold if self.domain == "box" else wrap
+        x = inside(optimise(starts, self._optimiser, count, watch, specification(self), inside))
+        return np.stack([polished(points, self.polish) for points in x]) if self.polish else x
+
+    def explain(self, n: int, d: int, sets: int = 1) -> str:
+        """Say how the energy of n points in d dimensions is found, and what the others would cost."""
+        if self.domain == "box" or self.projections != "none":
+            energy = self._energy(n, d)
+            return f"{self.name}: {energy.method}, error {energy.error:.1e}"
+        found = plan(
+            n, d, self.sigma, self._precision(), sets=sets, cutoff=self.cutoff or None, edge=self.edge or None
+        )
+        whose = "a set" if sets == 1 else f"{sets} sets"
+        return f"{found}\n  milliseconds are CPU time of one gradient of {whose}"
 
     def _optimiser(self, starts: FloatArray) -> Descent:
         _, n, d = starts.shape
@@ -155,11 +176,15 @@ class GaussianBlueNoise:
             return Descent(energy, starts, step, self.excess)
         # The lowest band's preconditioner knows the torus's whole energy alone: in the box, and in one
         # dimension below an edge, it diverges.
-        plain = self.domain == "torus" and not self.edge and self.projections == "none"
-        return Nesterov(energy, starts, step, self.excess, sigma=self.sigma if plain else None)
+        plain = self.domain == "torus" and not (self.edge or self.cutoff) and self.projections == "none"
+        noise = energy_error(d, self.sigma, self._precision())
+        return Nesterov(energy, starts, step, self.excess, noise=noise, sigma=self.sigma if plain else None)
+
+    def _precision(self) -> str:
+        return default_precision() if self.precision == "auto" else self.precision
 
     def _energy(self, n: int, d: int) -> Field:
-        precision = None if self.precision == "auto" else self.precision
+        precision = self._precision()
         if self.domain == "box":
             return BoxField(n, d, self.sigma, precision)
         if self.projections != "none":
@@ -176,7 +201,7 @@ class GaussianBlueNoise:
     def _step(self, n: int, d: int) -> float:
         if self.step == "auto":
             if self.domain == "box":
-                return 1.2 / max(box_curvature(n, d, self.sigma), 2 / self.sigma**2)
+                return stable_step(box_curvature(n, d, self.sigma), d, self.sigma)
             return step_size(n, d, self.sigma)
         if self.step == "authors":
             return authors_step(n, d)

@@ -29,6 +29,11 @@ def uniform_energy(d: int, sigma: float) -> float:
     return math.pow(2 * math.pi, d / 2) * math.pow(sigma, d)
 
 
+def energy_error(d: int, sigma: float, precision: str) -> float:
+    """Typical error of an excess energy, the difference of two near-equal sums: of 1e-15 (double) or 1e-7."""
+    return {"double": 1e-15, "float": 1e-7}[precision] * uniform_energy(d, sigma)
+
+
 def decay(side: float, sigma: float) -> float:
     """Return b of w_f = exp(-b f^2)."""
     return 2 * (math.pi * sigma / side) ** 2

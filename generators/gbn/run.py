@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from gbnbench.generators.gbn.checkpoint import Checkpoint
 from gbnbench.generators.watch import Watch, Watched
-from gbnbench.torus import FloatArray
+from gbnbench.torus import FloatArray, wrap
 
 BATCH = 1 << 16  # points optimised together, so that even small sets fill every core
 
@@ -35,7 +35,12 @@ class Method(Watched, Protocol):
 
 
 def optimise(
-    starts: FloatArray, method: Callable[[FloatArray], Method], gradients: int, watch: Watch, name: str
+    starts: FloatArray,
+    method: Callable[[FloatArray], Method],
+    gradients: int,
+    watch: Watch,
+    name: str,
+    inside: Callable[[FloatArray], FloatArray] = wrap,
 ) -> FloatArray:
     """Move every set from its start.
 
@@ -51,6 +56,8 @@ def optimise(
         What is to be said, traced and kept.
     name : str
         What the run is, for progress and for its checkpoint.
+    inside : callable
+        Brings points into their domain for the trace.
 
     Returns
     -------
@@ -83,7 +90,7 @@ def optimise(
         while optimiser.gradients < gradients and not optimiser.finished.all():
             optimiser.advance()
             if watch.trace is not None:
-                watch.trace.record(optimiser, batch.start)
+                watch.trace.record(optimiser, batch.start, inside)
             if watch.progress is not None:
                 excess = float(np.nanmax(optimiser.excess))
                 watch.progress(before + optimiser.gradients, total, f"{name}, excess {excess:.1e}")

@@ -88,6 +88,18 @@ def modes(n: int, d: int, edge: float) -> Modes:
     return Modes(n, d, edge, f, length, q / length[:, None])
 
 
+def edge_of(share: float, d: int) -> float:
+    """Edge in nu below which a share of the coordinates is bound: V_d nu^d = share d.
+
+    Examples
+    --------
+    >>> [round(edge_of(0.6, d), 3) for d in (1, 2, 3, 5)]
+    [0.3, 0.618, 0.755, 0.894]
+    """
+    log_ball = d / 2 * math.log(math.pi) - math.lgamma(d / 2 + 1)
+    return math.exp((math.log(share * d) - log_ball) / d)
+
+
 def bound(n: int, d: int, edge: float) -> float:
     """Real numbers bound by the amplitudes below the edge: integer vectors with 0 < nu < edge, both halves.
 
