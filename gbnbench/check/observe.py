@@ -92,11 +92,12 @@ def _sets(case: Case, seed: int) -> Mapping[str, Values]:
 def _field(case: Case, seed: int) -> Mapping[str, Values]:
     from gbnbench.generators.gbn import energy
 
-    at = energy.field(case.n, case.d, case.sigma, case.precision)(fixed_points(case.n, case.d, seed))
+    x = fixed_points(case.n, case.d, seed)
+    at = energy.field(case.n, case.d, case.sigma, case.precision)(x[None])
     return {
-        "excess": (float(at.excess),),
-        "gradient": tuple(listed(at.gradient).tolist()),
-        "gradient_norm": (float(np.linalg.norm(at.gradient)),),
+        "excess": (float(at.excess[0]),),
+        "gradient": tuple(listed(at.gradient[0]).tolist()),
+        "gradient_norm": (float(np.linalg.norm(at.gradient[0])),),
     }
 
 
