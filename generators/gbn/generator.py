@@ -61,7 +61,7 @@ class GaussianBlueNoise:
     projection_edge : float
         Highest nu, in its own spacings, that the energy of a projection sees; 0 for all.
     polish : float
-        An extension of the paper: empty the band 0 < nu < polish afterwards, 0.25 say; 0 leaves it.
+        An extension of the paper: empty the band 0 < nu <= polish afterwards, 0.25 say; 0 leaves it.
 
     Notes
     -----

@@ -6,9 +6,11 @@ from gbnbench.errors import RefusalError
 from gbnbench.generators.newton.reach import reach
 from gbnbench.torus import FloatArray
 
+WITH_ITS_END = 1e-9  # of the edge: shells that lie on it belong to the band
+
 
 def polished(x: FloatArray, edge: float) -> FloatArray:
-    """Empty the band 0 < nu < edge of one set.
+    """Empty the band 0 < nu <= edge of one set.
 
     Parameters
     ----------
@@ -23,7 +25,7 @@ def polished(x: FloatArray, edge: float) -> FloatArray:
     RefusalError
         If the band cannot be emptied.
     """
-    outcome = reach(x, 0.0, edge)
+    outcome = reach(x, 0.0, edge * (1 + WITH_ITS_END))
     if not outcome.converged:
         raise RefusalError(f"polish={edge:g} cannot empty its band: {outcome.reason}; take a lower edge")
     return outcome.x

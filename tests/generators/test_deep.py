@@ -9,7 +9,9 @@ import pytest
 
 import gbnbench
 from gbnbench.errors import FormatError, InputError, RefusalError
-from gbnbench.generators.deep import Deep, default_edge
+from gbnbench.generators.deep import BOUND, Deep
+from gbnbench.generators.gbn.generator import GaussianBlueNoise
+from gbnbench.generators.newton.modes import edge_of
 from gbnbench.generators.newton.reach import Outcome
 from gbnbench.generators.profile import Exponential, Table
 from gbnbench.generators.protocol import realization_rng
@@ -75,10 +77,10 @@ def test_every_dimension_follows_its_profile_down_to_rounding(n, d):
 
 
 def test_the_default_edge_binds_one_share_in_every_dimension():
-    assert default_edge(2) == pytest.approx(0.72, rel=1e-12)
+    assert edge_of(BOUND, 2) == pytest.approx(0.72, rel=1e-12)
     for d in range(1, 9):
         ball = math.pi ** (d / 2) / math.gamma(d / 2 + 1)
-        assert ball * default_edge(d) ** d / d == pytest.approx(math.pi * 0.72**2 / 2, rel=1e-12)
+        assert ball * edge_of(BOUND, d) ** d / d == pytest.approx(math.pi * 0.72**2 / 2, rel=1e-12)
 
 
 def test_the_default_steepness_has_one_depth_in_every_dimension():
@@ -189,17 +191,45 @@ class TestRefusals:
     def test_a_start_that_fails_is_drawn_longer_and_then_refused(self, monkeypatch):
         asked = []
 
-        def never(x, target, edge, *, steps):
+        def never(x, target, edge, **_):
             return Outcome(x, 7.0, 3, 9, False, "it was not to be")
 
-        def counted(n, d, rng, gradients):
-            asked.append(gradients)
-            return rng.random((n, d))
+        class Counted(GaussianBlueNoise):
+            def draw(self, n, d, rngs, watch):
+                asked.append(self.gradients)
+                return super().draw(n, d, rngs, watch)
 
         monkeypatch.setattr("gbnbench.generators.deep.reach", never)
-        monkeypatch.setattr("gbnbench.generators.deep.start", counted)
+        monkeypatch.setattr("gbnbench.generators.deep.GaussianBlueNoise", Counted)
         with pytest.raises(
             RefusalError, match=r"n=64 points in d=2 do not reach .* not to be; lower the edge"
         ):
             Deep()(64, 2, realization_rng(0, 0))
         assert asked == [100, 300, 1000]
+
+
+def test_sets_are_the_same_drawn_alone_or_together_and_say_how_far_they_are():
+    from gbnbench.generators.registry import generate
+    from gbnbench.generators.watch import Trace, Watch
+
+    told, trace = [], Trace()
+    watch = Watch(progress=lambda done, total, doing: told.append((done, total, doing)), trace=trace)
+    together = generate("deep", n=100, seed=4, realizations=3, watch=watch)
+    assert np.array_equal(together[0], generate("deep", n=100, seed=4))
+    counts = [done for done, _, _ in told]
+    assert counts == sorted(counts)
+    assert counts[-1] < told[-1][1]
+    assert "deep, set 3" in told[-1][2]
+    assert trace.to_frame().gradient.max() == 100
+
+
+def test_a_start_goes_on_from_its_checkpoint(tmp_path):
+    from gbnbench.generators.registry import generate
+    from gbnbench.generators.watch import Watch
+
+    kept = Watch(checkpoint=tmp_path / "state", seconds=0)
+    once = generate("deep", n=100, seed=4, realizations=2, watch=kept)
+    counted = []
+    again = Watch(progress=lambda *told: counted.append(told), checkpoint=tmp_path / "state", seconds=0)
+    assert np.array_equal(once, generate("deep", n=100, seed=4, realizations=2, watch=again))
+    assert all("deep" in doing for _, _, doing in counted)  # the descent was done
