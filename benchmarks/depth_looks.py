@@ -14,8 +14,11 @@ from typing import Any
 import numpy as np
 
 from gbnbench.analysis.anisotropy import anisotropy
-from gbnbench.analysis.measures import measures
+from gbnbench.analysis.bond_order import psi6
+from gbnbench.analysis.delaunay import neighbours, valence6
+from gbnbench.analysis.distances import mean_distance, min_distance
 from gbnbench.analysis.periodogram import periodogram
+from gbnbench.analysis.profile import noise_floor, peak
 from gbnbench.analysis.radial import radial
 from gbnbench.analysis.rdf import rdf
 from gbnbench.benchmarks.depth_order import beyond
@@ -31,12 +34,9 @@ SOURCES = (
 SETS = 16
 EDGE = 0.72  # where the band beyond the edge begins, the same for every source
 WAVES = ((2.0, 4.0), (4.0, 6.0))  # densest spacings
-TAKEN = (
-    "noise_floor", "peak", "peak_nu", "valence6", "psi6", "min_distance", "mean_distance", "anisotropy_db",
-    "effective_nyquist", "oscillations",
-)  # fmt: skip
 COLUMNS = (
-    "source", "sets", *TAKEN, "beyond_mean", "beyond_ring", "rdf_peak", "waves_2_4", "waves_4_6",
+    "source", "sets", "noise_floor", "peak", "peak_nu", "valence6", "psi6", "min_distance", "mean_distance",
+    "beyond_mean", "beyond_ring", "rdf_peak", "waves_2_4", "waves_4_6",
     "anisotropy_below_db", "anisotropy_edge_db", "anisotropy_expected_db",
 )  # fmt: skip
 
@@ -52,15 +52,23 @@ def waves(x: FloatArray) -> tuple[float, list[float]]:
 
 def row(source: str, x: FloatArray) -> dict[str, Any]:
     """Everything that is looked at, of sets (realizations, n, 2)."""
-    found = measures(x)
     spectrum = periodogram(x, math.ceil(2 * math.sqrt(x.shape[1])) + 1)
-    mean, ring = beyond(radial(spectrum), EDGE)
+    shells = radial(spectrum)
+    mean, ring = beyond(shells, EDGE)
+    plane = neighbours(x)
+    height, nu = peak(shells)
     rings = anisotropy(spectrum)
     top, (near, far) = waves(x)
     return {
         "source": source,
         "sets": len(x),
-        **{name: found[name] for name in TAKEN},
+        "noise_floor": noise_floor(shells),
+        "peak": height,
+        "peak_nu": nu,
+        "valence6": float(valence6(plane).mean()),
+        "psi6": float(psi6(plane).mean()),
+        "min_distance": float(min_distance(x).mean()),
+        "mean_distance": float(mean_distance(x).mean()),
         "beyond_mean": mean,
         "beyond_ring": ring,
         "rdf_peak": top,
@@ -72,13 +80,17 @@ def row(source: str, x: FloatArray) -> dict[str, Any]:
     }
 
 
-def rows(sources: Sequence[str], folders: Sequence[Path], n: int = 1024, sets: int = SETS) -> Iterator[dict[str, Any]]:
+def rows(
+    sources: Sequence[str], folders: Sequence[Path], n: int = 1024, sets: int = SETS
+) -> Iterator[dict[str, Any]]:
     """One row a generator, then one a folder of files."""
     for source in sources:
         yield row(source, generate(source, n=n, d=2, realizations=sets).reshape(sets, n, 2))
     for folder in folders:
         files = sorted(path for path in folder.iterdir() if path.suffix in {".txt", ".dat"})
-        yield row(folder.name, as_realizations(np.concatenate([as_realizations(load(file)) for file in files])))
+        yield row(
+            folder.name, as_realizations(np.concatenate([as_realizations(load(file)) for file in files]))
+        )
 
 
 def main(arguments: list[str]) -> None:
