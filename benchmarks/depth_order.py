@@ -6,6 +6,7 @@ python -m gbnbench.benchmarks.depth_order benchmarks/results/deep/depth_order.cs
 from __future__ import annotations
 
 import csv
+import json
 import math
 import sys
 import time
@@ -24,7 +25,7 @@ from gbnbench.analysis.periodogram import periodogram
 from gbnbench.analysis.profile import evacuated_energy, noise_floor, peak, power_at_1
 from gbnbench.analysis.radial import radial
 from gbnbench.analysis.shells import exact_shells
-from gbnbench.benchmarks.machine import Rows
+from gbnbench.benchmarks.machine import Rows, describe
 from gbnbench.errors import RefusalError
 from gbnbench.generators.deep import start
 from gbnbench.generators.gbn.energy import field
@@ -80,7 +81,10 @@ MAPS = (
         1024, 2, (4, 6, 8, 10, 12, 16), (0.55, 0.6, 0.65, 0.7, 0.72, 0.74, 0.76, 0.78), (25, 50, 100, 200),
         (100, 320, 1000), 3, 0.72,
     ),
-    Map(1000, 3, (4, 8, 12), (0.72, 0.76, 0.8, 0.835, 0.86, 0.88), (30, 120), (60, 320, 1000), 2, 0.8),
+    Map(1000, 3, (4, 8, 12), (0.72, 0.76, 0.8, 0.835, 0.86, 0.88), (15, 60, 240), (60, 320, 1000), 2, 0.8),
+    # Few points and starts from none on: where sets fail.
+    Map(64, 2, (8, 12), (0.72, 0.76, 0.78), (0, 25, 100), (), 8, 0.72),
+    Map(256, 2, (8, 12), (0.72, 0.76, 0.78), (0, 25, 100), (), 4, 0.72),
 )  # fmt: skip
 
 
@@ -144,19 +148,22 @@ def rows(plan: Map, done: set[tuple[str, ...]]) -> Iterator[dict[str, Any]]:
     start(plan.n, plan.d, realization_rng(0, 0), 2)  # builds the kernels
     for seed in range(plan.seeds):
         for gradients in sorted({*plan.starts, *plan.gbn}):
-            key = ("gbn", plan.n, plan.d, math.nan, math.nan, gradients, seed)
+            targets = [(c, edge) for c in plan.c for edge in plan.edges] if gradients in plan.starts else []
+            beside = ("gbn", plan.n, plan.d, math.nan, math.nan, gradients, seed)
+            keys = [beside, *(("deep", plan.n, plan.d, c, edge, gradients, seed) for c, edge in targets)]
+            keys = [key for key in keys if text(key) not in done]
+            if not keys:
+                continue
             before = time.process_time()
             x = start(plan.n, plan.d, realization_rng(seed, 0), gradients)
             seconds = time.process_time() - before
-            if text(key) not in done:
-                yield row(key, x, plan.edge, chi=math.nan, converged=True, steps=0, products=0, cpu_s=seconds)
-            if gradients not in plan.starts:
-                continue
-            for c in plan.c:
-                for edge in plan.edges:
-                    key = ("deep", plan.n, plan.d, c, edge, gradients, seed)
-                    if text(key) not in done:
-                        yield deepened(key, x, seconds)
+            for key in keys:
+                if key is beside:
+                    yield row(
+                        key, x, plan.edge, chi=math.nan, converged=True, steps=0, products=0, cpu_s=seconds
+                    )
+                else:
+                    yield deepened(key, x, seconds)
 
 
 def deepened(key: tuple[Any, ...], x: FloatArray, seconds: float) -> dict[str, Any]:
@@ -186,6 +193,7 @@ def main(arguments: list[str], maps: tuple[Map, ...] = MAPS) -> None:
         with path.open(newline="", encoding="utf-8") as file:
             kept = list(csv.DictReader(file))
     path.parent.mkdir(parents=True, exist_ok=True)
+    path.with_name("machine.json").write_text(json.dumps(describe(), indent=1) + "\n", encoding="utf-8")
     with Rows(path, COLUMNS) as table:
         for old in kept:
             table.add(old)

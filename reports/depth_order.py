@@ -32,7 +32,7 @@ BESIDE: dict[str, Any] = {
 CAPTION = (
     "Means over {seeds} seeds; n = {n}, d = {d}. A curve a steepness c of P = exp(-c (edge² - nu²)), a point "
     "an edge from {low:g} to {high:g}; all from {start} gradients of Gaussian Blue Noise but for the last "
-    "panel. Bars: least and most of the seeds. 2 chi = V_d edge^d / d is the share of the coordinates that the "
+    "panel. Bars: least and most of the seeds. 2 chi = V_d edge^d / d: share of the coordinates that the "
     "band binds. Grey lines, and numbers beside squares: Gaussian Blue Noise (GBN) after so many gradients. "
     "Floors below 1e-28 are rounding. Starts that did not converge: {failed} of {tried}."
 )
@@ -70,7 +70,7 @@ def figure(table: pd.DataFrame, n: int = 1024, d: int = 2, start: int = 100) -> 
     )  # fmt: skip
     sheet = style.sheet(
         "What depth costs in order", caption, len(ORDER) + 2, 2.35, [1.9], columns=3, left=0.6,
-        between=0.62, under=0.44, key=0.36, titles=True,
+        between=0.92, right=0.5, under=0.44, key=0.36, titles=True,
     )  # fmt: skip
     looks = dict(zip(steep, zip(_colours(len(steep)), MARKERS, strict=False), strict=True))
     axes = [stack[0] for stack in sheet.cells]
@@ -121,8 +121,8 @@ def _reference(ax: Axes, gbn: pd.DataFrame, name: str) -> None:
         if gradients in REFERENCES:
             ax.axhline(value, color="#9aa3af", linewidth=0.8, zorder=1)
             ax.annotate(
-                f"GBN {gradients:,}", (0.015, value), xycoords=("axes fraction", "data"), xytext=(0, 1.5),
-                textcoords="offset points", size=6, color=style.FAINT,
+                f"GBN\n{gradients:,}", (1.01, value), xycoords=("axes fraction", "data"), va="center", size=6,
+                color=style.FAINT, linespacing=0.95,
             )  # fmt: skip
 
 
@@ -175,7 +175,7 @@ def main(arguments: list[str]) -> None:
     """Draw the table into each file named after it, .png or .pdf."""
     drawn = figure(pd.read_csv(arguments[0]))
     for path in arguments[1:]:
-        drawn.savefig(path, dpi=style.DPI)
+        drawn.savefig(path, dpi=style.DPI * 0.85)
 
 
 if __name__ == "__main__":
