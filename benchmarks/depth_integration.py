@@ -191,7 +191,7 @@ class Family:
 FAMILIES = {
     "64 Gaussians": Family(bumps, 12, Bumps.energy),
     "half space": Family(half_space, 200),
-    "Korobov": Family(korobov, 6, Korobov.energy),
+    "Korobov": Family(korobov, 100, Korobov.energy),
 }
 
 
