@@ -139,7 +139,14 @@ def _depth(ax: Axes, here: pd.DataFrame, gbn: pd.DataFrame, looks: dict[float, t
     for gradients, x, y in zip(gbn.gradients, gbn.psi6, gbn.noise_floor, strict=True):
         if gradients in REFERENCES:
             ax.annotate(
-                f"{gradients:,}", (x, y), xytext=(3, 3), textcoords="offset points", size=6, color=style.FAINT
+                f"{gradients:,}",
+                (x, y),
+                xytext=(3, 4),
+                textcoords="offset points",
+                size=6,
+                color=style.FAINT,
+                bbox={"facecolor": "white", "alpha": 0.8, "edgecolor": "none", "pad": 0.4},
+                zorder=5,
             )
     ax.yaxis.set_major_locator(LogLocator(numticks=7))
     ax.yaxis.set_minor_locator(NullLocator())
