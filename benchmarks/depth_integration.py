@@ -21,9 +21,11 @@ from gbnbench.generators.registry import find, generate
 from gbnbench.torus import FloatArray
 
 SOURCES = (
-    "random", "jittered", "sobol", "gbn[gradients=320]", "gbn[gradients=1000]", "deep",
-    "deep[edge={lower}]", "deep[edge={higher}]", "deep[c=39.4784]", "deep[c=98.696]", "deep[c=118.4353]",
-    "deep[c=118.4353,edge={lower}]", "deep[gradients=200]",
+    "random", "jittered", "sobol", "gbn[gradients=320]", "gbn[gradients=1000]",
+    "deep[c=78.9568,gradients=100]", "deep[c=78.9568,edge={lower},gradients=100]",
+    "deep[c=78.9568,edge={higher},gradients=100]", "deep[c=39.4784,gradients=100]",
+    "deep[c=98.696,gradients=100]", "deep[c=118.4353,gradients=100]",
+    "deep[c=118.4353,edge={lower},gradients=100]", "deep[c=78.9568,gradients=200]", "deep",
 )  # fmt: skip
 # n, d, the edges named above, largest harmonic of the predicted variance.
 CASES = ((1024, 2, {"lower": 0.68, "higher": 0.76}, 96), (1000, 3, {"lower": 0.8, "higher": 0.86}, 24))

@@ -28,9 +28,11 @@ from gbnbench.points import load
 from gbnbench.torus import FloatArray, as_realizations
 
 SOURCES = (
-    "gbn[gradients=320]", "gbn[gradients=1000]", "deep", "deep[c=98.696]", "deep[edge=0.68]",
-    "deep[edge=0.76]", "deep[c=118.4353,edge=0.7]", "deep[gradients=200]", "deep[gradients=320]",
-    "deep[gradients=200,edge=0.76]",
+    "gbn[gradients=320]", "gbn[gradients=1000]", "deep[c=78.9568,gradients=100]",
+    "deep[c=98.696,gradients=100]", "deep[c=78.9568,edge=0.68,gradients=100]",
+    "deep[c=78.9568,edge=0.76,gradients=100]", "deep[c=118.4353,edge=0.7,gradients=100]",
+    "deep[c=78.9568,gradients=200]", "deep[c=78.9568,gradients=320]",
+    "deep[c=78.9568,edge=0.76,gradients=200]", "deep",
 )  # fmt: skip
 SETS = 16
 EDGE = 0.72  # where the band beyond the edge begins, the same for every source

@@ -27,8 +27,8 @@ from gbnbench.analysis.radial import radial
 from gbnbench.analysis.shells import exact_shells
 from gbnbench.benchmarks.machine import Rows, describe
 from gbnbench.errors import RefusalError
-from gbnbench.generators.deep import start
 from gbnbench.generators.gbn.energy import field
+from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.newton.reach import reach
 from gbnbench.generators.profile import Exponential
 from gbnbench.generators.protocol import realization_rng
@@ -145,7 +145,7 @@ def or_nan(compute: Callable[[], float]) -> float:
 
 def rows(plan: Map, done: set[tuple[str, ...]]) -> Iterator[dict[str, Any]]:
     """One row a set, but for those whose keys, as text, are done."""
-    start(plan.n, plan.d, realization_rng(0, 0), 2)  # builds the kernels
+    GaussianBlueNoise(gradients=2)(plan.n, plan.d, realization_rng(0, 0))  # builds the kernels
     for seed in range(plan.seeds):
         for gradients in sorted({*plan.starts, *plan.gbn}):
             targets = [(c, edge) for c in plan.c for edge in plan.edges] if gradients in plan.starts else []
@@ -155,7 +155,7 @@ def rows(plan: Map, done: set[tuple[str, ...]]) -> Iterator[dict[str, Any]]:
             if not keys:
                 continue
             before = time.process_time()
-            x = start(plan.n, plan.d, realization_rng(seed, 0), gradients)
+            x = GaussianBlueNoise(gradients=gradients)(plan.n, plan.d, realization_rng(seed, 0))
             seconds = time.process_time() - before
             for key in keys:
                 if key is beside:

@@ -20,7 +20,7 @@ from gbnbench.generators.watch import Watch
 from gbnbench.torus import FloatArray
 
 BOUND = math.pi * 0.72**2 / 2  # share of the coordinates that the default edge binds, in any dimension
-DEPTH = 8 * math.pi**2 * 0.72**2  # c edge**2 by default: a power of 1.7e-18 at nu = 0, in any dimension
+DEPTH = 10 * math.pi**2 * 0.72**2  # c edge**2 by default: a power of 6e-23 at nu = 0, in any dimension
 MOST_BOUND = 0.995  # up to .992 sets were seen to converge, slowly
 WORK = 5e14  # operations: some hours; a million points in the plane come to half of it
 STEPS = 60  # five to ten are usual, forty where nearly every coordinate is bound
@@ -45,14 +45,14 @@ class Deep:
     ----------
     c : float or None
         Steepness of the profile P = exp(-c (edge**2 - nu**2)), > 0; Gaussian Blue Noise has 4 pi**2. By
-        default exp(-c edge**2) is 1.7e-18, with the default edge 8 pi**2 in the plane.
+        default exp(-c edge**2) is 6e-23, with the default edge 10 pi**2 in the plane.
     edge : float or None
         Where it ends, in nu; by default 0.72 in the plane and elsewhere what binds as many coordinates.
     target : str, callable, (k, 2) array_like or None
         A profile of your own in place of the exponential: a CSV of nu and power, a function of nu, or a
         table. A table ends at its last nu unless ``edge`` is less.
     gradients : int
-        Of the start: more give more order.
+        Of the start: more give more order and more even sets; 100 the least order.
 
     Raises
     ------
@@ -73,7 +73,7 @@ class Deep:
     c: float | None = None
     edge: float | None = None
     target: Target = field(default=None, metadata={"read": _as_target})
-    gradients: int = 100
+    gradients: int = 200
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "target", _as_target(self.target))
