@@ -24,6 +24,8 @@ QUICK_PERIODOGRAMS = ((131, 2, 11), (29, 5, 1))
 # n, d, sigma: wide boxes, then narrow ones, each by every evaluation that serves it.
 ENERGIES = ((613, 2, 0.9), (401, 1, 1.0), (83, 2, 1.0), (53, 3, 0.7), (37, 8, 1.0))
 QUICK_ENERGIES = ((401, 2, 1.0), (53, 3, 0.7))
+QUICK_BOXES = ((90, 2, 1.0),)
+BOXES = (*QUICK_BOXES, (1500, 2, 0.5), (120, 3, 1.0), (60, 8, 1.0))
 SWEEP, QUICK_SWEEP = 101, 41  # points of the farthest-point kernel's sweep
 DISTANCE = 1e-9  # a sweep's departure, in box sides
 AMPLITUDE = {"double": 1e-14, "float": 2e-6}  # error allowed, over sqrt(n)
@@ -158,6 +160,33 @@ def _energy(n: int, d: int, sigma: float, precision: str) -> Iterator[Check]:
         )
 
 
+def numpy_box_gradient(x: FloatArray, sigma: float) -> FloatArray:
+    """Gradient of the box's energy, pairs less the pull of a uniform density (Eq. 24-26): (n, d) float64."""
+    from scipy.special import erf
+
+    n, d = x.shape
+    side, root = 1 / spacing(n, d), np.sqrt(2) * sigma
+    u = x * side
+    apart = u[:, None] - u[None]
+    pairs = np.exp(-(apart**2).sum(axis=-1) / (2 * sigma**2))
+    within = sigma * np.sqrt(np.pi / 2) * (erf((side - u) / root) + erf(u / root))
+    slope = np.exp(-((u / root) ** 2)) - np.exp(-(((side - u) / root) ** 2))
+    pull = np.stack([slope[:, a] * np.prod(np.delete(within, a, axis=1), axis=1) for a in range(d)], axis=1)
+    return np.asarray(-(pairs[..., None] * apart).sum(axis=1) / sigma**2 - pull)
+
+
+def _box(n: int, d: int, sigma: float, precision: str) -> Iterator[Check]:
+    from gbnbench.generators.gbn.box import BoxField
+
+    x = np.random.default_rng(n).random((2, n, d))
+    expected = np.stack([numpy_box_gradient(one, sigma) for one in x])
+    field = BoxField(n, d, sigma, precision)
+    error = float(np.max(np.abs(field(x).gradient - expected)) / np.max(np.abs(expected)))
+    yield Check(
+        f"gbn gradient, {field.method}", f"n={n} d={d} sigma={sigma}", precision, error, GRADIENT[precision]
+    )
+
+
 def _farthest_points(n: int, precision: str) -> Iterator[Check]:
     from gbnbench.generators.sweeps import Sweeps, move_afresh
 
@@ -190,6 +219,7 @@ def examine(quick: bool = False) -> Examination:
         work: list[tuple[Callable[..., Iterator[Check]], tuple[float, ...]]] = [
             *((_periodogram, case) for case in (QUICK_PERIODOGRAMS if quick else PERIODOGRAMS)),
             *((_energy, case) for case in (QUICK_ENERGIES if quick else ENERGIES)),
+            *((_box, case) for case in (QUICK_BOXES if quick else BOXES)),
         ]
         if precision == "double":
             work.append((_farthest_points, (QUICK_SWEEP if quick else SWEEP,)))
