@@ -21,7 +21,7 @@ from gbnbench.generators.settings import configure, nearest, parse
 from gbnbench.generators.sobol import Sobol
 from gbnbench.generators.stealthy import Stealthy
 from gbnbench.generators.uniform import Uniform
-from gbnbench.generators.watch import Watch, Watchable
+from gbnbench.generators.watch import Watch, Watchable, only_progress
 from gbnbench.torus import FloatArray
 
 GENERATORS: dict[str, type[Generator]] = {
@@ -130,11 +130,7 @@ def generate(
 def _draw(generator: Generator, n: int, d: int, rngs: list[np.random.Generator], watch: Watch) -> FloatArray:
     if isinstance(generator, Watchable):
         return generator.draw(n, d, rngs, watch)
-    for what in ("trace", "checkpoint"):
-        if getattr(watch, what) is not None:
-            raise InputError(
-                f"{generator.name} has no {what}: it is for generators that optimise, such as gbn"
-            )
+    only_progress(watch, generator.name)
     sets = []
     for k, rng in enumerate(rngs):
         sets.append(generator(n, d, rng))

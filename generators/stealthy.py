@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
@@ -16,6 +17,7 @@ from gbnbench.generators.newton.gram import gram
 from gbnbench.generators.newton.modes import bound, edge_of, modes
 from gbnbench.generators.newton.reach import reach
 from gbnbench.generators.newton.waves import Waves
+from gbnbench.generators.watch import Watch, only_progress
 from gbnbench.torus import FloatArray, wrap
 
 SHARE = 0.6  # of the coordinates that the default edge binds, in any dimension
@@ -26,6 +28,7 @@ SIGMA = 1.0  # of the truncated energy
 FORCING = 1e-4  # residual of the last step's linear solve
 PRODUCTS = 3000
 CHUNK = 50  # gradients between two looks at the band
+USUAL = 10  # Gauss-Newton steps that progress expects
 
 
 def band_power(x: FloatArray, edge: float) -> FloatArray:
@@ -117,23 +120,35 @@ class Stealthy:
         return None
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
-        """Draw one realization; see ``Generator``.
+        """Draw one realization; see ``Generator`` and ``draw``."""
+        one: FloatArray = self.draw(n, d, [rng], Watch())[0]
+        return one
+
+    def draw(self, n: int, d: int, rngs: Sequence[np.random.Generator], watch: Watch) -> FloatArray:
+        """Draw one set from each stream; see ``Watchable``. There is progress alone.
 
         Raises
         ------
+        InputError
+            If a trace or a checkpoint is asked for.
         RefusalError
             Where ``refusal`` has a reason, or the band was not reached.
         """
+        only_progress(watch, self.name)
         if reason := self.refusal(n, d):
             raise RefusalError(reason)
+        return np.stack([self._one(n, d, rng, _Told(watch, k, len(rngs))) for k, rng in enumerate(rngs)])
+
+    def _one(self, n: int, d: int, rng: np.random.Generator, told: _Told) -> FloatArray:
         x, edge = rng.random((n, d)), self._edge(d)
         if not len(modes(n, d, edge)):  # a box of few points has no frequency so low
             return x
         if self.method == "harmonics":
-            return self._descended(x, edge)
+            return self._descended(x, edge, told)
         gradients = (300 if d == 1 else 30) if self.gradients is None else self.gradients
         for times in LONGER:
-            outcome = reach(wrap(_settled(x, edge, times * gradients).x[0]), 0.0, edge)
+            start = wrap(_settled(x, edge, times * gradients, told).x[0])
+            outcome = reach(start, 0.0, edge, progress=told.step)
             if outcome.converged:
                 return _once_more(outcome.x, edge)
             x = rng.random((n, d))
@@ -142,10 +157,14 @@ class Stealthy:
             f"{len(LONGER)} starts: {outcome.reason}; lower the edge, or raise gradients, now {gradients}"
         )
 
-    def _descended(self, x: FloatArray, edge: float) -> FloatArray:
-        run = _settled(x, edge, 0)
+    def _descended(self, x: FloatArray, edge: float, told: _Told) -> FloatArray:
+        run = _settled(x, edge, 0, told)
         while True:
             left = float(band_power(run.x[0], edge).max())
+            doing = f"{run.gradients} gradients, largest power {left:.1e}"
+            told.share(run.gradients / max(self.most, 1), doing)
+                run.gradients / max(self.most, 1), f"{run.gradients} gradients, largest power {left:.1e}"
+            )
             if left <= self.power:
                 return wrap(run.x[0])
             if run.gradients >= self.most:
@@ -158,12 +177,30 @@ class Stealthy:
                 run.advance()
 
 
-def _settled(x: FloatArray, edge: float, gradients: int) -> Nesterov:
+class _Told:
+    """Progress of one set of several, in hundredths of a set: half for the descent, half for newton."""
+
+    def __init__(self, watch: Watch, k: int, sets: int) -> None:
+        self._progress, self._k, self._sets = watch.progress, k, sets
+
+    def share(self, share: float, doing: str) -> None:
+        """Say which share of this set is done."""
+        if self._progress is not None:
+            done = 100 * self._k + min(99, round(100 * share))
+            self._progress(done, 100 * self._sets, f"stealthy, set {self._k + 1}, {doing}")
+
+    def step(self, step: int, residual: float) -> None:
+        """Say that a Gauss-Newton step is done."""
+        self.share(0.5 + step / (2 * USUAL), f"{residual:.1e} times what is allowed")
+
+
+def _settled(x: FloatArray, edge: float, gradients: int, told: _Told) -> Nesterov:
     """Run the descent of the energy below the edge from one set, (n, d)."""
     n, d = x.shape
     run = Nesterov(field(n, d, SIGMA, "double", edge=edge), x[None], step_size(n, d, SIGMA))
-    for _ in range(gradients):
+    for k in range(gradients):
         run.advance()
+        told.share(k / gradients / 2, f"gradient {k + 1}")
     return run
 
 

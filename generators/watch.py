@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
+from gbnbench.errors import InputError
 from gbnbench.torus import FloatArray
 
 if TYPE_CHECKING:
@@ -104,6 +105,19 @@ class Watch:
     seconds: float = dataclasses.field(
         default_factory=lambda: float(os.environ.get(CHECKPOINT_VARIABLE, CHECKPOINT_SECONDS))
     )
+
+
+def only_progress(watch: Watch, name: str) -> None:
+    """Refuse a trace or a checkpoint that a generator cannot keep.
+
+    Raises
+    ------
+    InputError
+        If one is asked for.
+    """
+    for what in ("trace", "checkpoint"):
+        if getattr(watch, what) is not None:
+            raise InputError(f"{name} has no {what}: gbn and deep have, which optimise in many small steps")
 
 
 @runtime_checkable

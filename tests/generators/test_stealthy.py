@@ -8,9 +8,11 @@ import pytest
 from gbnbench.analysis.periodogram import periodogram
 from gbnbench.analysis.radial import radial
 from gbnbench.errors import InputError, RefusalError
+from gbnbench.generators.newton.modes import edge_of
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.generators.registry import generate
-from gbnbench.generators.stealthy import Stealthy, band_power, edge_of
+from gbnbench.generators.stealthy import Stealthy, band_power
+from gbnbench.generators.watch import Watch
 
 
 def below(x, edge):
@@ -110,3 +112,15 @@ def test_a_band_that_is_not_reached_is_never_returned():
 def test_settings_out_of_range_are_refused(settings):
     with pytest.raises(InputError, match=next(iter(settings))):
         Stealthy(**settings)
+
+
+def test_sets_are_the_same_drawn_alone_or_together_and_say_how_far_they_are():
+    for settings in ({}, {"method": "harmonics"}):
+        told: list[tuple[int, int, str]] = []
+        watch = Watch(progress=lambda *now, told=told: told.append(now))
+        together = generate("stealthy", n=100, seed=2, realizations=2, watch=watch, **settings)
+        assert np.array_equal(together[0], generate("stealthy", n=100, seed=2, **settings))
+        assert {total for _, total, _ in told} == {200}
+        assert all(done < total for done, total, _ in told)
+        assert told[-1][0] >= 100
+        assert "set 2" in told[-1][2]

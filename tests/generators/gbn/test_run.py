@@ -109,8 +109,9 @@ def test_checkpoints_of_other_runs_are_refused(tmp_path):
 def test_generators_without_an_optimiser_say_so(tmp_path):
     with pytest.raises(InputError, match="jittered has no checkpoint"):
         generate("jittered", n=16, watch=Watch(checkpoint=tmp_path / "x"))
-    with pytest.raises(InputError, match="jittered has no trace"):
-        generate("jittered", n=16, watch=Watch(trace=Trace()))
+    for name in ("jittered", "stealthy"):
+        with pytest.raises(InputError, match=f"{name} has no trace"):
+            generate(name, n=16, watch=Watch(trace=Trace()))
 
 
 def test_a_trace_tells_the_energy_that_the_points_have():
