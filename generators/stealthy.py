@@ -163,8 +163,6 @@ class Stealthy:
             left = float(band_power(run.x[0], edge).max())
             doing = f"{run.gradients} gradients, largest power {left:.1e}"
             told.share(run.gradients / max(self.most, 1), doing)
-                run.gradients / max(self.most, 1), f"{run.gradients} gradients, largest power {left:.1e}"
-            )
             if left <= self.power:
                 return wrap(run.x[0])
             if run.gradients >= self.most:

@@ -12,22 +12,18 @@ uniform density, a positive definite form, so that Ex >= 0.
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import erf
 
+from gbnbench.generators.gbn import cost
 from gbnbench.generators.gbn.field import Gradient
+from gbnbench.generators.gbn.images import Images
 from gbnbench.generators.gbn.optimiser import largest_curvature
-from gbnbench.generators.gbn.pencils import Runs, all_pairs, pair_share, pencils
+from gbnbench.generators.gbn.strips import Strips
 from gbnbench.opencl import runtime
 from gbnbench.torus import FloatArray
 
-PACKAGE = "gbnbench.generators"
-CUTOFF = {"double": 9.0, "float": 6.0}  # sigmas beyond which a pair adds less than the precision
-WORTH = 0.5  # share of all pairs below which sorting pays
-FIXED = 2.0**31  # units of a box side, of positions in float
 LARGEST = 1 - 2.0**-53  # the last double below 1
 WIDE = 8.0  # sigmas a side from which the faces do not change the largest curvature
 
@@ -117,7 +113,7 @@ class BoxField:
     """The box's energy for any x: a coordinate beyond a face stands for its mirror image inside.
 
     So the energy is defined wherever an optimiser's step may lead, as on the torus it is by periods, and
-    ``place`` tells where the points are. The pull alone does not keep points inside: a large step, or a start
+    ``fold`` tells where the points are. The pull alone does not keep points inside: a large step, or a start
     on the border, leads out.
 
     Attributes
@@ -138,79 +134,41 @@ class BoxField:
         name = precision or ("double" if chosen.device.has_double else "float")
         self.n, self.d, self.sigma, self.side = n, d, sigma, n ** (1 / d)
         self.curvature = box_curvature(n, d, sigma)
-        self.error = 2e-15 if name == "double" else 2e-6
         self.mirrored = 0
-        self._runtime, self._double, self._lanes = chosen, name == "double", chosen.lanes(name)
-        self._real: type[np.floating[Any]] = np.float64 if self._double else np.float32
-        self._reach = CUTOFF[name] * sigma / self.side
-        self._sorted = pair_share(d, self._reach) < WORTH
-        self.method = "box, cut off" if self._sorted else "box, all pairs"
-        defines = {"DOUBLE": int(self._double), "LANES": self._lanes, "DIM": d}
-        self._kernels = chosen.program(PACKAGE, ("/vector.cl", "/exp.cl", "gbn_box.cl"), defines)
         self._least = domain_energy(self.side, d, sigma)
+        # On a torus with an empty margin as wide as the cut-off no point meets the image of another; twice
+        # as wide as the box, and no nearest image is ever across its border.
+        reach = cost.CUTOFF[name] * sigma
+        margin = (max(self.side, reach) + reach) * cost.MARGIN
+        twice = 2 * max(self.side, reach) * cost.MARGIN
+        strips, images = cost.strips, cost.images(n, d, sigma, name, twice)
+        self._torus: Strips | Images
+        if d <= 3 and strips(n, d, sigma, name, side=margin).effort < images.effort:
+            self._torus = Strips(chosen, n, d, sigma, name, side=margin)
+        else:
+            self._torus = Images(chosen, n, d, sigma, name, twice)
+        self.method = f"box, {self._torus.method}"
+        self.error = 2 * self._torus.error
 
-    def place(self, x: FloatArray) -> FloatArray:
-        """Where the points are, in [0, 1): what an optimiser's result must be passed through."""
-        return fold(x)
+    @property
+    def anchor(self) -> FloatArray | None:
+        """What strips keep between calls; see ``Strips``."""
+        return self._torus.anchor if isinstance(self._torus, Strips) else None
+
+    @anchor.setter
+    def anchor(self, x: FloatArray) -> None:
+        if isinstance(self._torus, Strips):
+            self._torus.anchor = x
 
     def __call__(self, x: FloatArray) -> Gradient:
         """Gradient and excess energy at x, (sets, n, d) float64 in box sides; see ``Field``."""
         mirrored = np.mod(x, 2.0) >= 1
         self.mirrored = int(np.count_nonzero((x < 0) | (x >= 1)))
         inside = fold(x)
-        force, pairs = self._pairs(inside)
+        pairs = self._torus(inside * (self.side / self._torus.side))
         potential, pull = domain_pull(inside * self.side, self.side, self.sigma)
-        gradient = force - pull
+        gradient = pairs.gradient - pull
         gradient[mirrored] *= -1
-        excess = (pairs / 2 - potential.sum(axis=1) + self._least / 2) / self.n
+        domain = potential.sum(axis=1) - self._least / 2
+        excess = pairs.excess - domain / self.n
         return Gradient(gradient, excess)
-
-    def _pairs(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Gradient (sets, n, d) and sum over k and l of the pairs (sets,)."""
-        sets, n, d = x.shape
-        lanes = self._lanes
-        found = [pencils(each, self._reach, lanes) if self._sorted else all_pairs(n, lanes) for each in x]
-        stride = sets * n + lanes  # the last group reads beyond its set
-        rows = np.zeros((d, stride), np.float64)
-        for s, (each, runs) in enumerate(zip(x, found, strict=True)):
-            rows[:, s * n : (s + 1) * n] = each[runs.order].T
-        places: NDArray[Any] = rows if self._double else np.floor(rows * FIXED).astype(np.uint32)
-        first = np.concatenate([runs.first + s * n for s, runs in enumerate(found)]).astype(np.uint32)
-        ranges = np.concatenate([runs.runs + s * n for s, runs in enumerate(found)]).astype(np.uint32)
-        groups, each_row = ranges.shape[:2]
-        chosen, itemsize = self._runtime, np.dtype(self._real).itemsize
-        gradient, energy = (
-            chosen.empty(d * groups * lanes * itemsize),
-            chosen.empty(groups * lanes * itemsize),
-        )
-        held = chosen.upload(places), chosen.upload(first), chosen.upload(ranges)
-        unit = self.side / self.sigma / (1.0 if self._double else FIXED)
-        local = chosen.group
-        self._kernels.run(
-            "gbn_box",
-            (-(-groups // local) * local,),
-            (local,),
-            held[0],
-            np.uint32(stride),
-            held[1],
-            held[2],
-            np.uint32(each_row),
-            np.uint32(groups),
-            self._real(unit),
-            gradient,
-            energy,
-        )
-        force = chosen.download(gradient, np.empty((d, groups * lanes), self._real)).astype(np.float64)
-        total = chosen.download(energy, np.empty(groups * lanes, self._real)).astype(np.float64)
-        return self._back(found, force / self.sigma, total)
-
-    def _back(self, found: list[Runs], force: FloatArray, total: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Slots to points."""
-        gradient = np.empty((len(found), self.n, self.d))
-        pairs, begin = np.empty(len(found)), 0
-        for s, runs in enumerate(found):
-            slot = runs.slot + begin
-            gradient[s, runs.order] = force[:, slot].T
-            pairs[s] = np.sum(total[slot])
-            begin += len(runs.first) * self._lanes
-        return gradient, pairs

@@ -93,7 +93,7 @@ def theta(n: int, d: int, sigma: float, precision: str) -> Cost:
     return Cost("theta", f"all pairs, degree {degree}", n * n, n * n * d * (2.0 * degree + 9), error)
 
 
-def images(n: int, d: int, sigma: float, precision: str) -> Cost:
+def images(n: int, d: int, sigma: float, precision: str, side: float | None = None) -> Cost:
     """All pairs by exponentials: one a pair, and one for each image of each dimension beyond the nearest.
 
     Raises
@@ -101,7 +101,7 @@ def images(n: int, d: int, sigma: float, precision: str) -> Cost:
     RefusalError
         If too many images are within the cut-off.
     """
-    ratio = kernel.side_of(n, d) / sigma
+    ratio = (side or kernel.side_of(n, d)) / sigma
     count = images_needed(ratio, precision)
     if count > MOST_IMAGES:
         raise RefusalError(
@@ -160,7 +160,9 @@ def harmonics(n: int, d: int, sigma: float, precision: str, edge: float | None =
     return Cost("harmonics", f"{volume(d, square):.4g} frequencies", n * products, instructions, error)
 
 
-def strips(n: int, d: int, sigma: float, precision: str, cutoff: float | None = None) -> Cost:
+def strips(
+    n: int, d: int, sigma: float, precision: str, cutoff: float | None = None, side: float | None = None
+) -> Cost:
     """Pairs within the cut-off only, by their nearest image.
 
     Raises
@@ -173,7 +175,7 @@ def strips(n: int, d: int, sigma: float, precision: str, cutoff: float | None = 
     if cutoff is not None and not (math.isfinite(cutoff) and cutoff > 0):
         raise InputError(f"cutoff must be positive, in sigmas; got {cutoff}")
     reach = CUTOFF[precision] if cutoff is None else cutoff
-    ratio = kernel.side_of(n, d) / sigma
+    ratio = (side or kernel.side_of(n, d)) / sigma
     if d > 3:
         raise RefusalError(f"method strips sorts points in 1 to 3 dimensions; got d={d}: theta serves any")
     if ratio < 2 * reach * MARGIN:

@@ -17,15 +17,21 @@ class Images(AllPairs):
     Notes
     -----
     The nearest image alone where the box is twice the cut-off wide, two a dimension down to the cut-off, and
-    so on: one exp a pair, and one for each further image of each dimension.
+    so on: one exp a pair, and one for each further image of each dimension. Where ``side`` is given,
+    the torus's in spacings, the energy is that of the pairs alone, no constant density's taken away.
     """
 
     method = "images"
 
-    def __init__(self, runtime: Runtime, n: int, d: int, sigma: float, precision: str) -> None:
+    def __init__(
+        self, runtime: Runtime, n: int, d: int, sigma: float, precision: str, side: float | None = None
+    ) -> None:
         super().__init__(runtime, n, d, sigma, precision)
+        self.side = side or self.side
         ratio = self.side / self.sigma
-        self.error = cost.images(n, d, self.sigma, precision).error
+        self.error = cost.images(n, d, self.sigma, precision, side).error
+        # What another torus would hold at a constant density has no meaning for these points.
+        self._uniform = 0.0 if side else kernel.uniform_energy(d, self.sigma)
         self.images = cost.images_needed(ratio, precision)
         self._program = self.program("/exp.cl", "gbn_images.cl", IMAGES=self.images)
         self._turn = 1.0 if self.double else 2.0**-32  # box sides that a unit of a position stands for
@@ -36,5 +42,4 @@ class Images(AllPairs):
         slopes, sums = self.sum_pairs(
             self._program, "gbn_images", len(x), at, self.real(ratio), self.real(ratio * self._turn)
         )
-        uniform = kernel.uniform_energy(self.d, self.sigma)
-        return Gradient(slopes / self.sigma, (means(sums) - uniform) / 2)
+        return Gradient(slopes / self.sigma, (means(sums) - self._uniform) / 2)

@@ -36,6 +36,9 @@ class Strips:
     cutoff : float, optional
         Where the kernel itself ends, in sigmas (Section 4.4); without it the kernel is whole and pairs that
         add less than the precision are left out.
+    side : float, optional
+        Of the torus, in spacings, where it is not n^(1/d); the energy is then that of the pairs alone, no
+        constant density's taken away.
 
     Raises
     ------
@@ -51,12 +54,19 @@ class Strips:
     method = "strips"
 
     def __init__(
-        self, runtime: Runtime, n: int, d: int, sigma: float, precision: str, cutoff: float | None = None
+        self,
+        runtime: Runtime,
+        n: int,
+        d: int,
+        sigma: float,
+        precision: str,
+        cutoff: float | None = None,
+        side: float | None = None,
     ) -> None:
-        self.side = n ** (1 / d)
+        self.side = side or n ** (1 / d)
         reach = (cutoff or cost.CUTOFF[precision]) * sigma
         self.n, self.d, self.sigma = n, d, sigma
-        self.error = cost.strips(n, d, sigma, precision, cutoff).error
+        self.error = cost.strips(n, d, sigma, precision, cutoff, side).error
         self._runtime = runtime
         self._double = precision == "double"
         self._real: type[np.floating[Any]] = np.float64 if self._double else np.float32
@@ -70,7 +80,7 @@ class Strips:
         self._groups = n // self._lanes + self._pencils  # at most: each strip rounds up once
         self._capacity = self._groups * self._lanes
         share = 1.0 if cutoff is None else float(chi2.cdf(cutoff**2, d))
-        self._uniform = (2 * math.pi) ** (d / 2) * sigma**d * share
+        self._uniform = 0.0 if side else (2 * math.pi) ** (d / 2) * sigma**d * share
         square = (self.side / sigma) ** 2 * math.log2(math.e) / 2  # r in sides to the exponent of 2
         self._unit = 1.0 if self._double else 2.0**-32  # of a place, in sides
         self._scale = self._real(square * self._unit**2)

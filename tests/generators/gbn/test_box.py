@@ -1,4 +1,4 @@
-"""The box's energy against sums and quadrature; nothing leaves the box; the pencils hold every pair."""
+"""The box's energy against sums and quadrature; nothing leaves the box."""
 
 from __future__ import annotations
 
@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from gbnbench.analysis.edge_density import edge_density
-from gbnbench.generators.gbn import box
+from gbnbench.generators.gbn import cost
 from gbnbench.generators.gbn.box import BoxField, domain_energy, domain_pull, fold
-from gbnbench.generators.gbn.pencils import pencils
 from gbnbench.generators.registry import generate
 from gbnbench.opencl.runtime import Runtime
 
@@ -65,44 +64,16 @@ def test_energy_and_gradient_agree_with_quadrature(n, d, sigma, precision):
 
 @pytest.mark.parametrize(("n", "d", "sigma"), [(900, 2, 0.5), (1500, 3, 0.3), (500, 1, 1.0)])
 @pytest.mark.parametrize("precision", ["double", "float"])
-def test_pencils_give_what_all_pairs_give(monkeypatch, n, d, sigma, precision):
+def test_strips_give_what_all_pairs_give(monkeypatch, n, d, sigma, precision):
     x = np.random.default_rng(d).random((2, n, d))
     cut = BoxField(n, d, sigma, precision)
-    assert cut.method == "box, cut off"
-    monkeypatch.setattr(box, "WORTH", 0.0)
+    assert cut.method == "box, strips"
+    monkeypatch.setitem(cost.SHARE, "strips", 1e-9)
     whole = BoxField(n, d, sigma, precision)
-    assert whole.method == "box, all pairs"
+    assert whole.method == "box, images"
     one, other = cut(x), whole(x)
     assert one.gradient == pytest.approx(other.gradient, abs=20 * ALLOWED[precision])
-    assert one.excess == pytest.approx(other.excess, rel=ALLOWED[precision])
-
-
-@pytest.mark.parametrize(
-    ("n", "d", "reach", "lanes"), [(300, 2, 0.1, 4), (400, 3, 0.2, 8), (50, 1, 0.05, 1), (7, 2, 0.3, 16)]
-)
-def test_pencils_hold_every_pair_within_reach(n, d, reach, lanes):
-    x = np.random.default_rng(n).random((n, d))
-    found = pencils(x, reach, lanes)
-    assert sorted(found.order) == list(range(n))
-    assert len(np.unique(found.slot)) == n
-    ordered = x[found.order]
-    for k in range(n):
-        group, lane = divmod(int(found.slot[k]), lanes)
-        assert found.first[group] + lane == k
-        seen = np.concatenate([np.arange(a, b) for a, b in found.runs[group]])
-        assert len(np.unique(seen)) == len(seen)
-        near = np.flatnonzero(np.linalg.norm(ordered - ordered[k], axis=1) <= reach)
-        assert np.isin(near, seen).all()
-
-
-def test_work_grows_with_n_and_not_with_its_square():
-    """Pairs a point at 4 times the points: the same but for the columns that a group overhangs."""
-    pairs = []
-    for n in (10_000, 40_000):
-        x = np.random.default_rng(0).random((n, 2))
-        runs = pencils(x, 9 / np.sqrt(n), 4).runs
-        pairs.append((runs[..., 1] - runs[..., 0]).sum(axis=1).mean())
-    assert pairs[1] < 1.1 * pairs[0] < 500
+    assert one.excess == pytest.approx(other.excess, rel=ALLOWED[precision], abs=ALLOWED[precision])
 
 
 def test_a_set_is_the_same_in_any_company():
@@ -184,7 +155,7 @@ def test_descent_leaves_no_point_outside_even_from_the_border_with_large_steps(n
             for _ in range(60):
                 step = factor / max(field.curvature, 2 / sigma**2) * field(x).gradient
                 x = x - step / n ** (1 / d)
-            placed = field.place(x)
+            placed = fold(x)
             assert np.all((placed >= 0) & (placed < 1))
             if factor == 1:
                 assert field(x).excess[0] < first
