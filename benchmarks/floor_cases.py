@@ -130,8 +130,8 @@ def full() -> Plan:
     """Under five minutes on one quiet core."""
     cases = (
         Case(256, 1, race(1000, 3162)),
-        Case(256, 2, race(1000, 10_000)),
-        Case(1024, 2, race(1000, 10_000, authors=1000, in_float=3162) + truncated(1000)),
+        Case(256, 2, race(1000, 15_000)),
+        Case(1024, 2, race(1000, 15_000, authors=1000, in_float=3162) + truncated(1000)),
         Case(4096, 2, race(562, 1778)),
         Case(16384, 2, race(320, 320), sets=1),
         Case(1000, 3, race(320, 320, authors=178)),

@@ -12,7 +12,7 @@ import numpy as np
 
 from gbnbench.errors import InputError, RefusalError
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
-from gbnbench.generators.newton.cost import work
+from gbnbench.generators.newton.cost import too_much
 from gbnbench.generators.newton.modes import bound, edge_of
 from gbnbench.generators.newton.reach import reach
 from gbnbench.generators.profile import Exponential, Table
@@ -22,7 +22,6 @@ from gbnbench.torus import FloatArray
 BOUND = math.pi * 0.72**2 / 2  # share of the coordinates that the default edge binds, in any dimension
 DEPTH = 10 * math.pi**2 * 0.72**2  # c edge**2 by default: a power of 6e-23 at nu = 0, in any dimension
 MOST_BOUND = 0.995  # up to .992 sets were seen to converge, slowly
-WORK = 5e14  # operations: some hours; a million points in the plane come to half of it
 STEPS = 60  # five to ten are usual, forty where nearly every coordinate is bound
 LONGER = ((3, 100), (10, 1000))  # further starts: times ``gradients``, and at least so many
 USUAL = 10  # steps that progress expects of a set
@@ -112,13 +111,7 @@ class Deep:
                 f"points in d={d}, and no disordered set can meet more than {MOST_BOUND:.0%}; lower the edge "
                 "or take another n"
             )
-        operations = work(n, d, edge)
-        if operations > WORK:
-            return (
-                f"n={n} points in d={d} up to nu={edge:.4g} are too much work: {operations:.2g} operations, "
-                f"of {WORK:.0e} at most; take fewer points or a lower edge"
-            )
-        return None
+        return too_much(n, d, edge)
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization; see ``Generator`` and ``draw``."""

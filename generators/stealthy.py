@@ -13,6 +13,7 @@ from gbnbench.errors import InputError, RefusalError
 from gbnbench.generators.gbn.energy import field
 from gbnbench.generators.gbn.optimiser import Nesterov, step_size
 from gbnbench.generators.newton.conjugate import solve
+from gbnbench.generators.newton.cost import too_much
 from gbnbench.generators.newton.gram import gram
 from gbnbench.generators.newton.modes import bound, edge_of, modes
 from gbnbench.generators.newton.reach import reach
@@ -22,7 +23,6 @@ from gbnbench.torus import FloatArray, wrap
 
 SHARE = 0.6  # of the coordinates that the default edge binds, in any dimension
 MOST_BOUND = 0.96  # beyond, there are no disordered sets: in 1D they collapse to the grid
-WORK = 1e12  # most points times modes
 LONGER = (1, 3, 10)  # starts for newton, in times of its gradients
 SIGMA = 1.0  # of the truncated energy
 FORCING = 1e-4  # residual of the last step's linear solve
@@ -112,12 +112,7 @@ class Stealthy:
                 f"points in d={d}: only lattices, if any, have it; lower the edge, {edge_of(0.8, d):.3g} "
                 "still leaves disorder"
             )
-        if n * numbers / 2 > WORK:
-            return (
-                f"n={n} points in d={d} have {numbers / 2:.3g} modes below nu={edge:.4g}, too much work: "
-                f"their product must be at most {WORK:.0e}; take fewer points"
-            )
-        return None
+        return too_much(n, d, edge)
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization; see ``Generator`` and ``draw``."""

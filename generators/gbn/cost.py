@@ -19,7 +19,7 @@ LARGEST = 1 << 28  # bytes of buffers beyond which the sets of a call are taken 
 MOST_IMAGES = 9  # a dimension
 WIDEST = 18.0  # sigmas a side that a polynomial of theta serves; powers of the cosine cancel beyond 20
 MARGIN = 1.0 + 1e-9  # of a box over twice the cut-off
-EXP = {"double": 20, "float": 15}  # kernels/exp.cl
+EXP = {"double": 18, "float": 13}  # kernels/exp2.cl
 DISPLACEMENT = {"double": 5, "float": 3}  # nearest image, in sigmas
 WAVE = 8  # a wave of one point, kernels/gbn_harmonics.cl
 

@@ -33,7 +33,7 @@ class Images(AllPairs):
         # What another torus would hold at a constant density has no meaning for these points.
         self._uniform = 0.0 if side else kernel.uniform_energy(d, self.sigma)
         self.images = cost.images_needed(ratio, precision)
-        self._program = self.program("/exp.cl", "gbn_images.cl", IMAGES=self.images)
+        self._program = self.program("/exp2.cl", "gbn_images.cl", IMAGES=self.images)
         self._turn = 1.0 if self.double else 2.0**-32  # box sides that a unit of a position stands for
 
     def _sums(self, x: FloatArray) -> Gradient:

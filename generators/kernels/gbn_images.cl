@@ -7,7 +7,7 @@
  *
  * at (sets * n, DIM): turns in float, so that displacements are exact and nearest by integer wrap; in double, sides
  * from the nearest integer. One work-item sums LANES points of one set over all points of the set, in chunks of CHUNK.
- * Needs vector.cl and exp.cl; rows and items as in gbn_theta.cl.
+ * Needs vector.cl and exp2.cl; rows and items as in gbn_theta.cl.
  */
 #if DOUBLE
 #define PLACE REAL
@@ -58,7 +58,7 @@ __kernel void gbn_images(__global const PLACE *restrict at, const uint sets, con
                 u[a] = displacement(here[a], points[(ulong)l * DIM + a]) * scale;
                 square += u[a] * u[a];
             }
-            REALV g = exp_negative(square * (REAL)0.5);
+            REALV g = exp2_negative(square * (REAL)-0.72134752044448170368);
 #if IMAGES == 1
             #pragma unroll
             for (int a = 0; a < DIM; a++)
@@ -74,7 +74,7 @@ __kernel void gbn_images(__global const PLACE *restrict at, const uint sets, con
                 for (int image = 1; image < IMAGES; image++) {
                     const REAL m = (image + 1) / 2, shift = m * side;
                     const REALV rest = image % 2 ? (REAL)0.5 * shift - far : (REAL)0.5 * shift + far;
-                    const REALV y = exp_negative(shift * rest);
+                    const REALV y = exp2_negative(shift * rest * (REAL)-1.4426950408889634074);
                     value[a] += y;
                     pull += (image % 2 ? shift : -shift) * y;
                 }

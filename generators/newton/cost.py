@@ -9,6 +9,7 @@ from gbnbench.generators.newton.modes import count, squared_reach
 TRANSFORM = 5.0  # a real transform's operations over N log2 N, in the time of a matrix product's; measured
 LARGEST_GRID = 2**28  # 2 GB; two or three are alive at once
 STEPS, PRODUCTS = 8, 300  # of a typical set
+WORK = 5e14  # most operations: some hours; a million points in the plane come to half of it
 
 
 def tables(n: int, d: int, reach: int) -> float:
@@ -44,3 +45,14 @@ def work(n: int, d: int, edge: float) -> float:
         product = transforms(d, reach)
         step += tables(n, d, 4 * reach) / 2
     return STEPS * step + PRODUCTS * product
+
+
+def too_much(n: int, d: int, edge: float) -> str | None:
+    """Why a run would be too long; None where it is not."""
+    operations = work(n, d, edge)
+    if operations <= WORK:
+        return None
+    return (
+        f"n={n} points in d={d} up to nu={edge:.4g} are too much work: {operations:.2g} operations, of "
+        f"{WORK:.0e} at most; take fewer points or a lower edge"
+    )
