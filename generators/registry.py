@@ -16,6 +16,7 @@ from gbnbench.generators.hexagonal import Hexagonal
 from gbnbench.generators.jittered import Jittered
 from gbnbench.generators.latin import LatinHypercube
 from gbnbench.generators.lloyd import Lloyd
+from gbnbench.generators.memory import too_large
 from gbnbench.generators.protocol import Generator, realization_rng
 from gbnbench.generators.settings import configure, nearest, parse
 from gbnbench.generators.sobol import Sobol
@@ -121,6 +122,8 @@ def generate(
     generator = find(name, **settings)
     seed, realizations = _whole("seed", seed, 0), _whole("realizations", realizations, 1)
     n, d = _whole("n", n, 1), _whole("d", d, 1)
+    if reason := too_large(8.0 * realizations * n * d):
+        raise RefusalError(f"{realizations} sets of n={n} points in d={d} {reason}; draw fewer at a time")
     if reason := generator.refusal(n, d):
         raise RefusalError(reason)
     sets = _draw(generator, n, d, [realization_rng(seed, k) for k in range(realizations)], watch or Watch())

@@ -14,12 +14,15 @@ from gbnbench.run import Run, SourceResult
 from gbnbench.torus import FloatArray
 
 # Where power is exactly 0, double precision leaves some 1e-30 and float 1e-13; deep sets reach 1e-26.
+NEAR = 0.25  # of 4 pi^2, within which a fitted c is Gaussian blue noise's
 ZERO = {"double": 1e-27, "float": 1e-12}
 
 
 def guide(sources: list[SourceResult]) -> tuple[float, float] | None:
-    """Epsilon of the source with the deepest fitted profile and the nu where its guide reaches 1."""
-    fits = [s.measures.measured.get("profile_epsilon", math.nan) for s in sources]
+    """Epsilon of the deepest source whose c is near 4 pi^2, and the nu where its guide reaches 1."""
+    measured = [s.measures.measured for s in sources]
+    near = [m for m in measured if abs(m.get("profile_c", math.nan) / (4 * math.pi**2) - 1) <= NEAR]
+    fits = [m.get("profile_epsilon", math.nan) for m in near]
     deep = [e for e in fits if math.isfinite(e) and ZERO["double"] < e < 1e-3]
     if not deep:
         return None
@@ -45,7 +48,8 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
     curve = guide(sources)
     if curve is not None:
         caption += (
-            "Dotted: epsilon exp(4 pi^2 nu^2), the ideal Gaussian blue noise at the deepest fitted epsilon. "
+            "Dotted: epsilon exp(4 pi^2 nu^2), the ideal Gaussian blue noise, at the deepest epsilon fitted "
+            "with c near 4 pi^2. "
         )
     labels = [style.name(source, run, 30) for source in sources]
     room = style.legend_room(labels)

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from gbnbench.torus import FloatArray
 
 
-LOW = 0.25  # nu of the shells of a box's own spectrum that are shown
+LOW, BAND = 0.5, 0.05  # nu to which a box's own spectrum is shown, and of each of its bands
 
 
 @click.command()
@@ -87,15 +87,21 @@ def _tables(x: FloatArray, projections: str | None, box: bool) -> dict[str, pd.D
         from gbnbench.analysis import projections as projected
         from gbnbench.generators.gbn.projective import subsets
 
-        tables["projections"] = projected.frame(projected.projections(x, subsets(projections, d)))
+        found = projected.frame(projected.projections(x, subsets(projections, d)))
+        tables["projections"] = found.dropna(axis=1, how="all")  # a single set has no standard errors
     if box:
+        import numpy as np
+
         from gbnbench.analysis.cosine_power import cosine_power, cosine_radial
         from gbnbench.analysis.edge_density import edge_density
         from gbnbench.analysis.limits import default_fmax
 
-        tables["edge density"] = edge_density(x).to_frame()
+        tables["edge density"] = edge_density(x).to_frame().dropna(axis=1, how="all")
         shells = cosine_radial(cosine_power(x, default_fmax(n, d)), n).to_frame()
-        tables["cosine power"] = shells[shells.nu <= LOW]
+        low = shells[shells.nu <= LOW]
+        band = np.ceil(low.nu / BAND - 1e-9) * BAND
+        total = (low.power * low["count"]).groupby(band).sum() / low.groupby(band)["count"].sum()
+        tables["cosine power"] = total.rename_axis("nu").rename("mean power up to nu").reset_index()
     return tables
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -62,8 +63,17 @@ def generate(
         raise click.UsageError("--spectra-at goes with --trace FILE")
     if trace is not None and trace.suffix != ".csv":
         raise InputError(f"a trace is a .csv file; got {trace}")
+    generator = find(name)
+    for path in (out, trace, checkpoint):
+        _check_folder(path)
+    if checkpoint is not None and checkpoint.absolute() in (out.absolute(), trace and trace.absolute()):
+        raise InputError(f"a checkpoint needs a file of its own; got {checkpoint} for two")
+    steps = getattr(generator, "steps", None)
+    if steps is not None and max(spectra_at, default=0) > steps:
+        raise InputError(
+            f"--spectra-at must be at most {steps}, the gradients of {name}; got {max(spectra_at)}"
+        )
     if explain:
-        generator = find(name)
         tell = getattr(generator, "explain", None)
         click.echo(tell(n, d, realizations) if tell else f"{generator.name}: {generator.summary}")
         return
@@ -80,11 +90,20 @@ def generate(
         if spectra_at:
             beside = trace.with_name(f"{trace.stem}-spectra.csv")
             write_atomically(beside, _spectra(kept).to_csv(index=False).encode())
-            click.echo(
-                f"wrote {beside}: radial power after {', '.join(map(str, sorted(kept.kept)))} gradients"
-            )
+            reached = ", ".join(map(str, sorted(kept.kept))) or "none of so many"
+            click.echo(f"wrote {beside}: radial power after {reached} gradients")
     if checkpoint is not None:
         checkpoint.unlink(missing_ok=True)
+
+
+def _check_folder(path: Path | None) -> None:
+    """Refuse, before any work, a file that could not be written."""
+    if path is None:
+        return
+    if not path.parent.is_dir():
+        raise InputError(f"{path} cannot be written: there is no folder {path.parent}; make it first")
+    if not os.access(path if path.exists() else path.parent, os.W_OK):
+        raise InputError(f"{path} cannot be written: permission denied; give another place")
 
 
 @contextlib.contextmanager
@@ -96,10 +115,11 @@ def _watched(trace: Trace | None, checkpoint: Path | None, quiet: bool) -> Itera
     began = time.monotonic()
     with contextlib.ExitStack() as stack:
         shown: progress.Progress | None = None
-        counted = 0
+        counted = most = 0
 
         def tell(done: int, total: int, doing: str) -> None:
-            nonlocal shown, counted
+            nonlocal shown, counted, most
+            most = total
             if shown is None:
                 if time.monotonic() - began < PATIENCE:
                     return
@@ -111,6 +131,8 @@ def _watched(trace: Trace | None, checkpoint: Path | None, quiet: bool) -> Itera
 
         try:
             yield Watch(tell, trace, checkpoint)
+            if shown is not None:
+                shown.advance("done", most - counted)
         except KeyboardInterrupt:
             if checkpoint is not None and checkpoint.exists():
                 raise KeyboardInterrupt(f"repeat the command to go on from {checkpoint}") from None
@@ -134,6 +156,5 @@ def _spectra(trace: Trace) -> pd.DataFrame:
         frame.insert(0, "gradients", at)
         frame.insert(4, "filtered", radial(spectrum).filtered(1.0).power)
         frames.append(frame)
-    if not frames:
-        raise InputError("none of the counts of --spectra-at was reached")
-    return pd.concat(frames)
+    columns = ["gradients", "frequency", "nu", "power", "filtered", "count"]
+    return pd.concat(frames) if frames else pd.DataFrame(columns=columns)

@@ -121,8 +121,8 @@ class BoxField:
     method : str
         The evaluation of the pairs.
     error : float
-        Bound on the error of a gradient's component, in units of the largest force of one pair, times
-        n^(1/2).
+        Bound on the error of a gradient's component, in units of the largest force of one pair: n pairs
+        that all round alike, as those of tight clusters do. Scattered points come to a root of it.
     curvature : float
         Largest, at a uniform density.
     mirrored : int

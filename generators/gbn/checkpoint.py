@@ -49,7 +49,7 @@ class Checkpoint:
             with np.load(self._path, allow_pickle=False) as archive:
                 state = {name: archive[name] for name in archive.files}
             key = str(state.pop(KEY))
-        except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
+        except (OSError, ValueError, TypeError, KeyError, EOFError, zipfile.BadZipFile):
             raise InputError(
                 f"{self._path} is no checkpoint of gbnbench; give another name, or delete it"
             ) from None

@@ -89,7 +89,7 @@ def theta(n: int, d: int, sigma: float, precision: str) -> Cost:
         )
     degree = kernel.degree(side, sigma, precision)
     # Each pair rounds twice a degree and twice a dimension; n pairs may round alike where points coincide.
-    error = kernel.EPS[precision] * (4 + 2 * degree + 2 * d) * math.sqrt(n)
+    error = kernel.EPS[precision] * (4 + 2 * degree + 2 * d) * n
     return Cost("theta", f"all pairs, degree {degree}", n * n, n * n * d * (2.0 * degree + 9), error)
 
 
@@ -114,7 +114,7 @@ def images(n: int, d: int, sigma: float, precision: str, side: float | None = No
     # Images may cancel: their forces over what is left of them.
     overlap = math.exp(-0.5) / sigma * theta_at_0(n, d, sigma) ** (d - 1) / kernel.largest_force(n, d, sigma)
     terms = 12 + 4 * count + d + _border(ratio, precision)
-    error = kernel.EPS[precision] * terms * max(1.0, overlap) * math.sqrt(n)
+    error = kernel.EPS[precision] * terms * max(1.0, overlap) * n
     return Cost("images", f"all pairs, {count} images a dimension", n * n, float(n * n) * pair, error)
 
 
@@ -156,7 +156,7 @@ def harmonics(n: int, d: int, sigma: float, precision: str, edge: float | None =
     products = volume(d, square) * 1.1 + sum(padded)
     waves = sum(count * axes for count, axes in zip(rows, (lead, d - lead), strict=True))
     instructions = n * (3.0 * products + waves * 4 + WAVE * d * (2 * math.isqrt(square) + 1))
-    error = kernel.EPS[precision] * (12 + 4 * d) * 1.4 * math.sqrt(n)
+    error = kernel.EPS[precision] * (12 + 4 * d) * 1.4 * n
     return Cost("harmonics", f"{volume(d, square):.4g} frequencies", n * products, instructions, error)
 
 
@@ -187,11 +187,11 @@ def strips(
     ball = math.pi ** (d / 2) / math.gamma(d / 2 + 1) * (reach * sigma) ** d
     dimension, rest = STRIP[precision]
     looked_at = n * ball * SPARE[precision][d - 1]
-    error = kernel.EPS[precision] * (16 + d + _border(ratio, precision)) * math.sqrt(n)
+    error = kernel.EPS[precision] * (16 + d + _border(ratio, precision)) * n
     work = looked_at * (dimension * d + rest)
     return Cost("strips", f"pairs within {reach:g} sigmas", looked_at, work, error)
 
 
 def _border(ratio: float, precision: str) -> float:
-    """Bound what a difference across the border rounds: 2^-54 sides in double, 2^-33 for float's turns."""
-    return ratio * (0.85 if precision == "double" else 2.0**-9)
+    """Bound what a difference across the border rounds: 2^-54 sides in double, 2^-33 a turn in float."""
+    return ratio * (0.85 if precision == "double" else 2.0**-7)

@@ -33,8 +33,8 @@ class Field(Protocol):
     method : str
         The evaluation, as a plan names it.
     error : float
-        Bound on the error of a gradient's component, in units of the largest force of one pair
-        times n^(1/2).
+        Bound on the error of a gradient's component, in units of the largest force of one pair: n pairs
+        that all round alike, as those of tight clusters do. Scattered points come to a root of it.
     """
 
     method: str

@@ -19,11 +19,16 @@ from gbnbench.generators.gbn.plan import plan
 from gbnbench.generators.gbn.polish import polished
 from gbnbench.generators.gbn.projective import ProjectiveField, subsets
 from gbnbench.generators.gbn.run import optimise
+from gbnbench.generators.memory import too_large
+from gbnbench.generators.newton.modes import bound
 from gbnbench.generators.settings import specification
 from gbnbench.generators.watch import Watch
 from gbnbench.torus import FloatArray, wrap
 
 PAPER_ITERATIONS = 10_000  # what the paper recommends
+LEAST_CUTOFF = 0.5  # sigmas
+MOST_BOUND = 0.9  # share of the coordinates that polish may bind
+NUMBERS = 30  # doubles a coordinate that a run keeps at once
 
 
 @dataclass(frozen=True)
@@ -101,6 +106,22 @@ class GaussianBlueNoise:
                 f"iterations count the steps of method=descent, gradients those of nesterov; got both "
                 f"method=nesterov and iterations={self.iterations}"
             )
+        descent = bool(self.iterations) or self.method == "descent"
+        if descent and self.gradients != type(self).gradients:
+            raise InputError(
+                "gradients count evaluations of Nesterov's method; for the paper's descent say iterations, "
+                f"got gradients={self.gradients}"
+            )
+        if self.projection_edge and self.projections == "none":
+            raise InputError(
+                f"projection_edge={self.projection_edge:g} goes with projections, such as projections=1; "
+                "got none"
+            )
+        if self.cutoff and self.cutoff < LEAST_CUTOFF:
+            raise InputError(
+                f"cutoff must be 0, for the whole kernel, or at least {LEAST_CUTOFF}; got {self.cutoff}: "
+                "nothing would move"
+            )
         if self.cutoff and self.edge:
             raise InputError(
                 "a kernel is cut off in space or in frequency; got both "
@@ -121,7 +142,14 @@ class GaussianBlueNoise:
 
     def refusal(self, n: int, d: int) -> str | None:
         """Why this energy cannot be had for n points in d dimensions; None for the whole kernel."""
+        if reason := too_large(NUMBERS * 8 * n * d):
+            return f"n={n} points in d={d} {reason}; take fewer points"
         side = n ** (1 / d)
+        if self.polish and bound(n, d, self.polish) > MOST_BOUND * n * d:
+            return (
+                f"polish={self.polish:g} binds {bound(n, d, self.polish):.6g} of the {n * d} coordinates of "
+                f"n={n} points in d={d}; take 0.25 or so"
+            )
         if self.projections != "none":
             try:
                 subsets(self.projections, d)
@@ -152,10 +180,14 @@ class GaussianBlueNoise:
         starts = np.stack([rng.random((n, d)) for rng in rngs])
         if n == 1:
             return starts
-        count = self.iterations or (PAPER_ITERATIONS if self.method == "descent" else self.gradients)
         inside = fold if self.domain == "box" else wrap
-        x = inside(optimise(starts, self._optimiser, count, watch, specification(self), inside))
+        x = inside(optimise(starts, self._optimiser, self.steps, watch, specification(self), inside))
         return np.stack([polished(points, self.polish) for points in x]) if self.polish else x
+
+    @property
+    def steps(self) -> int:
+        """Most evaluations of the energy."""
+        return self.iterations or (PAPER_ITERATIONS if self.method == "descent" else self.gradients)
 
     def explain(self, n: int, d: int, sets: int = 1) -> str:
         """Say how the energy of n points in d dimensions is found, and what the others would cost."""

@@ -119,7 +119,7 @@ class Descent:
             "finished": self.finished,
         }
         if (anchor := getattr(self._field, "anchor", None)) is not None:
-            state["anchor"] = anchor
+            state["anchor"] = np.array(anchor)  # fields sort in place
         return state
 
     def restore(self, state: Mapping[str, NDArray[Any]]) -> None:
@@ -205,7 +205,8 @@ class Nesterov(Descent):
     def state(self) -> dict[str, NDArray[Any]]:
         """Everything that the next steps depend on."""
         state = super().state() | {"y": self._y, "momentum": self._momentum, "recent": self._recent}
-        anchors = [band.anchor for band in self._bands if band.anchor is not None]
+        none = np.full(self.x.shape[1:], np.nan)  # a set that was finished before its band was asked
+        anchors = [none if band.anchor is None else band.anchor for band in self._bands]
         return state | ({"bands": np.array(anchors)} if anchors else {})
 
     def restore(self, state: Mapping[str, NDArray[Any]]) -> None:
@@ -213,8 +214,9 @@ class Nesterov(Descent):
         super().restore(state)
         self._y, self._momentum = np.array(state["y"]), np.array(state["momentum"])
         self._recent = np.array(state["recent"])
-        for band, anchor in zip(self._bands, state.get("bands", ()), strict=False):
-            band.place(anchor)
+        for band, anchor in zip(self._bands, state.get("bands", ()), strict=True):
+            if not np.isnan(anchor).any():
+                band.place(anchor)
 
     def _shorten(self) -> None:
         self._recent = np.concatenate([self._recent[:, 1:], self.excess[:, None]], axis=1)

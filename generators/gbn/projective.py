@@ -59,7 +59,8 @@ def subsets(text: str, d: int) -> tuple[Subset, ...]:
             size = int(part)
             if not 1 <= size < d:
                 raise InputError(
-                    f"projections must be on 1 to {d - 1} of {d} coordinates; got {part!r} in {text!r}. "
+                    f"projections of {d} dimensions are on "
+                    f"{'1 coordinate' if d == 2 else f'1 to {d - 1} coordinates'}; got {part!r} in {text!r}. "
                     f"A lone axis is written +{part}"
                 )
             if math.comb(d, size) > MOST_SUBSETS:

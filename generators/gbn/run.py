@@ -87,15 +87,22 @@ def optimise(
             optimiser.restore(state)
             state = None
         before = batch.start // size * gradients
+        latest: dict[str, NDArray[Any]] | None = None
         while optimiser.gradients < gradients and not optimiser.finished.all():
-            optimiser.advance()
+            try:
+                optimiser.advance()
+            except KeyboardInterrupt:
+                if kept is not None and latest is not None:
+                    kept.save(latest, now=True)
+                raise
             if watch.trace is not None:
                 watch.trace.record(optimiser, batch.start, inside)
             if watch.progress is not None:
                 excess = float(np.nanmax(optimiser.excess))
                 watch.progress(before + optimiser.gradients, total, f"{name}, excess {excess:.1e}")
             if kept is not None:
-                kept.save(_state(ends[: batch.start], watch) | optimiser.state())
+                latest = _state(ends[: batch.start], watch) | optimiser.state()
+                kept.save(latest)
         ends[batch] = optimiser.x
         if kept is not None and batch.stop < sets:
             kept.save(_state(ends[: batch.stop], watch), now=True)

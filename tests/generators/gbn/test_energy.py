@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 
@@ -35,10 +37,10 @@ def check(evaluate, n, d, sigma, precision, x, expected):
     at = evaluate(x[None])
     assert at.gradient.shape == (1, n, d)
     assert at.excess.shape == (1,)
-    allowed = evaluate.error * kernel.largest_force(n, d, sigma) * np.sqrt(n)
+    allowed = evaluate.error * kernel.largest_force(n, d, sigma)
     assert np.abs(at.gradient[0] - gradient).max() <= allowed, evaluate.method
     scale = kernel.uniform_energy(d, sigma) + max(1.0, kernel.uniform_energy(d, sigma) / n)
-    lost = max(1.0, evaluate.error / EXCESS[precision])
+    lost = max(1.0, evaluate.error / math.sqrt(n) / EXCESS[precision])
     assert abs(at.excess[0] - excess) <= EXCESS[precision] * lost * (scale + abs(excess)), evaluate.method
 
 
@@ -137,7 +139,7 @@ def test_single_lanes_in_groups_agree_with_vectors(single, n, d, sigma, precisio
     for kind in (Theta, Images, Harmonics):
         vectors = kind(runtime(), n, d, sigma, precision)(x)
         lanes = kind(single, n, d, sigma, precision)
-        allowed = 2 * lanes.error * kernel.largest_force(n, d, sigma) * np.sqrt(n)
+        allowed = 2 * lanes.error * kernel.largest_force(n, d, sigma)
         assert lanes(x).gradient == pytest.approx(vectors.gradient, abs=allowed, rel=0)
         assert lanes(x).excess == pytest.approx(
             vectors.excess, abs=10 * EXCESS[precision] * (1 + sigma**d * 40)
@@ -228,5 +230,5 @@ def test_where_the_plan_changes_its_mind_both_agree(precision):
         first, *others = serving(n, 2, 1.0, precision)
         assert others
         for other in others:
-            allowed = (first.error + other.error) * kernel.largest_force(n, 2, 1.0) * np.sqrt(n)
+            allowed = (first.error + other.error) * kernel.largest_force(n, 2, 1.0)
             assert np.abs(first(x).gradient - other(x).gradient).max() <= allowed

@@ -40,8 +40,8 @@ def test_every_size_has_an_evaluation(precision):
             for n in (2, 3, 10, 100, 1000, 4096):
                 found = plan(n, d, sigma, precision)
                 assert math.isfinite(found.chosen.effort)
-                across = n ** (1 / d) / sigma * 2.0**-53 * math.sqrt(n)  # coordinates are no finer
-                assert found.error < {"double": 1e-12, "float": 5e-4}[precision] + across
+                across = n ** (1 / d) / sigma * 2.0**-53 * n  # coordinates are no finer
+                assert found.error < {"double": 2e-14, "float": 2e-5}[precision] * n + across
 
 
 def test_the_number_of_sets_changes_the_price_only():

@@ -142,3 +142,20 @@ def test_the_step_is_halved_while_the_energy_rises():
         method.advance()
     assert method.size[0] < 5 * optimiser.step_size(256, 2, 1.0)
     assert method.excess[0] < 1e-3
+
+
+def test_each_set_gets_its_own_band_back():
+    """A set that is finished at its first gradient has no band to restore; the others keep theirs."""
+    x = np.random.default_rng(0).random((2, 2100, 2))
+    energy = field(2100, 2, 1.0)
+    enough = float(energy(x).excess.min()) * (1 + 1e-9)
+    step = optimiser.step_size(2100, 2, 1.0)
+    one, other = (optimiser.Nesterov(field(2100, 2, 1.0), x, step, enough, sigma=1.0) for _ in range(2))
+    one.advance()
+    assert one.finished.sum() == 1
+    other.restore(one.state())
+    for a, b in zip(one._bands, other._bands, strict=True):
+        assert (a.anchor is None) == (b.anchor is None)
+    one.advance()
+    other.advance()
+    assert np.array_equal(one.x, other.x)
