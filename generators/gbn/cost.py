@@ -17,6 +17,7 @@ from gbnbench.generators.gbn.modes import MOST_ROWS, TILE, ball_square, volume
 CUTOFF = {"double": 9.0, "float": 6.0}
 LARGEST = 1 << 28  # bytes of buffers beyond which the sets of a call are taken in several launches
 MOST_IMAGES = 9  # a dimension
+ALL_IMAGES = 12.0  # sigmas a side from which strips sum images in double without losing digits
 WIDEST = 18.0  # sigmas a side that a polynomial of theta serves; powers of the cosine cancel beyond 20
 MARGIN = 1.0 + 1e-9  # of a box over twice the cut-off
 EXP = {"double": 18, "float": 13}  # kernels/exp2.cl
@@ -163,14 +164,15 @@ def harmonics(n: int, d: int, sigma: float, precision: str, edge: float | None =
 def strips(
     n: int, d: int, sigma: float, precision: str, cutoff: float | None = None, side: float | None = None
 ) -> Cost:
-    """Pairs within the cut-off only, by their nearest image.
+    """Pairs within the cut-off only: in double every image of them, in float the nearest.
 
     Raises
     ------
     InputError
         If cutoff is not positive.
     RefusalError
-        In more than 3 dimensions, or where the box is narrower than twice the cut-off.
+        In more than 3 dimensions, or where the box is too narrow: than twice the cut-off in float or with a
+        cutoff of the kernel's own, than 12 sigmas in double, whose forces images cancel in narrower ones.
     """
     if cutoff is not None and not (math.isfinite(cutoff) and cutoff > 0):
         raise InputError(f"cutoff must be positive, in sigmas; got {cutoff}")
@@ -178,11 +180,12 @@ def strips(
     ratio = (side or kernel.side_of(n, d)) / sigma
     if d > 3:
         raise RefusalError(f"method strips sorts points in 1 to 3 dimensions; got d={d}: theta serves any")
-    if ratio < 2 * reach * MARGIN:
-        least = math.ceil((2 * reach * sigma * MARGIN) ** d)
+    narrowest = ALL_IMAGES if cutoff is None and precision == "double" else 2 * reach
+    if ratio < narrowest * MARGIN:
+        least = math.ceil((narrowest * sigma * MARGIN) ** d)
         raise RefusalError(
-            f"the box is {ratio:.4g} sigmas wide, and pairs reach {reach:g} each way: the nearest image is "
-            f"all there is from {2 * reach:g} sigmas, n={least} at this d and sigma"
+            f"the box is {ratio:.4g} sigmas wide; strips within {reach:g} sigmas serve boxes from "
+            f"{narrowest:g} sigmas, n={least} at this d and sigma"
         )
     ball = math.pi ** (d / 2) / math.gamma(d / 2 + 1) * (reach * sigma) ** d
     dimension, rest = STRIP[precision]

@@ -43,7 +43,7 @@ class Strips:
     Raises
     ------
     RefusalError
-        If d is beyond 3, or the box narrower than twice the cut-off.
+        If d is beyond 3 or the box too narrow, as ``cost.strips`` says.
 
     Notes
     -----

@@ -89,12 +89,12 @@ def test_what_makes_no_sense_is_refused(settings, says):
 @pytest.mark.parametrize(
     ("settings", "says"),
     [
-        ({"method": "strips"}, "from 18 sigmas, n=325"),
+        ({"method": "strips"}, "from 12 sigmas, n=145"),
         ({"method": "strips", "d": 4}, "1 to 3 dimensions"),
         ({"method": "images", "n": 3}, "21 images|images a dimension"),
         ({"method": "theta", "n": 10_000}, "100 sigmas wide"),
         ({"method": "harmonics", "n": 10**9, "d": 3}, "waves of 2 axes"),
-        ({"cutoff": 8.0}, "10 sigmas wide, and pairs reach 8 each way"),
+        ({"cutoff": 8.0}, "10 sigmas wide; strips within 8 sigmas serve boxes from 16"),
     ],
 )
 def test_methods_say_what_they_cannot_serve(settings, says):

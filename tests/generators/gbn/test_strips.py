@@ -46,10 +46,15 @@ def hard_sets(n, d):
 
 
 @pytest.mark.parametrize(
-    ("n", "d", "sigma"), [(19, 1, 1.0), (53, 1, 0.3), (64, 2, 0.4), (325, 2, 1.0), (160, 3, 0.3)]
+    ("n", "d", "sigma"),
+    [(12, 1, 0.9), (53, 1, 0.3), (145, 2, 1.0), (64, 2, 0.4), (325, 2, 1.0), (60, 3, 0.3), (160, 3, 0.3)],
 )
 @pytest.mark.parametrize("precision", ["double", "float"])
 def test_sums_agree_with_long_double_on_hard_sets(n, d, sigma, precision):
+    if precision == "float" and n ** (1 / d) < 12 * sigma:
+        with pytest.raises(RefusalError, match="sigmas wide"):
+            Strips(runtime(), n, d, sigma, precision)
+        return
     for name, x in hard_sets(n, d):
         at = Strips(runtime(), n, d, sigma, precision)(x[None])
         gradient, excess = pair_sums(np.mod(x, 1.0), sigma)
@@ -127,7 +132,15 @@ def test_a_million_points_give_what_their_neighbours_say():
         assert np.abs(at["float"][k] - force).max() < 1e-5
 
 
-@pytest.mark.parametrize(("n", "d", "says"), [(100, 4, "d=4"), (323, 2, "17.97 sigmas wide")])
-def test_what_strips_cannot_sum_is_refused(n, d, says):
+@pytest.mark.parametrize(
+    ("n", "d", "precision", "cutoff", "says"),
+    [
+        (100, 4, "double", None, "d=4"),
+        (143, 2, "float", None, "11.96 sigmas wide"),
+        (63, 2, "double", 4.0, "7.937 sigmas wide"),
+        (143, 2, "double", None, "11.96 sigmas wide"),
+    ],
+)
+def test_what_strips_cannot_sum_is_refused(n, d, precision, cutoff, says):
     with pytest.raises(RefusalError, match=says):
-        Strips(runtime(), n, d, 1.0, "double")
+        Strips(runtime(), n, d, 1.0, precision, cutoff)
