@@ -134,7 +134,7 @@ class Deep:
             nonlocal counted
             counted = total
             if watch.progress is not None:
-                watch.progress(done, total + ahead, doing)
+                watch.progress(done, total + ahead, f"deep, its start: {doing}")
 
         def stepped(k: int, step: int, residual: float) -> None:
             if watch.progress is not None:
