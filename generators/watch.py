@@ -30,6 +30,7 @@ class Watched(Protocol):
     excess: FloatArray
     largest: FloatArray
     size: FloatArray
+    constant: float
 
 
 @dataclass
@@ -42,13 +43,13 @@ class Trace:
         Counts of gradients after which the points themselves are kept, for the evolution of their spectrum
         (Fig. 7).
     rows : list of tuple
-        (set, gradient, excess, largest, step).
+        (set, gradient, energy, excess, largest, step).
     kept : mapping
         Count of gradients -> points of the sets in order, each (n, d) on the torus.
     """
 
     keep_at: Sequence[int] = ()
-    rows: list[tuple[int, int, float, float, float]] = dataclasses.field(default_factory=list)
+    rows: list[tuple[int, int, float, float, float, float]] = dataclasses.field(default_factory=list)
     kept: dict[int, list[FloatArray]] = dataclasses.field(default_factory=dict)
 
     def record(self, optimiser: Watched, first: int, inside: Callable[[FloatArray], FloatArray]) -> None:
@@ -56,7 +57,10 @@ class Trace:
         for k, (excess, largest, step) in enumerate(
             zip(optimiser.excess, optimiser.largest, optimiser.size, strict=True)
         ):
-            self.rows.append((first + k, optimiser.gradients, float(excess), float(largest), float(step)))
+            energy = float(excess) + optimiser.constant
+            self.rows.append(
+                (first + k, optimiser.gradients, energy, float(excess), float(largest), float(step))
+            )
         if optimiser.gradients in self.keep_at:
             self.kept.setdefault(optimiser.gradients, []).extend(inside(optimiser.x))
 
@@ -76,10 +80,13 @@ class Trace:
         return np.stack(self.kept[gradients])
 
     def to_frame(self) -> pd.DataFrame:
-        """Columns set, gradient, excess (energy a point), largest (force, spacings), step (its square)."""
+        """Columns set, gradient, energy and excess (a point), largest (force, spacings), step (its square).
+
+        The energy is the sum over pairs, nan where the kernel is cut off, in the box and with projections.
+        """
         import pandas as pd
 
-        return pd.DataFrame(self.rows, columns=["set", "gradient", "excess", "largest", "step"])
+        return pd.DataFrame(self.rows, columns=["set", "gradient", "energy", "excess", "largest", "step"])
 
 
 @dataclass

@@ -38,7 +38,7 @@ PATIENCE = 1.0  # seconds before progress is shown
 )  # fmt: skip
 @click.option(
     "--trace", type=click.Path(path_type=Path, dir_okay=False),
-    help="CSV of the optimiser's excess energy, largest force and step, gradient by gradient.",
+    help="CSV of energy, excess energy, largest force and step, gradient by gradient.",
 )  # fmt: skip
 @click.option(
     "--spectra-at", type=options.Whole(), default=(), metavar="GRADIENTS",

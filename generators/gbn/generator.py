@@ -11,9 +11,10 @@ import numpy as np
 
 from gbnbench.errors import InputError
 from gbnbench.generators.gbn.box import BoxField, box_curvature, fold
+from gbnbench.generators.gbn.cost import theta_at_0
 from gbnbench.generators.gbn.energy import default_precision, field
 from gbnbench.generators.gbn.field import Field
-from gbnbench.generators.gbn.kernel import energy_error
+from gbnbench.generators.gbn.kernel import energy_error, uniform_energy
 from gbnbench.generators.gbn.optimiser import Descent, Nesterov, authors_step, stable_step, step_size
 from gbnbench.generators.gbn.plan import plan
 from gbnbench.generators.gbn.polish import polished
@@ -204,13 +205,20 @@ class GaussianBlueNoise:
         _, n, d = starts.shape
         energy = self._energy(n, d)
         step = self._step(n, d)
-        if self.iterations or self.method == "descent":
-            return Descent(energy, starts, step, self.excess)
-        # The lowest band's preconditioner knows the torus's whole energy alone: in the box, and in one
-        # dimension below an edge, it diverges.
         plain = self.domain == "torus" and not (self.edge or self.cutoff) and self.projections == "none"
-        noise = energy_error(d, self.sigma, self._precision())
-        return Nesterov(energy, starts, step, self.excess, noise=noise, sigma=self.sigma if plain else None)
+        optimiser: Descent
+        if self.iterations or self.method == "descent":
+            optimiser = Descent(energy, starts, step, self.excess)
+        else:
+            # The lowest band's preconditioner knows the torus's whole energy alone: in the box, and in one
+            # dimension below an edge, it diverges.
+            noise = energy_error(d, self.sigma, self._precision())
+            band = self.sigma if plain else None
+            optimiser = Nesterov(energy, starts, step, self.excess, noise=noise, sigma=band)
+        if plain:
+            alone = theta_at_0(n, d, self.sigma) ** d  # each point with its own images
+            optimiser.constant = (uniform_energy(d, self.sigma) - alone) / 2
+        return optimiser
 
     def _precision(self) -> str:
         return default_precision() if self.precision == "auto" else self.precision

@@ -81,6 +81,8 @@ class Descent:
         The steps.
     finished : (sets,) bool
         Sets that do not move any more.
+    constant : float
+        What the energy of the pairs a point has beyond its excess, for traces; nan where it was not said.
     """
 
     def __init__(
@@ -98,6 +100,7 @@ class Descent:
         self.largest = np.full(sets, np.nan)
         self.size = np.full(sets, step)
         self.finished = np.zeros(sets, bool)
+        self.constant = math.nan
         self._side = n ** (1 / d)
         self._field, self._enough = field, excess
         self._confine = confine or (lambda points: points)

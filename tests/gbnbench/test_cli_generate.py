@@ -28,7 +28,7 @@ def test_a_trace_and_spectra_stand_beside_the_points(here, capsys):
     assert command(*asked, "--trace", "t.csv", "--spectra-at", "1,10,30") == 0
     assert np.array_equal(np.load("x.npy"), generate("gbn[gradients=30]", n=200, realizations=2))
     trace = pd.read_csv("t.csv")
-    assert list(trace.columns) == ["set", "gradient", "excess", "largest", "step"]
+    assert list(trace.columns) == ["set", "gradient", "energy", "excess", "largest", "step"]
     assert len(trace) == 60
     spectra = pd.read_csv("t-spectra.csv")
     assert sorted(set(spectra.gradients)) == [1, 10, 30]

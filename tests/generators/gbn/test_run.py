@@ -123,6 +123,11 @@ def test_a_trace_tells_the_energy_that_the_points_have():
     after_ten = field(256, 2, 1.0)(trace.points(10))  # the eleventh gradient is taken where ten led
     told = frame[frame.gradient == 11]
     assert told.excess.to_numpy() == pytest.approx(after_ten.excess, rel=1e-9)
+    x10 = trace.points(10)
+    u = np.abs(x10[:, :, None] - x10[:, None])
+    u = np.minimum(u, 1 - u) * 16
+    pairs = np.exp(-(u**2).sum(-1) / 2).sum(axis=(1, 2)) - 256  # 16 sigmas a side: images add 1e-14
+    assert told.energy.to_numpy() == pytest.approx(pairs / 2 / 256, rel=1e-9)
     longest = np.sqrt((after_ten.gradient**2).sum(-1).max(-1))
     assert told.largest.to_numpy() == pytest.approx(longest, rel=1e-6)
 
