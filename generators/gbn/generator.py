@@ -9,7 +9,7 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from gbnbench.errors import InputError
+from gbnbench.errors import InputError, RefusalError
 from gbnbench.generators.gbn.box import BoxField, box_curvature, fold
 from gbnbench.generators.gbn.cost import theta_at_0
 from gbnbench.generators.gbn.energy import default_precision, field
@@ -107,8 +107,8 @@ class GaussianBlueNoise:
                 f"iterations count the steps of method=descent, gradients those of nesterov; got both "
                 f"method=nesterov and iterations={self.iterations}"
             )
-        descent = bool(self.iterations) or self.method == "descent"
-        if descent and self.gradients != type(self).gradients:
+        unused = self.gradients != GaussianBlueNoise.gradients
+        if self.method == "descent" and not self.iterations and unused:
             raise InputError(
                 "gradients count evaluations of Nesterov's method; for the paper's descent say iterations, "
                 f"got gradients={self.gradients}"
@@ -177,7 +177,15 @@ class GaussianBlueNoise:
         return one
 
     def draw(self, n: int, d: int, rngs: Sequence[np.random.Generator], watch: Watch) -> FloatArray:
-        """Draw one set from each stream; see ``Watchable``."""
+        """Draw one set from each stream; see ``Watchable``.
+
+        Raises
+        ------
+        RefusalError
+            Where ``refusal`` has a reason, or polish cannot empty its band.
+        """
+        if reason := self.refusal(n, d):
+            raise RefusalError(reason)
         starts = np.stack([rng.random((n, d)) for rng in rngs])
         if n == 1:
             return starts
