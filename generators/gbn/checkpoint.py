@@ -60,10 +60,13 @@ class Checkpoint:
             )
         return state
 
-    def save(self, state: Mapping[str, NDArray[Any]], now: bool = False) -> None:
-        """Write the state when the last writing is old enough, or now."""
-        if not now and time.monotonic() - self._written < self._seconds:
-            return
+    @property
+    def due(self) -> bool:
+        """Whether the last writing is old enough."""
+        return time.monotonic() - self._written >= self._seconds
+
+    def save(self, state: Mapping[str, NDArray[Any]]) -> None:
+        """Write the state."""
         file = io.BytesIO()
         arrays: dict[str, Any] = {KEY: np.array(self._key), **state}
         np.savez(file, **arrays)

@@ -93,7 +93,7 @@ def optimise(
                 optimiser.advance()
             except KeyboardInterrupt:
                 if kept is not None and latest is not None:
-                    kept.save(latest, now=True)
+                    kept.save(_state(ends[: batch.start], watch) | latest)
                 raise
             if watch.trace is not None:
                 watch.trace.record(optimiser, batch.start, inside)
@@ -101,13 +101,14 @@ def optimise(
                 excess = float(np.nanmax(optimiser.excess))
                 watch.progress(before + optimiser.gradients, total, f"{name}, excess {excess:.1e}")
             if kept is not None:
-                latest = _state(ends[: batch.start], watch) | optimiser.state()
-                kept.save(latest)
+                latest = optimiser.state()
+                if kept.due:
+                    kept.save(_state(ends[: batch.start], watch) | latest)
         ends[batch] = optimiser.x
         if kept is not None and batch.stop < sets:
-            kept.save(_state(ends[: batch.stop], watch), now=True)
+            kept.save(_state(ends[: batch.stop], watch))
     if kept is not None:
-        kept.save(_state(ends, watch), now=True)
+        kept.save(_state(ends, watch))
     return ends
 
 
