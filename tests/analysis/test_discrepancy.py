@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gbnbench.analysis.integration import discrepancies
+from gbnbench.analysis.discrepancy import discrepancies
 from gbnbench.errors import RefusalError
 from gbnbench.torus import wrap
 

@@ -1,0 +1,1 @@
+"""Functions with known integrals, to try point sets on."""
