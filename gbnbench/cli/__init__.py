@@ -13,6 +13,7 @@ from gbnbench.cli.analyze import analyze
 from gbnbench.cli.bench import bench
 from gbnbench.cli.check import check
 from gbnbench.cli.compare import compare
+from gbnbench.cli.figures import figures
 from gbnbench.cli.generate import generate
 from gbnbench.cli.machine import devices, doctor
 from gbnbench.cli.report import report
@@ -37,7 +38,7 @@ def gbnbench() -> None:
     """
 
 
-for _command in (compare, generate, analyze, spectrum, report, check, bench, devices, doctor):
+for _command in (compare, generate, analyze, spectrum, figures, report, check, bench, devices, doctor):
     gbnbench.add_command(_command)
 
 
