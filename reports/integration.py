@@ -18,8 +18,8 @@ from gbnbench.reports import style
 CAPTION = (
     "Mean squared error of the mean over n points, over {instances} integrands of each family and {sets} "
     "sets of each source. Bands: 95%, over integrands and sets. Crosses: what the sets' power spectra "
-    "foretell (the inner product with the integrands' spectra). Grey: the slope of random sampling, 1/n. In the key: "
-    "fitted slopes with standard errors. {shifts}seed {seed} · gbnbench {version}"
+    "foretell (the inner product with the integrands' spectra). Grey: the slope of random sampling, 1/n. In "
+    "the key: fitted slopes with standard errors. {shifts}seed {seed} · gbnbench {version}"
 )
 
 
