@@ -203,7 +203,7 @@ def integrate(
     began = time.monotonic()
     progress = progress or Progress()
     _require(instances=(instances, 1), shifts=(shifts, 0), seed=(seed, 0), jobs=(jobs or 1, 1))
-    families = tuple(find_family(text) for text in dict.fromkeys(integrands))
+    families = tuple(dict.fromkeys(find_family(text) for text in integrands))
     if not families:
         raise InputError("no integrand given: name one, such as gaussians")
     given = [source for source in sources if isinstance(source, Source)]
