@@ -77,7 +77,7 @@ class Gaussians:
         while True:  # until what is not counted cannot matter
             squares, counts = shells(d, most)
             energy = counts * np.exp(-decay * squares)
-            if energy[squares > most // 2].sum() <= 1e-6 * share * energy[1:].sum():
+            if energy[squares > most // 4].sum() <= 1e-6 * share * energy[1:].sum():
                 break
             most *= 2
         outside = np.cumsum(energy[::-1])[::-1]  # at and beyond each shell
