@@ -1,4 +1,4 @@
-"""Smooth periodic products of Bernoulli polynomials, whose Fourier coefficients fall as a power (Korobov 1963)."""
+"""Smooth periodic products of Bernoulli polynomials: Fourier coefficients fall as a power (Korobov 1963)."""
 
 from __future__ import annotations
 

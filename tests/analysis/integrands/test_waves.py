@@ -50,7 +50,7 @@ def test_waves_of_one_frequency_meet_in_one_amplitude() -> None:
 def test_the_mean_energy_is_the_mean_over_draws() -> None:
     family, rng = Waves(count=7, reach=0.1), np.random.default_rng(2)
     f = family.frequencies(2, 0.5)
-    each = np.array([family.draw(2, rng).energy(f) for _ in range(4000)])
+    each = np.array([family.draw(2, rng).energy(f) for _ in range(1500)])
     error = each.std(axis=0) / math.sqrt(len(each))
     assert np.abs(each.mean(axis=0) - family.mean_energy(f)) == pytest.approx(0, abs=4.5 * error.max())
     assert family.mean_energy(np.array([[0, 0], [2, 2]])).tolist() == [0, 0]
