@@ -10,7 +10,13 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.analysis.integrands.lattice import beyond_dimensions, check_count, half_ball, shells
+from gbnbench.analysis.integrands.lattice import (
+    MOST_FREQUENCIES,
+    beyond_dimensions,
+    check_count,
+    half_ball,
+    shells,
+)
 from gbnbench.analysis.precision import Precision, padded, precision_of
 from gbnbench.errors import InputError, RefusalError
 from gbnbench.opencl import devices_present, runtime
@@ -70,19 +76,21 @@ class Gaussians:
         """Mean of ``energy`` over random centres at frequencies other than 0: (m, d) -> (m,)."""
         return self.count * gaussian_energy(frequencies, self.width(frequencies.shape[1]))
 
-    def frequencies(self, d: int, share: float) -> NDArray[np.int64]:
+    def frequencies(self, d: int, share: float, most: int = MOST_FREQUENCIES) -> NDArray[np.int64]:
         """Half a ball of frequencies, those outside it holding less than this share of the mean energy."""
         decay = (2 * math.pi * self.width(d)) ** 2
-        most = 4
+        longest = 4
         while True:  # until what is not counted cannot matter
-            squares, counts = shells(d, most)
+            squares, counts = shells(d, longest)
             energy = counts * np.exp(-decay * squares)
-            if energy[squares > most // 4].sum() <= 1e-6 * share * energy[1:].sum():
+            if energy[squares > longest // 4].sum() <= 1e-6 * share * energy[1:].sum():
                 break
-            most *= 2
+            longest *= 2
         outside = np.cumsum(energy[::-1])[::-1]  # at and beyond each shell
         last = int(np.flatnonzero(outside >= share * outside[1])[-1])
-        check_count(f"the ball that leaves out {share:g} of the energy", d, counts[1 : last + 1].sum() / 2)
+        check_count(
+            f"the ball that leaves out {share:g} of the energy", d, counts[1 : last + 1].sum() / 2, most
+        )
         return half_ball(d, int(squares[last]))
 
 

@@ -37,7 +37,7 @@ class HalfSpaces:
             raise RefusalError(reason)
         return HalfSpace(rng.random(d), rng.standard_normal(d))
 
-    def frequencies(self, d: int, share: float) -> NDArray[np.int64]:  # noqa: ARG002 (the protocol's)
+    def frequencies(self, d: int, share: float, most: int = 0) -> NDArray[np.int64]:  # noqa: ARG002
         """None: it is not periodic."""
         return np.empty((0, d), dtype=np.int64)
 

@@ -47,7 +47,7 @@ class Family(Protocol):
         """Draw one."""
         ...
 
-    def frequencies(self, d: int, share: float) -> NDArray[np.int64]:
+    def frequencies(self, d: int, share: float, most: int = ...) -> NDArray[np.int64]:
         """Half the frequencies that matter: those outside hold less than this share of the family's energy.
 
         Parameters
@@ -56,6 +56,8 @@ class Family(Protocol):
             Dimension.
         share : float
             Of the mean of ``energy`` summed over all f != 0, 0 < share < 1.
+        most : int
+            Length of the list that is not exceeded; RefusalError, at no great cost, where it would be.
 
         Returns
         -------

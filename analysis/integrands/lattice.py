@@ -61,18 +61,17 @@ def shells(d: int, square: int) -> tuple[NDArray[np.int64], FloatArray]:
     return met, counts[met]
 
 
-def check_count(what: str, d: int, count: float) -> None:
-    """Refuse a list of more frequencies than memory should hold.
+def check_count(what: str, d: int, count: float, most: int = MOST_FREQUENCIES) -> None:
+    """Refuse a list of more frequencies than asked for, or than memory should hold.
 
     Raises
     ------
     RefusalError
-        If count is above ``MOST_FREQUENCIES``.
+        If count is above most.
     """
-    if count > MOST_FREQUENCIES:
+    if count > most:
         raise RefusalError(
-            f"{what} in d={d} is {count:.0f} frequencies, one of each pair f, -f; "
-            f"at most {MOST_FREQUENCIES} are listed"
+            f"{what} in d={d} is {count:.0f} frequencies, one of each pair f, -f; at most {most} are listed"
         )
 
 

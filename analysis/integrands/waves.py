@@ -10,7 +10,14 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.analysis.integrands.lattice import beyond_dimensions, check_count, half_ball, halved, shells
+from gbnbench.analysis.integrands.lattice import (
+    MOST_FREQUENCIES,
+    beyond_dimensions,
+    check_count,
+    half_ball,
+    halved,
+    shells,
+)
 from gbnbench.errors import InputError, RefusalError
 from gbnbench.torus import FloatArray, fixed_point
 
@@ -78,10 +85,16 @@ class Waves:
         energy: FloatArray = within * (self.count / (4 * half))
         return energy
 
-    def frequencies(self, d: int, share: float) -> NDArray[np.int64]:  # noqa: ARG002 (the protocol's)
+    def frequencies(
+        self,
+        d: int,
+        share: float,  # noqa: ARG002
+        most: int = MOST_FREQUENCIES,
+    ) -> NDArray[np.int64]:
         """Half of all frequencies in reach: no share is left out."""
         if reason := self.refusal(d):
             raise RefusalError(reason)
+        check_count(f"reach={self.reach:g}", d, (shells(d, self.square(d))[1].sum() - 1) / 2, most)
         return half_ball(d, self.square(d))
 
 
