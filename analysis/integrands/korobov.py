@@ -166,8 +166,8 @@ def _cross(d: int, classes: list[tuple[int, int]]) -> NDArray[np.int64]:
     """Half the integer vectors of these classes, the first component that is not 0 being positive."""
     most = max(product for _, product in classes)
     wanted = np.zeros((d + 1, most + 1), dtype=bool)
-    for j, product in classes:
-        wanted[j, product] = True
+    for key in classes:
+        wanted[key] = True
     # Whether a vector may still become one of a class: by nonzeros and product so far, axes to go.
     open_to = [wanted]
     for _ in range(d):

@@ -92,7 +92,7 @@ def half_ball(d: int, square: int) -> NDArray[np.int64]:
     spare = np.array([square], dtype=np.int64)  # of the squared length
     side = np.arange(-math.isqrt(square), math.isqrt(square) + 1)
     for _ in range(d):
-        fits = (side**2 <= spare[:, None]) & (rows.any(axis=1)[:, None] | (side >= 0))
+        fits = (side**2 <= spare[:, None]) & ((rows != 0).any(axis=1, keepdims=True) | (side >= 0))
         row, h = np.nonzero(fits)
         rows = np.column_stack([rows[row], side[h]])
         spare = spare[row] - side[h] ** 2
