@@ -1,0 +1,115 @@
+"""Sphinx: the pages of this folder, the reference from docstrings and from the command itself, as one site."""
+
+import re
+import sys
+from pathlib import Path
+
+from numpydoc import xref
+from sphinx.application import Sphinx
+
+sys.path.insert(0, str(Path(__file__).parent / "extensions"))
+
+from gbnbench import __version__
+
+project = "gbnbench"
+author = "the gbnbench authors"
+version = release = __version__
+
+extensions = [
+    "mathml",
+    "modules",
+    "myst_nb",
+    "numpydoc",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.autosummary",
+    "sphinx_click",
+]
+smartquotes = False  # two hyphens before an option are two hyphens
+exclude_patterns = ["extensions"]
+templates_path: list[str] = []
+myst_enable_extensions = ["dollarmath"]
+myst_heading_anchors = 3
+nb_execution_mode = "cache"
+nb_execution_raise_on_error = True
+nb_execution_timeout = 300
+nb_merge_streams = True
+
+# Types are said in docstrings, with shapes, and nowhere else: "(n, d) or (realizations, n, d) float64" is set as
+# it stands. Only the names below become links.
+autodoc_typehints = "none"
+autodoc_member_order = "bysource"
+autodoc_preserve_defaults = True
+autodoc_default_options = {"members": True, "special-members": "__call__"}
+autosummary_generate = False
+numpydoc_show_class_members = False
+numpydoc_xref_param_type = True
+numpydoc_xref_ignore = "all"
+xref.DEFAULT_LINKS.clear()  # these lead to other projects' sites
+numpydoc_xref_aliases = {
+    "DeviceError": "gbnbench.errors.DeviceError",
+    "FormatError": "gbnbench.errors.FormatError",
+    "GbnbenchError": "gbnbench.GbnbenchError",
+    "InputError": "gbnbench.errors.InputError",
+    "Measures": "gbnbench.results.Measures",
+    "Plan": "gbnbench.Plan",
+    "RadialPower": "gbnbench.results.RadialPower",
+    "RefusalError": "gbnbench.errors.RefusalError",
+    "ShellSpectrum": "gbnbench.ShellSpectrum",
+    "Spectrum": "gbnbench.Spectrum",
+    "Watch": "gbnbench.generators.watch.Watch",
+}
+nitpicky = True
+
+html_theme = "furo"
+html_title = f"gbnbench {release}"
+html_math_renderer = "mathml"
+html_static_path = ["static"]
+html_css_files = ["tables.css"]
+html_show_sphinx = False
+
+
+def _escape_bars(lines: list[str]) -> None:
+    """Let |f| be what it says in plain text, not reStructuredText's mark of a substitution."""
+    for k, line in enumerate(lines):
+        if not line.lstrip().startswith((">>>", "...")):
+            parts = re.split(r"(``.*?``)", line)
+            lines[k] = "".join(part if i % 2 else part.replace("|", r"\|") for i, part in enumerate(parts))
+
+
+def _set_examples(lines: list[str]) -> None:
+    """Set the paragraphs that the command's help keeps as they are, sphinx-click's line blocks, as code."""
+    for k in range(len(lines) - 1, -1, -1):
+        lines[k] = re.sub(r"(?:Posix|Windows)Path\('(.*?)'\)", r"\1", lines[k])
+        if lines[k].startswith("| "):
+            lines[k] = "   " + lines[k][2:]
+            if k == 0 or not lines[k - 1].startswith("| "):
+                lines[k:k] = ["", ".. code-block:: text", ""]
+
+
+def _skip_imported(app: Sphinx, what: str, name: str, member: object, skip: bool, options: object) -> bool | None:
+    """Leave out what a module imported from elsewhere before its docstring is looked at."""
+    return True if what == "module" and not getattr(member, "__module__", "").startswith("gbnbench") else None
+
+
+def _leave_out_missing(app: Sphinx, docname: str, content: list[str]) -> None:
+    """Drop from the tables of contents of the first page those pages that this checkout does not have."""
+    if docname == "index":
+        pages = app.project.docnames
+        listed = re.compile(r"(?:\w+/)?\w+")
+        lines, inside = [], False
+        for line in content[0].split("\n"):
+            inside = line.startswith("```{toctree}") or (inside and not line.startswith("```"))
+            if not (inside and listed.fullmatch(line) and line not in pages):
+                lines.append(line)
+        content[0] = "\n".join(lines)
+
+
+def setup(app: Sphinx) -> None:
+    """Hold the docstrings and the command's help to plain text, and pages to those that are there."""
+    app.connect("source-read", _leave_out_missing)
+    # After numpydoc, whose sections are reStructuredText by then.
+    app.connect("autodoc-process-docstring", lambda *event: _escape_bars(event[-1]), priority=900)
+    app.connect("autodoc-skip-member", _skip_imported)
+    for part in ("description", "options", "arguments", "epilog"):
+        app.connect(f"sphinx-click-process-{part}", lambda *event: _set_examples(event[-1]), priority=400)
+        app.connect(f"sphinx-click-process-{part}", lambda *event: _escape_bars(event[-1]))
