@@ -1,4 +1,4 @@
-"""Sphinx: the pages of this folder, the reference from docstrings and from the command itself, as one site."""
+"""Sphinx: the pages of this folder and the reference, from docstrings and from the command itself, as a site."""
 
 import re
 import sys
@@ -26,7 +26,7 @@ extensions = [
 ]
 smartquotes = False  # two hyphens before an option are two hyphens
 exclude_patterns = ["extensions"]
-templates_path: list[str] = []
+
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3
 nb_execution_mode = "cache"
@@ -34,8 +34,8 @@ nb_execution_raise_on_error = True
 nb_execution_timeout = 300
 nb_merge_streams = True
 
-# Types are said in docstrings, with shapes, and nowhere else: "(n, d) or (realizations, n, d) float64" is set as
-# it stands. Only the names below become links.
+# Types are said in docstrings, with shapes, and nowhere else: "(n, d) or (realizations, n, d) float64" is set
+# as it stands. Only the names below become links.
 autodoc_typehints = "none"
 autodoc_member_order = "bysource"
 autodoc_preserve_defaults = True
@@ -86,8 +86,8 @@ def _set_examples(lines: list[str]) -> None:
                 lines[k:k] = ["", ".. code-block:: text", ""]
 
 
-def _skip_imported(app: Sphinx, what: str, name: str, member: object, skip: bool, options: object) -> bool | None:
-    """Leave out what a module imported from elsewhere before its docstring is looked at."""
+def _is_imported(what: str, member: object) -> bool | None:
+    """Whether a module has a member from elsewhere: True leaves it out before its docstring is looked at."""
     return True if what == "module" and not getattr(member, "__module__", "").startswith("gbnbench") else None
 
 
@@ -95,21 +95,20 @@ def _leave_out_missing(app: Sphinx, docname: str, content: list[str]) -> None:
     """Drop from the tables of contents of the first page those pages that this checkout does not have."""
     if docname == "index":
         pages = app.project.docnames
-        listed = re.compile(r"(?:\w+/)?\w+")
         lines, inside = [], False
         for line in content[0].split("\n"):
             inside = line.startswith("```{toctree}") or (inside and not line.startswith("```"))
-            if not (inside and listed.fullmatch(line) and line not in pages):
+            if not (inside and re.fullmatch(r"[\w/]+", line) and line not in pages):
                 lines.append(line)
         content[0] = "\n".join(lines)
 
 
 def setup(app: Sphinx) -> None:
-    """Hold the docstrings and the command's help to plain text, and pages to those that are there."""
+    """Hold docstrings and the command's help to plain text, and the contents to the pages there are."""
     app.connect("source-read", _leave_out_missing)
+    app.connect("autodoc-skip-member", lambda *event: _is_imported(event[1], event[3]))
     # After numpydoc, whose sections are reStructuredText by then.
     app.connect("autodoc-process-docstring", lambda *event: _escape_bars(event[-1]), priority=900)
-    app.connect("autodoc-skip-member", _skip_imported)
     for part in ("description", "options", "arguments", "epilog"):
         app.connect(f"sphinx-click-process-{part}", lambda *event: _set_examples(event[-1]), priority=400)
         app.connect(f"sphinx-click-process-{part}", lambda *event: _escape_bars(event[-1]))

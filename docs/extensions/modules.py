@@ -1,7 +1,7 @@
 """The directive ``modules``: a section for each module whose name matches, written from its docstrings.
 
-``.. modules:: gbnbench.generators.* gbnbench.compare`` finds modules by name in the order given, so that a new one
-is in the reference as soon as its file is there.
+``.. modules:: gbnbench.generators.* gbnbench.compare`` finds modules by name, in the order given, so that a new
+one is in the reference as soon as its file is there.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ import gbnbench
 
 @cache
 def _all() -> tuple[str, ...]:
-    """Names of every module of the package, in order; packages themselves where they have docstrings of use."""
+    """Names of every module and package of gbnbench, in order."""
     found = pkgutil.walk_packages(gbnbench.__path__, "gbnbench.")
     return tuple(sorted(module.name for module in found if not module.name.endswith("__main__")))
 
@@ -31,7 +31,7 @@ def _matches(name: str, pattern: str) -> bool:
 
 
 class Modules(SphinxDirective):
-    """Sections of modules: ``:exclude:`` names members that another page documents."""
+    """Sections of modules; ``:exclude:`` names members, ``:without:`` modules that stand elsewhere."""
 
     required_arguments = 1
     final_argument_whitespace = True
