@@ -1,4 +1,4 @@
-"""Sphinx: the pages of this folder and the reference, from docstrings and from the command itself, as a site."""
+"""Sphinx: the pages and the reference, from docstrings and from the command itself, as one site."""
 
 import re
 import sys
@@ -16,7 +16,7 @@ author = "the gbnbench authors"
 version = release = __version__
 
 extensions = [
-    "mathml",
+    "formulas",
     "modules",
     "myst_nb",
     "numpydoc",
@@ -62,9 +62,9 @@ nitpicky = True
 
 html_theme = "furo"
 html_title = f"gbnbench {release}"
-html_math_renderer = "mathml"
+html_math_renderer = "drawings"
 html_static_path = ["static"]
-html_css_files = ["tables.css"]
+html_css_files = ["pages.css"]
 html_show_sphinx = False
 
 

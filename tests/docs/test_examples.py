@@ -1,7 +1,7 @@
 """The examples of the pages: Python runs, commands are understood, and those marked to run do.
 
-Blocks of Python, of ``>>>`` with what comes out too, run in the order of their page, in a folder of its own. What
-is too heavy stands under ``<!-- skip: next "the reason" -->``, commands that are to run under ``<!-- run -->``.
+Blocks of Python, of ``>>>`` with what comes out too, run in the order of their page, in a folder of its own.
+Those too heavy stand under ``<!-- skip: next "the reason" -->``, commands to be run under ``<!-- run -->``.
 """
 
 from __future__ import annotations
