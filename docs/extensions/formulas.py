@@ -9,7 +9,9 @@ import ziafont
 import ziamath
 from docutils import nodes
 from sphinx.application import Sphinx
+from sphinx.errors import ExtensionError
 
+TALLEST = 12.0  # em: a fence that grew without end is taller
 SIZE = 16.0  # of a letter m, in the units of a drawing
 
 ziafont.config.svg2 = False  # shapes in full: marks shared between the drawings of a page would clash
@@ -20,6 +22,8 @@ def drawing(latex: str, inline: bool) -> str:
     formula = ziamath.Latex(latex, size=SIZE, inline=inline, color="currentColor")
     svg = formula.svgxml()
     _, _, width, height = map(float, svg.attrib["viewBox"].split())
+    if height > TALLEST * SIZE:
+        raise ExtensionError(f"this formula came out {height / SIZE:.0f} em high; write it otherwise: {latex}")
     down = formula.getyofst() / SIZE
     svg.set("style", f"width:{width / SIZE:.3f}em;height:{height / SIZE:.3f}em;vertical-align:{down:.3f}em")
     svg.set("role", "img")
