@@ -13,6 +13,7 @@ from gbnbench import __version__
 
 project = "gbnbench"
 author = "the gbnbench authors"
+project_copyright = "the gbnbench authors, MIT licence"
 version = release = __version__
 
 extensions = [
@@ -29,7 +30,7 @@ exclude_patterns = ["extensions"]
 
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3
-nb_execution_mode = "cache"
+nb_execution_mode = "force"
 nb_execution_raise_on_error = True
 nb_execution_timeout = 300
 nb_merge_streams = True
@@ -59,6 +60,7 @@ numpydoc_xref_aliases = {
     "Watch": "gbnbench.generators.watch.Watch",
 }
 nitpicky = True
+toc_object_entries_show_parents = "hide"
 
 html_theme = "furo"
 html_title = f"gbnbench {release}"
@@ -91,6 +93,11 @@ def _is_imported(what: str, member: object) -> bool | None:
     return True if what == "module" and not getattr(member, "__module__", "").startswith("gbnbench") else None
 
 
+def _signature(what: str, signature: str | None) -> tuple[str, None] | None:
+    """Leave out what a protocol is called with, which says nothing."""
+    return ("", None) if what == "class" and signature == "(*args, **kwargs)" else None
+
+
 def _leave_out_missing(app: Sphinx, docname: str, content: list[str]) -> None:
     """Drop from the tables of contents of the first page those pages that this checkout does not have."""
     if docname == "index":
@@ -103,10 +110,24 @@ def _leave_out_missing(app: Sphinx, docname: str, content: list[str]) -> None:
         content[0] = "\n".join(lines)
 
 
+def _lead_out(app: Sphinx, docname: str, content: list[str]) -> None:
+    """Make of links out of this folder, which lead on in the repository, the file; of one to a folder, text."""
+    place = Path(app.env.doc2path(docname)).parent
+
+    def given(link: re.Match[str]) -> str:
+        if (place / link[2]).is_dir():
+            return link[1]
+        return f"[{link[1]}](path:{link[2]})" if link[2].endswith(".md") else link[0]
+
+    content[0] = re.sub(r"(?<!!)\[([^\]]*)\]\((\.\./[^)#\s]*)(?:#[^)]*)?\)", given, content[0])
+
+
 def setup(app: Sphinx) -> None:
     """Hold docstrings and the command's help to plain text, and the contents to the pages there are."""
     app.connect("source-read", _leave_out_missing)
+    app.connect("source-read", _lead_out)
     app.connect("autodoc-skip-member", lambda *event: _is_imported(event[1], event[3]))
+    app.connect("autodoc-process-signature", lambda *event: _signature(event[1], event[5]))
     # After numpydoc, whose sections are reStructuredText by then.
     app.connect("autodoc-process-docstring", lambda *event: _escape_bars(event[-1]), priority=900)
     for part in ("description", "options", "arguments", "epilog"):

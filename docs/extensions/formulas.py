@@ -23,7 +23,9 @@ def drawing(latex: str, inline: bool) -> str:
     svg = formula.svgxml()
     _, _, width, height = map(float, svg.attrib["viewBox"].split())
     if height > TALLEST * SIZE:
-        raise ExtensionError(f"this formula came out {height / SIZE:.0f} em high; write it otherwise: {latex}")
+        raise ExtensionError(
+            f"this formula came out {height / SIZE:.0f} em high; write it otherwise: {latex}"
+        )
     down = formula.getyofst() / SIZE
     svg.set("style", f"width:{width / SIZE:.3f}em;height:{height / SIZE:.3f}em;vertical-align:{down:.3f}em")
     svg.set("role", "img")

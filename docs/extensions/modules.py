@@ -19,14 +19,16 @@ import gbnbench
 
 @cache
 def _all() -> tuple[str, ...]:
-    """Names of every module and package of gbnbench, in order."""
+    """Names of every module and package of gbnbench, in order; packages end with a dot."""
     found = pkgutil.walk_packages(gbnbench.__path__, "gbnbench.")
-    return tuple(sorted(module.name for module in found if not module.name.endswith("__main__")))
+    return tuple(sorted(module.name + "." * module.ispkg for module in found))
 
 
 def _matches(name: str, pattern: str) -> bool:
-    """Whether each part between dots matches; a star does not reach over a dot."""
-    parts, patterns = name.split("."), pattern.split(".")
+    """Whether each part between dots matches; a star reaches over no dot, and packages must be named."""
+    parts, patterns = name.rstrip(".").split("."), pattern.split(".")
+    if name.endswith("."):
+        return parts == patterns
     return len(parts) == len(patterns) and all(map(fnmatch.fnmatchcase, parts, patterns))
 
 
@@ -41,7 +43,7 @@ class Modules(SphinxDirective):
         """Write the sections and parse them."""
         without = self.options.get("without", "").split()
         names = [
-            name
+            name.rstrip(".")
             for pattern in self.arguments[0].split()
             for name in _all()
             if _matches(name, pattern) and name not in without
