@@ -111,7 +111,7 @@ def _leave_out_missing(app: Sphinx, docname: str, content: list[str]) -> None:
 
 
 def _lead_out(app: Sphinx, docname: str, content: list[str]) -> None:
-    """Make of links out of this folder, which lead on in the repository, the file; of one to a folder, text."""
+    """Make of a link out of this folder, which leads on in the repository, the file; to a folder, text."""
     place = Path(app.env.doc2path(docname)).parent
 
     def given(link: re.Match[str]) -> str:
