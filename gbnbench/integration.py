@@ -145,7 +145,7 @@ def instances_of(family: Family, d: int, seed: int, count: int) -> list[Integran
 
 def integrate(
     sources: Sequence[str | Source] = DEFAULT_SOURCES,
-    folder: Path | None = None,
+    folder: str | Path | None = None,
     *,
     n: Sequence[int] = DEFAULT_N,
     d: Sequence[int] = (2,),
@@ -165,7 +165,7 @@ def integrate(
     ----------
     sources : sequence of str or Source
         Generators with settings, files and folders, as in ``gbnbench compare``.
-    folder : Path, optional
+    folder : path, optional
         By default one under ``runs`` named by the settings.
     n, d : sequence of int
         Sizes and dimensions for the generators; what a generator refuses is skipped and said.
@@ -225,7 +225,7 @@ def integrate(
         "instances": instances,
         "shifts": shifts,
     }
-    keeper = StudyFolder(folder or store.default_folder(settings, "integrate"), settings)
+    keeper = StudyFolder(Path(folder or store.default_folder(settings, "integrate")), settings)
     blocks = {source.key: _blocks(source) for source in given}
     plan = (families, instances, shifts, seed)
     pieces = [

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 import click
 
 from gbnbench.cli import gbnbench
+from gbnbench.analysis.integrands.registry import find as find_family
 from gbnbench.generators.registry import find
 
 PLACEHOLDER = re.compile(r"[A-Z_]+|.*\.\.\..*|<.*>")
@@ -65,5 +66,9 @@ def check(arguments: list[str], whole: bool = True) -> None:
             if not PLACEHOLDER.fullmatch(each):
                 if not isinstance(param.type, (click.Path, click.File)):
                     param.type.convert(each, param, context)
-                if re.fullmatch(r"\w+\[.*\]", each) or (command.name == "generate" and param.name == "name"):
+                if param.name == "integrands":
+                    find_family(each)
+                elif re.fullmatch(r"\w+\[.*\]", each) or (
+                    command.name == "generate" and param.name == "name"
+                ):
                     find(each)
