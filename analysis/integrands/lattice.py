@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,12 +54,20 @@ def shells(d: int, square: int) -> tuple[NDArray[np.int64], FloatArray]:
     counts = np.zeros(square + 1)
     counts[h * h] = np.where(h == 0, 1.0, 2.0)
     for _ in range(d - 1):
+        met = np.flatnonzero(counts)
         longer = counts.copy()
         for side in h[1:].tolist():
-            longer[side * side :] += 2 * counts[: square + 1 - side * side]
+            fits = met[: np.searchsorted(met, square - side * side, side="right")]
+            longer[fits + side * side] += 2 * counts[fits]
         counts = longer
     met = np.flatnonzero(counts)
     return met, counts[met]
+
+
+@lru_cache(maxsize=64)
+def half_count(d: int, square: int) -> float:
+    """How many frequencies ``half_ball`` has."""
+    return float(shells(d, square)[1][1:].sum() / 2)
 
 
 def check_count(what: str, d: int, count: float) -> None:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.analysis.integrands.device import launch, rows_of, values
-from gbnbench.analysis.integrands.lattice import beyond_dimensions, check_count, half_ball, halved, shells
+from gbnbench.analysis.integrands.lattice import beyond_dimensions, check_count, half_ball, half_count, halved
 from gbnbench.analysis.precision import Precision
 from gbnbench.errors import InputError, RefusalError
 from gbnbench.torus import FloatArray, fixed_point
@@ -58,7 +58,7 @@ class Waves:
         if reason := beyond_dimensions("sums of waves", d):
             return reason
         try:
-            check_count(f"reach={self.reach:g}", d, (shells(d, self.square(d))[1].sum() - 1) / 2)
+            check_count(f"reach={self.reach:g}", d, half_count(d, self.square(d)))
         except RefusalError as error:
             return f"{error}; a smaller reach of waves has fewer"
         return None
@@ -67,7 +67,7 @@ class Waves:
         """Draw frequencies and phases; RefusalError where ``refusal`` has a reason."""
         if reason := self.refusal(d):
             raise RefusalError(reason)
-        ball = half_ball(d, self.square(d))
+        ball = _ball(d, self.square(d))
         return WaveSum(ball[rng.integers(len(ball), size=self.count)], rng.random(self.count))
 
     def mean_energy(self, frequencies: NDArray[np.int64]) -> FloatArray:
@@ -75,15 +75,19 @@ class Waves:
         d = frequencies.shape[1]
         square = (frequencies**2).sum(axis=1)
         within = (square > 0) & (square <= self.square(d))
-        half = (shells(d, self.square(d))[1].sum() - 1) / 2
-        energy: FloatArray = within * (self.count / (4 * half))
+        energy: FloatArray = within * (self.count / (4 * half_count(d, self.square(d))))
         return energy
 
     def frequencies(self, d: int, share: float) -> NDArray[np.int64]:  # noqa: ARG002 (the protocol's)
         """Half of all frequencies in reach: no share is left out."""
         if reason := self.refusal(d):
             raise RefusalError(reason)
-        return half_ball(d, self.square(d))
+        return _ball(d, self.square(d)).copy()
+
+
+@lru_cache(maxsize=2)
+def _ball(d: int, square: int) -> NDArray[np.int64]:
+    return half_ball(d, square)
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gbnbench.analysis.integrands.lattice import check_count, half_ball, halved, shells
+from gbnbench.analysis.integrands.lattice import check_count, half_ball, half_count, halved, shells
 from gbnbench.errors import RefusalError
 
 
@@ -16,6 +16,7 @@ def test_half_a_ball_is_what_the_shells_count(d: int, square: int) -> None:
     assert counts.tolist() == np.bincount(lengths)[squares].tolist()
     assert squares.tolist() == np.unique(lengths[lengths <= square]).tolist()
     half = half_ball(d, square)
+    assert half_count(d, square) == len(half)
     whole = {tuple(f) for f in np.concatenate([half, -half])}
     assert len(whole) == 2 * len(half) == counts.sum() - 1
     assert whole == {tuple(f) for f in cube[(lengths > 0) & (lengths <= square)]}
