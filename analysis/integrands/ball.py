@@ -10,7 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.analysis.integrands.ball_volume import ball_volume, radius_of
-from gbnbench.analysis.integrands.lattice import beyond_dimensions, check_count, half_ball, shells
+from gbnbench.analysis.integrands.lattice import (
+    beyond_dimensions,
+    check_count,
+    check_share,
+    half_ball,
+    shells,
+)
 from gbnbench.errors import InputError, RefusalError
 from gbnbench.torus import FloatArray
 
@@ -67,6 +73,7 @@ class Balls:
         The total is volume (1 - volume), by Parseval. Energy falls as |f|^-(d + 1), so that a share s is left
         beyond |f| of about 1/s: a small one is soon refused, as is any where the spectrum is not known.
         """
+        check_share(share, self.refusal(d))
         radius = self.radius(d)
         volume = ball_volume(d, radius)
         wanted, most = (1 - share) * volume * (1 - volume), 4
@@ -75,7 +82,9 @@ class Balls:
             kept = np.cumsum(counts[1:] * _shell_energy(d, np.sqrt(squares[1:]), radius))
             if kept[-1] > wanted:
                 break
-            check_count(f"less than leaves out {share:g} of the energy", d, counts[1:].sum() / 2)
+            check_count(
+                f"even a ball that leaves out more than {share:g} of the energy", d, counts[1:].sum() / 2
+            )
             most *= 2
         last = int(np.searchsorted(kept, wanted, side="right"))
         check_count(f"the ball that leaves out {share:g} of the energy", d, counts[1 : last + 2].sum() / 2)

@@ -11,7 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.analysis.integrands.device import NUMPY_POINTS, launch, rows_of, values
-from gbnbench.analysis.integrands.lattice import beyond_dimensions, check_count, half_ball, shells
+from gbnbench.analysis.integrands.lattice import (
+    beyond_dimensions,
+    check_count,
+    check_share,
+    half_ball,
+    shells,
+)
 from gbnbench.analysis.precision import Precision
 from gbnbench.errors import InputError, RefusalError
 from gbnbench.torus import FloatArray
@@ -70,6 +76,7 @@ class Gaussians:
 
     def frequencies(self, d: int, share: float) -> NDArray[np.int64]:
         """Half a ball of frequencies, those outside it holding less than this share of the mean energy."""
+        check_share(share, self.refusal(d))
         decay = (2 * math.pi * self.width(d)) ** 2
         most = 4
         while True:  # until what is not counted cannot matter

@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.errors import RefusalError
+from gbnbench.errors import InputError, RefusalError
 from gbnbench.torus import FloatArray
 
 MOST_DIMENSIONS = 20  # as far as every family's numbers are proven
@@ -49,7 +49,7 @@ def shells(d: int, square: int) -> tuple[NDArray[np.int64], FloatArray]:
     if square > LONGEST:
         raise RefusalError(
             f"frequencies up to |f|={math.sqrt(square):.4g} in d={d} are too many; at most "
-            f"{MOST_FREQUENCIES} are listed"
+            f"{MOST_FREQUENCIES} are listed: ask for fewer"
         )
     counts = np.zeros(square + 1)
     counts[h * h] = np.where(h == 0, 1.0, 2.0)
@@ -70,7 +70,7 @@ def half_count(d: int, square: int) -> float:
     return float(shells(d, square)[1][1:].sum() / 2)
 
 
-def check_count(what: str, d: int, count: float) -> None:
+def check_count(what: str, d: int, count: float, way_out: str = "leave out a larger share") -> None:
     """Refuse a list of more frequencies than memory should hold.
 
     Raises
@@ -80,9 +80,23 @@ def check_count(what: str, d: int, count: float) -> None:
     """
     if count > MOST_FREQUENCIES:
         raise RefusalError(
-            f"{what} in d={d} is {count:.0f} frequencies, one of each pair f, -f; "
-            f"at most {MOST_FREQUENCIES} are listed"
+            f"{what} in d={d} has {count:.0f} frequencies, one of each pair f, -f; "
+            f"at most {MOST_FREQUENCIES} are listed: {way_out}"
         )
+
+
+def check_share(share: float, refusal: str | None) -> None:
+    """Refuse a share that is none, or a dimension that there is a reason to refuse.
+
+    Raises
+    ------
+    InputError
+        If share is not between 0 and 1, or there is a refusal.
+    """
+    if refusal is not None:
+        raise RefusalError(refusal)
+    if not 0 < share < 1:
+        raise InputError(f"share must be of the energy to leave out, 0 < share < 1; got {share}")
 
 
 def half_ball(d: int, square: int) -> NDArray[np.int64]:

@@ -11,7 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.analysis.integrands.device import launch, rows_of, values
-from gbnbench.analysis.integrands.lattice import beyond_dimensions, check_count, half_ball, half_count, halved
+from gbnbench.analysis.integrands.lattice import (
+    beyond_dimensions,
+    check_count,
+    check_share,
+    half_ball,
+    half_count,
+    halved,
+)
 from gbnbench.analysis.precision import Precision
 from gbnbench.errors import InputError, RefusalError
 from gbnbench.torus import FloatArray, fixed_point
@@ -58,9 +65,11 @@ class Waves:
         if reason := beyond_dimensions("sums of waves", d):
             return reason
         try:
-            check_count(f"reach={self.reach:g}", d, half_count(d, self.square(d)))
+            check_count(
+                f"reach={self.reach:g} of waves", d, half_count(d, self.square(d)), "take a smaller reach"
+            )
         except RefusalError as error:
-            return f"{error}; a smaller reach of waves has fewer"
+            return str(error)
         return None
 
     def draw(self, d: int, rng: np.random.Generator) -> WaveSum:
@@ -78,10 +87,9 @@ class Waves:
         energy: FloatArray = within * (self.count / (4 * half_count(d, self.square(d))))
         return energy
 
-    def frequencies(self, d: int, share: float) -> NDArray[np.int64]:  # noqa: ARG002 (the protocol's)
+    def frequencies(self, d: int, share: float) -> NDArray[np.int64]:
         """Half of all frequencies in reach: no share is left out."""
-        if reason := self.refusal(d):
-            raise RefusalError(reason)
+        check_share(share, self.refusal(d))
         return _ball(d, self.square(d)).copy()
 
 
