@@ -108,7 +108,7 @@ class GaussianSum:
 
     @property
     def integral(self) -> float:
-        """Count (sqrt(2 pi) width)^d exactly, since each is periodised."""
+        """The count times (2 pi)^(d/2) width^d: exact, since each is periodised."""
         count, d = self.centres.shape
         return float(count * (math.pow(2 * math.pi, d / 2) * math.pow(self.width, d)))
 
