@@ -14,6 +14,7 @@ from gbnbench.analysis.integrands.lattice import (
     MOST_FREQUENCIES,
     beyond_dimensions,
     check_count,
+    check_share,
     half_ball,
     shells,
 )
@@ -73,6 +74,7 @@ class Balls:
         The total is volume (1 - volume), by Parseval. Energy falls as |f|^-(d + 1), so that a share s is left
         beyond |f| of about 1/s: a small one is soon refused, as is any where the spectrum is not known.
         """
+        check_share(share, self.refusal(d))
         radius = self.radius(d)
         volume = ball_volume(d, radius)
         wanted, longest = (1 - share) * volume * (1 - volume), 4
@@ -81,11 +83,16 @@ class Balls:
             kept = np.cumsum(counts[1:] * _shell_energy(d, np.sqrt(squares[1:]), radius))
             if kept[-1] > wanted:
                 break
-            check_count(f"less than leaves out {share:g} of the energy", d, counts[1:].sum() / 2, most)
+            check_count(
+                f"even a ball that leaves out more than {share:g} of the energy",
+                d,
+                counts[1:].sum() / 2,
+                most=most,
+            )
             longest *= 2
         last = int(np.searchsorted(kept, wanted, side="right"))
         check_count(
-            f"the ball that leaves out {share:g} of the energy", d, counts[1 : last + 2].sum() / 2, most
+            f"the ball that leaves out {share:g} of the energy", d, counts[1 : last + 2].sum() / 2, most=most
         )
         return half_ball(d, int(squares[last + 1]))
 

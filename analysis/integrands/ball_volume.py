@@ -14,6 +14,7 @@ NODES = 64  # of Gauss and Legendre: a smooth integrand to rounding
 TAIL = 1e-13  # of a series
 
 
+@lru_cache(maxsize=256)
 def ball_volume(d: int, radius: float) -> float:
     """Share of the unit torus within radius of a point, to 1e-13.
 

@@ -15,6 +15,7 @@ from gbnbench.analysis.integrands.lattice import (
     MOST_FREQUENCIES,
     beyond_dimensions,
     check_count,
+    check_share,
     half_ball,
     shells,
 )
@@ -76,6 +77,7 @@ class Gaussians:
 
     def frequencies(self, d: int, share: float, most: int = MOST_FREQUENCIES) -> NDArray[np.int64]:
         """Half a ball of frequencies, those outside it holding less than this share of the mean energy."""
+        check_share(share, self.refusal(d))
         decay = (2 * math.pi * self.width(d)) ** 2
         longest = 4
         while True:  # until what is not counted cannot matter
@@ -87,7 +89,7 @@ class Gaussians:
         outside = np.cumsum(energy[::-1])[::-1]  # at and beyond each shell
         last = int(np.flatnonzero(outside >= share * outside[1])[-1])
         check_count(
-            f"the ball that leaves out {share:g} of the energy", d, counts[1 : last + 1].sum() / 2, most
+            f"the ball that leaves out {share:g} of the energy", d, counts[1 : last + 1].sum() / 2, most=most
         )
         return half_ball(d, int(squares[last]))
 
@@ -109,7 +111,7 @@ class GaussianSum:
 
     @property
     def integral(self) -> float:
-        """Count (sqrt(2 pi) width)^d exactly, since each is periodised."""
+        """The count times (2 pi)^(d/2) width^d: exact, since each is periodised."""
         count, d = self.centres.shape
         return float(count * (math.pow(2 * math.pi, d / 2) * math.pow(self.width, d)))
 

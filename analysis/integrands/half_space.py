@@ -127,6 +127,8 @@ class HalfSpace:
         m = np.arange(1, math.ceil(needed) + 1)
         sinc = np.prod(np.sinc(np.multiply.outer(m, sides / period)), axis=1)
         y = math.fsum((self.normal * (0.5 - self.point)).tolist()) / period  # beyond the plane: -S <= -reach
+        if abs(y) >= 0.5:  # the plane misses the box
+            return float(y > 0)
         terms = sinc * np.sin(2 * math.pi * ((m * y) % 1.0)) / (math.pi * m)
         return min(max(math.fsum([0.5, y, *terms.tolist()]), 0.0), 1.0)
 

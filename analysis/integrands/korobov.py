@@ -10,7 +10,7 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.analysis.integrands.lattice import MOST_FREQUENCIES, beyond_dimensions, check_count
+from gbnbench.analysis.integrands.lattice import MOST_FREQUENCIES, beyond_dimensions, check_count, check_share
 from gbnbench.errors import InputError, RefusalError
 from gbnbench.torus import FloatArray
 
@@ -73,6 +73,7 @@ class Korobov:
         the product N of their sizes; a recursion over axes counts them, and the total is a closed form. Where
         too many are needed RefusalError tells how many.
         """
+        check_share(share, self.refusal(d))
         total = math.expm1(d * math.log1p(2 * self.weight**2 * ZETA[2 * self.smoothness]))
         largest = 1
         while True:
@@ -84,14 +85,19 @@ class Korobov:
             number = int(np.searchsorted(kept, (1 - share) * total, side="right")) + 1
             if number <= len(ranked):
                 break
-            check_count("more than the hyperbolic cross", d, sum(classes.values()) / 2, most)
+            check_count(
+                f"even a hyperbolic cross that leaves out more than {share:g} of the energy",
+                d,
+                sum(classes.values()) / 2,
+                most=most,
+            )
             largest *= 2
         chosen = ranked[:number]
         check_count(
             f"the hyperbolic cross that leaves out {share:g} of the energy",
             d,
             sum(classes[k] for k in chosen) / 2,
-            most,
+            most=most,
         )
         return _cross(d, chosen)
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.errors import RefusalError
+from gbnbench.errors import InputError, RefusalError
 from gbnbench.torus import FloatArray
 
 MOST_DIMENSIONS = 20  # as far as every family's numbers are proven
@@ -48,20 +49,34 @@ def shells(d: int, square: int) -> tuple[NDArray[np.int64], FloatArray]:
     if square > LONGEST:
         raise RefusalError(
             f"frequencies up to |f|={math.sqrt(square):.4g} in d={d} are too many; at most "
-            f"{MOST_FREQUENCIES} are listed"
+            f"{MOST_FREQUENCIES} are listed: ask for fewer"
         )
     counts = np.zeros(square + 1)
     counts[h * h] = np.where(h == 0, 1.0, 2.0)
     for _ in range(d - 1):
+        met = np.flatnonzero(counts)
         longer = counts.copy()
         for side in h[1:].tolist():
-            longer[side * side :] += 2 * counts[: square + 1 - side * side]
+            fits = met[: np.searchsorted(met, square - side * side, side="right")]
+            longer[fits + side * side] += 2 * counts[fits]
         counts = longer
     met = np.flatnonzero(counts)
     return met, counts[met]
 
 
-def check_count(what: str, d: int, count: float, most: int = MOST_FREQUENCIES) -> None:
+@lru_cache(maxsize=64)
+def half_count(d: int, square: int) -> float:
+    """How many frequencies ``half_ball`` has."""
+    return float(shells(d, square)[1][1:].sum() / 2)
+
+
+def check_count(
+    what: str,
+    d: int,
+    count: float,
+    way_out: str = "leave out a larger share",
+    most: int = MOST_FREQUENCIES,
+) -> None:
     """Refuse a list of more frequencies than asked for, or than memory should hold.
 
     Raises
@@ -71,8 +86,23 @@ def check_count(what: str, d: int, count: float, most: int = MOST_FREQUENCIES) -
     """
     if count > most:
         raise RefusalError(
-            f"{what} in d={d} is {count:.0f} frequencies, one of each pair f, -f; at most {most} are listed"
+            f"{what} in d={d} has {count:.0f} frequencies, one of each pair f, -f; "
+            f"at most {most} are listed: {way_out}"
         )
+
+
+def check_share(share: float, refusal: str | None) -> None:
+    """Refuse a share that is none, or a dimension that there is a reason to refuse.
+
+    Raises
+    ------
+    InputError
+        If share is not between 0 and 1, or there is a refusal.
+    """
+    if refusal is not None:
+        raise RefusalError(refusal)
+    if not 0 < share < 1:
+        raise InputError(f"share must be of the energy to leave out, 0 < share < 1; got {share}")
 
 
 def half_ball(d: int, square: int) -> NDArray[np.int64]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import ClassVar
 
 import numpy as np
@@ -15,9 +15,10 @@ from gbnbench.analysis.integrands.lattice import (
     MOST_FREQUENCIES,
     beyond_dimensions,
     check_count,
+    check_share,
     half_ball,
+    half_count,
     halved,
-    shells,
 )
 from gbnbench.analysis.precision import Precision
 from gbnbench.errors import InputError, RefusalError
@@ -65,16 +66,18 @@ class Waves:
         if reason := beyond_dimensions("sums of waves", d):
             return reason
         try:
-            check_count(f"reach={self.reach:g}", d, (shells(d, self.square(d))[1].sum() - 1) / 2)
+            check_count(
+                f"reach={self.reach:g} of waves", d, half_count(d, self.square(d)), "take a smaller reach"
+            )
         except RefusalError as error:
-            return f"{error}; a smaller reach of waves has fewer"
+            return str(error)
         return None
 
     def draw(self, d: int, rng: np.random.Generator) -> WaveSum:
         """Draw frequencies and phases; RefusalError where ``refusal`` has a reason."""
         if reason := self.refusal(d):
             raise RefusalError(reason)
-        ball = half_ball(d, self.square(d))
+        ball = _ball(d, self.square(d))
         return WaveSum(ball[rng.integers(len(ball), size=self.count)], rng.random(self.count))
 
     def mean_energy(self, frequencies: NDArray[np.int64]) -> FloatArray:
@@ -82,21 +85,20 @@ class Waves:
         d = frequencies.shape[1]
         square = (frequencies**2).sum(axis=1)
         within = (square > 0) & (square <= self.square(d))
-        half = (shells(d, self.square(d))[1].sum() - 1) / 2
-        energy: FloatArray = within * (self.count / (4 * half))
+        energy: FloatArray = within * (self.count / (4 * half_count(d, self.square(d))))
         return energy
 
-    def frequencies(
-        self,
-        d: int,
-        share: float,  # noqa: ARG002
-        most: int = MOST_FREQUENCIES,
-    ) -> NDArray[np.int64]:
+    def frequencies(self, d: int, share: float, most: int = MOST_FREQUENCIES) -> NDArray[np.int64]:
         """Half of all frequencies in reach: no share is left out."""
-        if reason := self.refusal(d):
-            raise RefusalError(reason)
-        check_count(f"reach={self.reach:g}", d, (shells(d, self.square(d))[1].sum() - 1) / 2, most)
-        return half_ball(d, self.square(d))
+        check_share(share, self.refusal(d))
+        count = half_count(d, self.square(d))
+        check_count(f"reach={self.reach:g} of waves", d, count, "take a smaller reach", most=most)
+        return _ball(d, self.square(d)).copy()
+
+
+@lru_cache(maxsize=2)
+def _ball(d: int, square: int) -> NDArray[np.int64]:
+    return half_ball(d, square)
 
 
 @dataclass(frozen=True, eq=False)

@@ -68,6 +68,8 @@ def test_sides_of_zero_and_planes_beyond_the_box_are_served() -> None:
     assert HalfSpace(np.array([0.5, 0.0]), np.array([-1.0, -1.0])).integral == 0.125
     assert HalfSpace(np.array([2.0, 2.0]), np.array([1.0, 1.0])).integral == 0
     assert HalfSpace(np.array([2.0, 2.0]), np.array([-1.0, -1e-200])).integral == 1
+    assert HalfSpace(np.full(16, 1.5), np.ones(16)).integral == 0
+    assert HalfSpace(np.full(16, -0.5), np.ones(16)).integral == 1
     with pytest.raises(InputError, match="normal that is not 0"):
         HalfSpace(np.zeros(2), np.zeros(2))
 

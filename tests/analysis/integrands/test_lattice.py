@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gbnbench.analysis.integrands.lattice import check_count, half_ball, halved, shells
+from gbnbench.analysis.integrands.lattice import check_count, half_ball, half_count, halved, shells
 from gbnbench.errors import RefusalError
 
 
@@ -16,6 +16,7 @@ def test_half_a_ball_is_what_the_shells_count(d: int, square: int) -> None:
     assert counts.tolist() == np.bincount(lengths)[squares].tolist()
     assert squares.tolist() == np.unique(lengths[lengths <= square]).tolist()
     half = half_ball(d, square)
+    assert half_count(d, square) == len(half)
     whole = {tuple(f) for f in np.concatenate([half, -half])}
     assert len(whole) == 2 * len(half) == counts.sum() - 1
     assert whole == {tuple(f) for f in cube[(lengths > 0) & (lengths <= square)]}
@@ -38,7 +39,9 @@ def test_halves_meet_in_one() -> None:
 
 
 def test_a_list_too_long_is_refused_with_its_length() -> None:
-    with pytest.raises(RefusalError, match="5000000 frequencies"):
+    with pytest.raises(
+        RefusalError, match=r"a ball in d=3 has 5000000 frequencies, .* leave out a larger share"
+    ):
         check_count("a ball", 3, 5_000_000)
     with pytest.raises(RefusalError, match=r"up to \|f\|=1e\+04 in d=2 are too many"):
         shells(2, 10**8)

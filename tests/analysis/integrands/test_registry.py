@@ -105,6 +105,15 @@ def test_what_is_periodic_knows_its_energy(text: str) -> None:
         assert zero == pytest.approx([one.integral**2], rel=1e-12)
 
 
+@pytest.mark.parametrize("text", ["gaussians", "korobov", "waves", "ball"])
+@pytest.mark.parametrize("share", [0.0, 1.0, -0.1, float("nan")])
+def test_shares_that_are_none_are_told(text: str, share: float) -> None:
+    with pytest.raises(InputError, match=f"0 < share < 1; got {share}"):
+        find(text).frequencies(2, share)
+    with pytest.raises(RefusalError, match="d = 1 to 20; got d=0"):
+        find(text).frequencies(0, 0.1)
+
+
 @pytest.mark.parametrize("text", TEXTS)
 def test_the_same_seed_draws_the_same(text: str) -> None:
     family = find(text)

@@ -83,8 +83,8 @@ def test_settings_and_reaches_out_of_range_are_told() -> None:
     assert Waves().refusal(20) is None
     reason = Waves(reach=3).refusal(12)
     assert reason is not None
-    assert "a smaller reach" in reason
-    with pytest.raises(RefusalError, match="a smaller reach"):
+    assert "take a smaller reach" in reason
+    with pytest.raises(RefusalError, match="take a smaller reach"):
         Waves(reach=3).draw(12, np.random.default_rng(0))
     with pytest.raises(RefusalError, match="sums of waves are for d = 1 to 20; got d=21"):
         Waves().frequencies(21, 0.5)
