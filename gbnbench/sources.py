@@ -54,29 +54,35 @@ class Source:
 
     def identity(self) -> dict[str, Any]:
         """Tell what decides its points and numbers, JSON-ready: equal identities make equal results."""
+        from gbnbench.generators.registry import GENERATORS
+
         same = {
             "key": self.key, "label": self.label, "n": self.n, "d": self.d, "realizations": self.realizations
         }  # fmt: skip
         if self.generator is None:
             return {**same, "kind": "files", "sha256": self.digest}
+        kind = type(self.generator)
+        own = {} if GENERATORS.get(kind.name) is kind else {"class": f"{kind.__module__}.{kind.__qualname__}"}
         return {
             **same,
             "kind": "generator",
             "generator": self.generator.name,
+            **own,
             "settings": dataclasses.asdict(self.generator),  # type: ignore[call-overload]
         }
 
 
 def resolve(
-    names: Iterable[str], n: Sequence[int], d: Sequence[int], realizations: int
+    names: Iterable[str | Generator], n: Sequence[int], d: Sequence[int], realizations: int
 ) -> tuple[tuple[Source, ...], tuple[str, ...]]:
     """Turn what was typed into sources, in the order asked for.
 
     Parameters
     ----------
-    names : iterable of str
+    names : iterable of str or Generator
         Generators such as ``gbn[iterations=1000]``, files and folders. A name that is both is a generator;
-        with a path separator (``./gbn``) it is a path.
+        with a path separator (``./gbn``) it is a path. An instance is a generator of your own, whose class
+        the workers must be able to import.
     n, d : sequence of int
         Sizes and dimensions for the generators: each is made at every pair. Files bring their own.
     realizations : int
@@ -96,17 +102,19 @@ def resolve(
     RefusalError
         If nothing remains.
     """
+    from gbnbench.generators.registry import of_instance
+
     for argument, values in (("n", n), ("d", d), ("realizations", (realizations,))):
         if bad := [v for v in values if v < 1]:
             raise InputError(f"{argument} must be at least 1; got {bad[0]}")
     sources: list[Source] = []
     skipped: list[str] = []
     names = list(names)
-    stems = Counter(_title(Path(name)) for name in dict.fromkeys(names))
+    stems = Counter(_title(Path(name)) for name in dict.fromkeys(names) if isinstance(name, str))
     for name in names:
-        generator = _generator(name)
+        generator = _generator(name) if isinstance(name, str) else of_instance(name)
         if generator is None:
-            path = Path(name)
+            path = Path(str(name))
             title = _title(path)
             sources.extend(_read(path, title if stems[title] == 1 else str(path)))
             continue

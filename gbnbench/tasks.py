@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING
 
-from gbnbench.generators.protocol import Generator, realization_rng
+from gbnbench.generators.protocol import Generator, checked_draw, realization_rng
 from gbnbench.torus import FloatArray
 
 if TYPE_CHECKING:
@@ -43,6 +43,7 @@ def draw_set(
     began = time.process_time()
     x = generator(n, d, realization_rng(seed, k))
     cost = time.process_time() - began
+    x = checked_draw(generator, x, n, d)
     if first and again and cost < AGAIN_SECONDS:
         began = time.process_time()
         generator(n, d, realization_rng(seed, k))

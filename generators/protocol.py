@@ -6,7 +6,8 @@ from typing import ClassVar, Protocol, runtime_checkable
 
 import numpy as np
 
-from gbnbench.torus import FloatArray
+from gbnbench.errors import InputError
+from gbnbench.torus import FloatArray, check_points
 
 
 @runtime_checkable
@@ -36,3 +37,20 @@ class Generator(Protocol):
 def realization_rng(seed: int, k: int) -> np.random.Generator:
     """Random stream of realization k: the k-th child of SeedSequence(seed), whatever the count asked for."""
     return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(k,)))
+
+
+def checked_draw(generator: Generator, x: FloatArray, n: int, d: int) -> FloatArray:
+    """Return what a generator drew as (n, d) float64 points of the torus, or say that it is none of that.
+
+    Raises
+    ------
+    InputError
+        If x has another shape, is not finite, or leaves [0, 1).
+    """
+    try:
+        points = check_points(x)
+    except InputError as error:
+        raise InputError(f"{generator.name} drew no point set: {error}") from None
+    if points.shape != (n, d):
+        raise InputError(f"{generator.name} drew an array of shape {points.shape} for n={n}, d={d}")
+    return points

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import dataclasses
 import numbers
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -17,7 +19,7 @@ from gbnbench.generators.jittered import Jittered
 from gbnbench.generators.latin import LatinHypercube
 from gbnbench.generators.lloyd import Lloyd
 from gbnbench.generators.memory import too_large
-from gbnbench.generators.protocol import Generator, realization_rng
+from gbnbench.generators.protocol import Generator, checked_draw, realization_rng
 from gbnbench.generators.sobol import Sobol
 from gbnbench.generators.stealthy import Stealthy
 from gbnbench.generators.uniform import Uniform
@@ -72,8 +74,40 @@ def find(text: str, **settings: object) -> Generator:
     return configure(GENERATORS[name], {**inside, **settings})
 
 
+def of_instance(generator: object, settings: Mapping[str, object] | None = None) -> Generator:
+    """Return a generator that came as an instance, of the registry or somebody's own, or say what it lacks.
+
+    Parameters
+    ----------
+    generator : Generator
+        An instance of a frozen dataclass with what ``Generator`` asks for.
+    settings : mapping, optional
+        What was given beside it: it has its settings already, so there must be none.
+
+    Raises
+    ------
+    InputError
+        If it is a class, no frozen dataclass, or no generator, or if settings came with it.
+    """
+    kind = type(generator)
+    if isinstance(generator, type):
+        raise InputError(f"a generator must be an instance; got the class: write {generator.__name__}()")
+    if not isinstance(generator, Generator):
+        raise InputError(
+            "a generator must be text such as 'gbn[sigma=0.8]', or an object with name, summary, "
+            f"refusal(n, d) and __call__(n, d, rng); got {kind.__name__}"
+        )
+    frozen = getattr(getattr(kind, "__dataclass_params__", None), "frozen", False)
+    if not (dataclasses.is_dataclass(generator) and frozen):
+        raise InputError(f"a generator must be a frozen dataclass of its settings; {kind.__name__} is none")
+    if settings:
+        given = ", ".join(f"{name}=..." for name in settings)
+        raise InputError(f"an instance has its settings already: write {kind.__name__}({given})")
+    return generator
+
+
 def generate(
-    name: str,
+    name: str | Generator,
     n: int,
     d: int = 2,
     seed: int = 0,
@@ -85,8 +119,9 @@ def generate(
 
     Parameters
     ----------
-    name : str
-        One of ``GENERATORS``, with or without settings in brackets: ``"gbn[sigma=0.8]"``.
+    name : str or Generator
+        One of ``GENERATORS``, with or without settings in brackets: ``"gbn[sigma=0.8]"``; or an instance of
+        a generator of your own, whose sets are seeded in the same way.
     n : int
         Points a set, >= 1.
     d : int
@@ -99,7 +134,7 @@ def generate(
     watch : Watch, optional
         Progress, a trace of the optimiser, checkpoints to go on from.
     **settings
-        The generator's settings.
+        The generator's settings, where it is named.
 
     Returns
     -------
@@ -109,8 +144,8 @@ def generate(
     Raises
     ------
     InputError
-        If the name, a setting or an argument is wrong, a checkpoint is of another run, or a trace or a
-        checkpoint is asked of a generator that has none.
+        If the name, a setting or an argument is wrong, a checkpoint is of another run, a trace or a
+        checkpoint is asked of a generator that has none, or what was drawn is no set of n points.
     RefusalError
         If the generator cannot make n points in d dimensions.
 
@@ -119,7 +154,7 @@ def generate(
     >>> generate("jittered", n=16, seed=1).shape, generate("lloyd[iterations=5]", n=10, realizations=3).shape
     ((16, 2), (3, 10, 2))
     """
-    generator = find(name, **settings)
+    generator = find(name, **settings) if isinstance(name, str) else of_instance(name, settings)
     seed, realizations = _whole("seed", seed, 0), _whole("realizations", realizations, 1)
     n, d = _whole("n", n, 1), _whole("d", d, 1)
     if reason := too_large(8.0 * realizations * n * d):
@@ -136,7 +171,7 @@ def _draw(generator: Generator, n: int, d: int, rngs: list[np.random.Generator],
     only_progress(watch, generator.name)
     sets = []
     for k, rng in enumerate(rngs):
-        sets.append(generator(n, d, rng))
+        sets.append(checked_draw(generator, generator(n, d, rng), n, d))
         if watch.progress is not None:
             watch.progress(k + 1, len(rngs), generator.name)
     return np.stack(sets)

@@ -14,7 +14,7 @@ from gbnbench.analysis.integrands.lattice import beyond_dimensions
 from gbnbench.errors import InputError, RefusalError
 from gbnbench.torus import FloatArray
 
-# Sums of a, as Novak & Ritter (1996) and many since have them; Genz' own fall with d.
+# Sums of a by default, the same in every d: our choice, of the size customary for these families.
 DIFFICULTY = {
     "oscillatory": 9.0,
     "product-peak": 7.25,
@@ -40,12 +40,12 @@ class Genz:
         continuous: exp(-sum a_i |x_i - u_i|);
         discontinuous: exp(sum a_i x_i) where x_1 <= u_1 and x_2 <= u_2, else 0.
     difficulty : float or None
-        Sum of the a_i, > 0; None for the kind's usual one: 9, 7.25, 1.85, 7.03, 20.4 and 4.3 in this order.
+        Sum of the a_i, > 0; None for the kind's default: 9, 7.25, 1.85, 7.03, 20.4 and 4.3 in this order.
 
     References
     ----------
     Genz, "Testing multidimensional integration routines", 1984; "A package for testing multiple integration
-    subroutines", 1987. Novak & Ritter, Numerische Mathematik 75, 1996.
+    subroutines", 1987.
     """
 
     name: ClassVar[str] = "genz"

@@ -8,11 +8,11 @@ from collections.abc import Iterator
 
 import click
 
-from gbnbench.cli import gbnbench
 from gbnbench.analysis.integrands.registry import find as find_family
+from gbnbench.cli import gbnbench
 from gbnbench.generators.registry import find
 
-PLACEHOLDER = re.compile(r"[A-Z_]+|.*\.\.\..*|<.*>")
+PLACEHOLDER = re.compile(r"[A-Z_]+|.*\$.*|.*\.\.\..*|<.*>")
 BEFORE = {"do", "time", "nice", "$"}  # words that may stand before a command
 
 

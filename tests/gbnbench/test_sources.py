@@ -1,11 +1,13 @@
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from gbnbench.errors import FormatError, InputError, RefusalError
+from gbnbench.generators.jittered import Jittered
 from gbnbench.sources import Source, resolve
 
 SHARED = Path(__file__).resolve().parents[3] / "shared" / "points"
@@ -107,3 +109,22 @@ def test_numbers_below_one_are_refused(n: int, d: int, realizations: int) -> Non
 def test_sets_made_by_other_programs() -> None:
     found = named(SHARED / "bnot-1024", SHARED / "gbn-3d-1024")
     assert [(s.label, s.d, s.realizations) for s in found] == [("bnot-1024", 2, 4), ("gbn-3d-1024", 3, 1)]
+
+
+@dataclass(frozen=True)
+class Shifted(Jittered):
+    """Somebody's own generator, under the name of one of the registry."""
+
+    by: float = 0.25
+
+
+def test_an_own_generator_is_a_source_that_is_not_taken_for_ours() -> None:
+    (own, ours), skipped = resolve([Shifted(0.5), "jittered"], (64, 65), (2,), 3)
+    assert (own.label, own.n, own.realizations) == ("jittered[by=0.5]", 64, 3)
+    assert own.generator == Shifted(0.5)
+    assert own.identity()["class"] == f"{__name__}.Shifted"
+    assert own.identity()["settings"] == {"by": 0.5}
+    assert "class" not in ours.identity()
+    assert [line.partition(" at ")[0] for line in skipped] == ["jittered[by=0.5]", "jittered"]
+    with pytest.raises(InputError, match=r"write Shifted\(\)"):
+        resolve([Shifted], (64,), (2,), 1)  # type: ignore[list-item]

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ import pytest
 from gbnbench.errors import InputError, RefusalError
 from gbnbench.generators.lloyd import Lloyd
 from gbnbench.generators.registry import find, generate
+from gbnbench.torus import FloatArray
 
 
 def test_random_is_numpys_stream_of_the_documented_seed() -> None:
@@ -57,3 +59,57 @@ def test_refusal_is_the_generators_own() -> None:
 def test_numpy_integers_are_integers() -> None:
     n, d = np.array([6, 2])
     assert generate("random", n=n, d=d, seed=np.uint32(3), realizations=np.int8(2)).shape == (2, 6, 2)
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A generator of somebody's own: points scaled by a setting, or whatever else is to be tried."""
+
+    name: ClassVar[str] = "drawn"
+    summary: ClassVar[str] = "uniform points of a part of the torus"
+    side: float = 0.5
+
+    def refusal(self, n: int, d: int) -> str | None:
+        return None if d <= 3 else f"d must be at most 3; got d={d}"
+
+    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
+        return self.side * rng.random((n, d))
+
+
+@dataclass(frozen=True)
+class TooMany(Drawn):
+    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
+        return rng.random((n + 1, d))
+
+
+class Thawed:
+    name, summary, refusal, __call__ = "thawed", "no dataclass", Drawn.refusal, Drawn.__call__
+
+
+def test_an_instance_draws_from_the_streams_that_a_name_does() -> None:
+    uniform = generate("random", n=5, d=3, seed=7, realizations=4)
+    assert np.array_equal(generate(Drawn(0.25), n=5, d=3, seed=7, realizations=4), 0.25 * uniform)
+    assert np.array_equal(generate(find("random"), n=5, d=3, seed=7), uniform[0])
+
+
+@pytest.mark.parametrize(
+    ("generator", "settings", "message"),
+    [
+        (Drawn, {}, r"must be an instance; got the class: write Drawn\(\)"),
+        (Drawn(), {"side": 0.1}, r"has its settings already: write Drawn\(side=...\)"),
+        (3, {}, "must be text such as.*; got int"),
+        (Thawed(), {}, "must be a frozen dataclass of its settings; Thawed is none"),
+        (Drawn(side=2.0), {}, r"drawn drew no point set: points must lie in \[0, 1\)"),
+        (TooMany(), {}, r"drawn drew an array of shape \(5, 2\) for n=4, d=2"),
+    ],
+)
+def test_an_instance_that_is_no_generator_is_refused(
+    generator: Any, settings: dict[str, Any], message: str
+) -> None:
+    with pytest.raises(InputError, match=message):
+        generate(generator, n=4, seed=1, **settings)
+
+
+def test_an_instance_may_refuse() -> None:
+    with pytest.raises(RefusalError, match="d must be at most 3; got d=4"):
+        generate(Drawn(), n=4, d=4)

@@ -1,0 +1,97 @@
+"""The examples of docs/adding.md, run as they stand: files first, then what uses them, then the patches."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+ROOT = Path(__file__).parents[2]
+PAGE = (ROOT / "docs" / "adding.md").read_text(encoding="utf-8")
+PACKAGES = ("gbnbench", "generators", "analysis", "benchmarks", "reports")
+NAMED = re.compile(r"# (\w+\.py)\n")
+
+
+def blocks(language: str) -> list[str]:
+    return re.findall(rf"^```{language}\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
+
+
+def files() -> dict[str, str]:
+    return {m.group(1): block for block in blocks("python") if (m := NAMED.match(block))}
+
+
+@pytest.fixture(autouse=True)
+def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """A folder of one's own, that modules are imported from and that is the current one."""
+    before = set(sys.modules)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.syspath_prepend(str(tmp_path))
+    yield tmp_path
+    for name in [n for n in sys.modules if n + ".py" in files() and n not in before]:
+        del sys.modules[name]
+
+
+def test_the_python_runs_and_its_assertions_hold(place: Path) -> None:
+    for name, text in files().items():
+        (place / name).write_text(text, encoding="utf-8")
+    names: dict[str, object] = {}
+    ran = 0
+    for block in blocks("python"):
+        if not NAMED.match(block):
+            exec(compile(block, f"adding.md, block {ran}", "exec"), names)  # noqa: S102 - our own page
+            ran += 1
+    assert ran == 7
+    run = place / "runs" / "antithetic"
+    sources = json.loads((run / "settings.json").read_text())["sources"]
+    assert sources[1]["class"] == "antithetic.Antithetic"
+    assert sources[1]["settings"] == {"width": 0.5}
+    assert (run / "report.html").stat().st_size > 100_000
+    table = pd.read_csv(run / "table.csv").set_index("source")
+    assert 3 < table.powerlaw_exponent["antithetic"] < 4.5
+    assert (place / "antithetic.npz").exists()
+
+
+def apply(patch: str, root: Path) -> None:
+    """Put the + lines after the one line of the file that stands before them."""
+    path, anchor = root, ""
+    for line in patch.splitlines():
+        if line.startswith("--- "):
+            path = root / line[4:]
+        elif line.startswith("+"):
+            text = path.read_text(encoding="utf-8")
+            assert text.count(f"\n{anchor}\n") == 1, f"{path.name} has not one line {anchor!r}"
+            path.write_text(text.replace(f"\n{anchor}\n", f"\n{anchor}\n{line[1:]}\n"), encoding="utf-8")
+            anchor = f"{anchor}\n{line[1:]}"
+        elif not line.startswith("@@"):
+            anchor = line[1:]
+
+
+def test_the_patches_fit_and_the_commands_then_know_both(place: Path) -> None:
+    for package in PACKAGES:
+        skip = shutil.ignore_patterns("__pycache__", "results")
+        shutil.copytree(ROOT / package, place / package, symlinks=True, ignore=skip)
+    (place / "generators" / "antithetic.py").write_text(files()["antithetic.py"], encoding="utf-8")
+    (place / "analysis" / "axis_gap.py").write_text(files()["axis_gap.py"], encoding="utf-8")
+    for patch in blocks("diff"):
+        apply(patch, place)
+    program = (
+        "from pathlib import Path; from gbnbench.compare import compare;"
+        "from gbnbench.sources import resolve;"
+        "found, _ = resolve(['antithetic[width=0.5]', 'latin', 'grid'], [128], [2], 2);"
+        "compare(found, Path('run'), jobs=1)"
+    )
+    subprocess.run(
+        [sys.executable, "-c", program], cwd=place, check=True, env={**os.environ, "PYTHONPATH": str(place)}
+    )
+    table = pd.read_csv(place / "run" / "table.csv").set_index("source")
+    assert list(table.index) == ["antithetic[width=0.5]", "latin"]
+    assert 1 < table.axis_gap["latin"] < 2
+    assert table.axis_gap["antithetic[width=0.5]"] > 2
