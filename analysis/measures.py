@@ -14,8 +14,8 @@ from gbnbench.analysis.anisotropy import anisotropy, anisotropy_db
 from gbnbench.analysis.bond_order import bond_order, psi6
 from gbnbench.analysis.catalogue import CATALOGUE
 from gbnbench.analysis.delaunay import Neighbours, neighbours, valence, valence6
-from gbnbench.analysis.distances import mean_distance, min_distance
 from gbnbench.analysis.discrepancy import discrepancies
+from gbnbench.analysis.distances import mean_distance, min_distance
 from gbnbench.analysis.limits import check_fmax, default_fmax
 from gbnbench.analysis.periodogram import each_power
 from gbnbench.analysis.profile import (

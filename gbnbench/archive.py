@@ -6,7 +6,7 @@ import io
 import json
 import math
 import zipfile
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -178,8 +178,10 @@ def to_csv(table: pd.DataFrame) -> bytes:
     return text.encode()
 
 
-def read_csv(path: Path) -> pd.DataFrame:
+def read_csv(path: Path, text: Sequence[str] = ()) -> pd.DataFrame:
     """Read a table of numbers: whole columns as int64, the rest as the float64 that were written.
+
+    Columns named in ``text`` stay text.
 
     Notes
     -----
@@ -188,7 +190,9 @@ def read_csv(path: Path) -> pd.DataFrame:
     import pandas as pd
 
     texts = pd.read_csv(path, dtype=str, keep_default_na=False)
-    return pd.DataFrame({name: _numbers(texts[name].tolist()) for name in texts.columns})
+    return pd.DataFrame(
+        {name: column if name in text else _numbers(column.tolist()) for name, column in texts.items()}
+    )
 
 
 def _numbers(texts: list[str]) -> NDArray[Any]:

@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import os
-import platform
 import time
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from importlib import metadata
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,8 +13,10 @@ import numpy as np
 
 from gbnbench import __version__, store
 from gbnbench.baseline import Change, judge
-from gbnbench.errors import DeviceError, GbnbenchError, InputError
+from gbnbench.errors import DeviceError, InputError, UnfinishedError
+from gbnbench.kept import said_where
 from gbnbench.progress import Progress
+from gbnbench.provenance import versions
 from gbnbench.run import Run, SourceResult
 from gbnbench.sources import Source
 from gbnbench.tasks import analyse_sets, check_device, draw_set
@@ -26,12 +25,6 @@ from gbnbench.workers import Finished, Pool
 
 if TYPE_CHECKING:
     from gbnbench.analysis.measures import Analysis
-
-LIBRARIES = ("numpy", "scipy", "pandas", "matplotlib", "pyopencl", "scikit-image")
-
-
-class UnfinishedError(GbnbenchError):
-    """Some pieces failed; the rest is kept."""
 
 
 @dataclass(frozen=True)
@@ -137,7 +130,7 @@ def compare(
     }
     keeper = store.RunFolder(folder or store.default_folder(settings), settings)
     pieces = sum(_pieces(source) for source in sources)
-    with keeper.lock(), _said_where(keeper.path):
+    with keeper.lock(), said_where(keeper.path):
         if keeper.whole:
             run = store.read_run(keeper.path)
             changes, notes = ((), ()) if earlier is None else judge(run, earlier)
@@ -153,7 +146,7 @@ def compare(
             "settings": settings,
             "seed": seed,
             "device": device,
-            "versions": _versions(),
+            "versions": versions(),
             "created": time.strftime("%Y-%m-%dT%H:%M:%S%z"),
             "timings": {
                 "seconds": round(time.monotonic() - began, 3),
@@ -176,20 +169,6 @@ def compare(
             draw(run, keeper.path)
         keeper.finish(manifest)
     return Outcome(run, keeper.path, changes, notes, reused, pieces, time.monotonic() - began)
-
-
-@contextmanager
-def _said_where(folder: Path) -> Iterator[None]:
-    """Tell who stops the work where the finished pieces are."""
-    try:
-        yield
-    except KeyboardInterrupt:
-        raise KeyboardInterrupt(f"what is finished is kept in {folder}; the same command goes on") from None
-    except BrokenPipeError:
-        raise
-    except OSError as error:  # a full disk above all
-        text = f"{error.strerror}; what is finished is kept and the same command goes on"
-        raise OSError(error.errno, text, error.filename or str(folder)) from error
 
 
 def _require_common(sources: Sequence[Source], earlier: Run, baseline: Path | None) -> None:
@@ -311,13 +290,3 @@ def _cpu_seconds(parts: Sequence[store.Part]) -> float:
     """Mean cost of a set, without each worker's first where there are others: set-up is not the method's."""
     warm = [part.cpu_seconds for part in parts if not part.first]
     return float(np.mean(warm or [part.cpu_seconds for part in parts]))
-
-
-def _versions() -> dict[str, str]:
-    found = {"python": platform.python_version(), "gbnbench": __version__}
-    for library in LIBRARIES:
-        try:
-            found[library] = metadata.version(library)
-        except metadata.PackageNotFoundError:
-            continue
-    return found

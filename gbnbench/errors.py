@@ -37,3 +37,7 @@ class FormatError(InputError):
 
 class DeviceError(GbnbenchError, RuntimeError):
     """No OpenCL device can do the work; the text says what to install or choose."""
+
+
+class UnfinishedError(GbnbenchError):
+    """Some pieces of the work failed; the rest is kept."""

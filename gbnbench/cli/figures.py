@@ -1,0 +1,83 @@
+"""``gbnbench figures``: the figures of the paper, made anew."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import click
+
+from gbnbench.cli import options
+from gbnbench.errors import InputError
+
+EPILOG = """\b
+Examples:
+  gbnbench figures --quick                 all of them, in minutes
+  gbnbench figures 3 9 --out paper         two, with the paper's counts
+  gbnbench figures 1 8 --quick --sets bnot=folder-of-sets
+"""
+
+
+@click.command(epilog=EPILOG)
+@click.argument("names", nargs=-1, metavar="[N]...")
+@click.option("--quick", is_flag=True, help="Small counts: minutes instead of hours.")
+@click.option(
+    "--out", type=click.Path(path_type=Path), default=Path("figures"), show_default=True,
+    help="Folder for pictures and what they are drawn from.",
+)  # fmt: skip
+@click.option(
+    "--sets", multiple=True, metavar="NAME=PATH",
+    help="Sets of a method without a generator here (bnot, kdm, vnc, bluenets, step, ...): a file or folder.",
+)  # fmt: skip
+@click.option("--no-captions", is_flag=True, help="Leave captions out of the pictures; captions.md has them.")
+@options.seed
+@click.option("--jobs", type=click.IntRange(1), help="Worker processes.  [default: one a core]")
+@click.option("--quiet", is_flag=True, help="No progress.")
+@click.option("--tiny", is_flag=True, hidden=True, help="Sizes that tests run.")
+@options.device
+def figures(
+    names: tuple[str, ...],
+    quick: bool,
+    out: Path,
+    sets: tuple[str, ...],
+    no_captions: bool,
+    seed: int,
+    jobs: int | None,
+    quiet: bool,
+    tiny: bool,
+) -> None:
+    """Make the figures of Ahmed, Ren & Wonka (2022): all, or those numbered N; 'depth' is our own.
+
+    Each becomes a PNG and a PDF, with a page index.html of them all. What they are drawn from stays in
+    OUT/data: stopped in any way, the same command goes on where it was. Figures 10, 11 and 15 to 17 show
+    adaptive sampling, which comes later.
+    """
+    from gbnbench import progress
+    from gbnbench.reports.paper.catalogue import LATER, find
+    from gbnbench.reports.paper.figure import Ask
+    from gbnbench.reports.paper.make import make
+
+    wanted = find(names)
+    ask = Ask("tiny" if tiny else "quick" if quick else "full", _given(sets), seed)
+    with progress.choose(quiet) as teller:
+        made = make(wanted, out, ask, jobs or os.cpu_count() or 1, teller, not no_captions)
+    for one in made:
+        click.echo(f"{out / one.stem}.png  {one.figure.title}")
+    if not names:
+        click.echo(f"figures {', '.join(LATER)} show adaptive sampling, which comes later")
+    click.echo(f"page: {out / 'index.html'}")
+
+
+def _given(sets: tuple[str, ...]) -> dict[str, str]:
+    """Read NAME=PATH."""
+    found: dict[str, str] = {}
+    for text in sets:
+        name, equals, path = text.partition("=")
+        if not (name and equals and path):
+            raise InputError(f"--sets must read NAME=PATH, such as bnot=folder; got {text!r}")
+        if not Path(path).exists():
+            raise InputError(f"--sets {name}: {path} is neither a file nor a folder")
+        if name.lower() in found:
+            raise InputError(f"--sets must name each method once; got {name!r} twice")
+        found[name.lower()] = path
+    return found

@@ -1,0 +1,464 @@
+"""Integration: the variance of means over points against n, beside what the points' spectra foretell.
+
+Ahmed, Ren & Wonka 2022, Section 5.2; Pilleboue et al. 2015.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gbnbench import __version__, archive, disk, store
+from gbnbench.analysis.estimator import estimate_errors, foretold_variance, series_of
+from gbnbench.analysis.integrands.integrand import Family, Integrand
+from gbnbench.analysis.integrands.registry import find as find_family
+from gbnbench.analysis.variance import Variance, slope_of, variance_of
+from gbnbench.errors import DeviceError, FormatError, InputError, RefusalError
+from gbnbench.generators.protocol import Generator, realization_rng
+from gbnbench.generators.watch import Watch, Watchable
+from gbnbench.kept import MANIFEST, SETTINGS, read_json, said_where
+from gbnbench.pieces import Piece, PieceFolder, carry_out
+from gbnbench.progress import Progress
+from gbnbench.provenance import versions
+from gbnbench.settings import specification
+from gbnbench.sources import Source, resolve
+from gbnbench.torus import FloatArray, as_realizations, wrap
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+DEFAULT_SOURCES = ("random", "jittered", "sobol", "gbn")
+DEFAULT_INTEGRANDS = ("gaussians", "half-space")
+DEFAULT_N = (16, 64, 256, 1024)
+INSTANCE, SHIFT = 2**31 + 1, 2**31 + 2  # first words of spawn keys, far from any realization's number
+BLOCK_POINTS, BLOCK_SETS = 16_384, 32  # of a piece; fixed, so that pieces do not depend on the machine
+TEXT = ("source", "integrand")
+TABLES = ("variance", "slopes")
+
+
+@dataclass(frozen=True)
+class Integration:
+    """A finished study.
+
+    Attributes
+    ----------
+    manifest : mapping
+        JSON-ready: command, settings, seed, device, versions.
+    variance : DataFrame
+        A row a source, n, d and family: columns source, n, d, integrand, instances, realizations, shifts,
+        variance, standard_error, low, high (95% band), bias, bias_error, foretold, foretold_error, share
+        (of the family's energy beyond the frequencies summed), deviation (of variance from foretold, in their
+        joint standard errors); the last four nan for families that are not periodic.
+    slopes : DataFrame
+        A row a source, d and family with two or more n: columns source, d, integrand, n_from, n_to, slope,
+        standard_error, scatter (decades).
+    """
+
+    manifest: dict[str, Any]
+    variance: pd.DataFrame
+    slopes: pd.DataFrame
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What one call of ``integrate`` came to.
+
+    Attributes
+    ----------
+    study : Integration
+        Whole.
+    folder : Path
+        Where it stands.
+    reused, pieces : int
+        Pieces found finished in the folder, of how many.
+    seconds : float
+        Wall time of this call.
+    """
+
+    study: Integration
+    folder: Path
+    reused: int
+    pieces: int
+    seconds: float
+
+
+def variance(
+    x: ArrayLike, integrand: str = "gaussians", instances: int = 100, shifts: int = 0, seed: int = 0
+) -> Variance:
+    """Variance of the integral estimated by the mean over points.
+
+    Parameters
+    ----------
+    x : (n, d) or (realizations, n, d) float64
+        Points in [0, 1)^d.
+    integrand : str
+        A family of ``gbnbench.analysis.integrands.registry``, with or without settings.
+    instances : int
+        Random integrands of the family, >= 1.
+    shifts : int
+        Random toroidal shifts of each set; 0 takes the sets as they are.
+    seed : int
+        Of the integrands and shifts.
+
+    Returns
+    -------
+    Variance
+        Over integrands and sets.
+
+    Raises
+    ------
+    InputError
+        If points, family or a number is wrong.
+    RefusalError
+        If the family has no integrand in d dimensions.
+
+    Examples
+    --------
+    >>> from gbnbench import generate
+    >>> x = generate("random", n=64, d=2, realizations=50)
+    >>> found = variance(x, "korobov", instances=20)
+    >>> found.low < ((1 + 2 * 1.0040773561979443) ** 2 - 1) / 64 < found.high  # zeta(8), by Parseval
+    True
+    """
+    sets = as_realizations(x)
+    family = find_family(integrand)
+    _require(instances=(instances, 1), shifts=(shifts, 0), seed=(seed, 0))
+    d = sets.shape[2]
+    _refuse(family, d)
+    drawn = instances_of(family, d, seed, instances)
+    return variance_of(_errors(drawn, sets, 0, seed, shifts))
+
+
+def instances_of(family: Family, d: int, seed: int, count: int) -> list[Integrand]:
+    """Draw integrands: number i from ``SeedSequence(seed, spawn_key=(2^31 + 1, i))`` whatever the count."""
+    seeds = (np.random.SeedSequence(seed, spawn_key=(INSTANCE, i)) for i in range(count))
+    return [family.draw(d, np.random.default_rng(each)) for each in seeds]
+
+
+def integrate(
+    sources: Sequence[str | Source] = DEFAULT_SOURCES,
+    folder: Path | None = None,
+    *,
+    n: Sequence[int] = DEFAULT_N,
+    d: Sequence[int] = (2,),
+    realizations: int = 16,
+    integrands: Sequence[str] = DEFAULT_INTEGRANDS,
+    instances: int = 100,
+    shifts: int = 0,
+    seed: int = 0,
+    jobs: int | None = None,
+    command: str = "",
+    progress: Progress | None = None,
+    draw: Callable[[Integration, Path], None] | None = None,
+) -> Outcome:
+    """Estimate every integral with every set, in a folder that the same call can resume.
+
+    Parameters
+    ----------
+    sources : sequence of str or Source
+        Generators with settings, files and folders, as in ``gbnbench compare``.
+    folder : Path, optional
+        By default one under ``runs`` named by the settings.
+    n, d : sequence of int
+        Sizes and dimensions for the generators; what a generator refuses is skipped and said.
+    realizations : int
+        Sets of each generator.
+    integrands : sequence of str
+        Families with settings, such as ``gaussians[count=16]``.
+    instances : int
+        Integrands of each family, the same for all sources and n.
+    shifts : int
+        Random toroidal shifts of each set; 0 takes the sets as they are.
+    seed : int
+        Realization k draws from stream k of it; integrands and shifts from streams of their own.
+    jobs : int, optional
+        Worker processes, each with one thread; by default one a core.
+    command : str
+        What the user typed, for the manifest.
+    progress : Progress, optional
+        Told what is being done.
+    draw : callable, optional
+        ``draw(study, folder)`` makes the picture before the study is declared whole.
+
+    Returns
+    -------
+    Outcome
+
+    Raises
+    ------
+    InputError
+        If a name or number is wrong, or the folder holds something else.
+    RefusalError
+        If nothing remains of the sources or a family has no integrand in one of the dimensions.
+    UnfinishedError
+        If pieces failed; every other piece is kept.
+    """
+    began = time.monotonic()
+    progress = progress or Progress()
+    _require(instances=(instances, 1), shifts=(shifts, 0), seed=(seed, 0), jobs=(jobs or 1, 1))
+    families = tuple(dict.fromkeys(find_family(text) for text in integrands))
+    if not families:
+        raise InputError("no integrand given: name one, such as gaussians")
+    given = [source for source in sources if isinstance(source, Source)]
+    names = [source for source in sources if not isinstance(source, Source)]
+    skipped: tuple[str, ...] = ()
+    if names:
+        found, skipped = resolve(names, n, d, realizations)
+        given.extend(found)
+    for source in given:
+        for family in families:
+            _refuse(family, source.d)
+    settings: dict[str, Any] = {
+        "gbnbench": __version__,
+        "seed": seed,
+        "device": _device(),
+        "sources": [source.identity() for source in given],
+        "integrands": [specification(family) for family in families],
+        "instances": instances,
+        "shifts": shifts,
+    }
+    keeper = StudyFolder(folder or store.default_folder(settings, "integrate"), settings)
+    blocks = {source.key: _blocks(source) for source in given}
+    plan = (families, instances, shifts, seed)
+    pieces = [
+        Piece(
+            f"{source.key}/{first:06d}",
+            f"{source.label}, n={source.n}, d={source.d}",
+            _work,
+            (_origin(source, first, count), source.n, source.d, first, count, *plan),
+        )
+        for source in sorted(given, key=lambda s: -s.n * s.d)
+        for first, count in blocks[source.key]
+    ]
+    with keeper.lock(), said_where(keeper.path):
+        if keeper.whole:
+            study = read_integration(keeper.path)
+            return Outcome(study, keeper.path, len(pieces), len(pieces), time.monotonic() - began)
+        for line in skipped:
+            progress.say(f"skipped: {line}")
+        keeper.begin()
+        reused = carry_out(keeper, pieces, jobs or os.cpu_count() or 1, progress)
+        errors = {
+            (source.key, specification(family)): _gather(keeper, source, blocks[source.key], family)
+            for source in given for family in families
+        }  # fmt: skip
+        manifest = {
+            "command": command,
+            "version": __version__,
+            "settings": settings,
+            "seed": seed,
+            "device": settings["device"],
+            "versions": versions(),
+            "created": time.strftime("%Y-%m-%dT%H:%M:%S%z"),
+            "seconds": round(time.monotonic() - began, 3),
+            "skipped": list(skipped),
+        }
+        study = Integration(manifest, *_tables(given, families, instances, shifts, errors))
+        keeper.write_tables(study)
+        if draw is not None:
+            progress.advance("drawing", 0)
+            draw(study, keeper.path)
+        keeper.finish(manifest)
+    return Outcome(study, keeper.path, reused, len(pieces), time.monotonic() - began)
+
+
+class StudyFolder(PieceFolder):
+    """A study on disk."""
+
+    kind = "study of integration"
+
+    def write_tables(self, study: Integration) -> None:
+        """Write ``variance.csv`` and ``slopes.csv``."""
+        for name in TABLES:
+            disk.write_whole(self.path / f"{name}.csv", archive.to_csv(getattr(study, name)))
+
+
+def read_integration(folder: str | Path) -> Integration:
+    """Read a finished study.
+
+    Raises
+    ------
+    InputError
+        If it is none, or an unfinished one.
+    FormatError
+        If a file in it is missing or is not what was written.
+    """
+    path = Path(folder)
+    if not (path / MANIFEST).is_file():
+        state = "an unfinished" if (path / SETTINGS).is_file() else "no"
+        raise InputError(f"{path} is {state} study of integration: it has no {MANIFEST}")
+    manifest = read_json(path / MANIFEST)
+    if "integrands" not in manifest.get("settings", {}):
+        raise FormatError(path / MANIFEST, "is not of a study of integration")
+    tables = (
+        archive.reading(path / f"{name}.csv", lambda p: archive.read_csv(p, text=TEXT)) for name in TABLES
+    )
+    return Integration(manifest, *tables)
+
+
+def _require(**whole: tuple[int, int]) -> None:
+    for name, (value, least) in whole.items():
+        if value < least:
+            raise InputError(f"{name} must be at least {least}; got {value}")
+
+
+def _refuse(family: Family, d: int) -> None:
+    if why := family.refusal(d):
+        raise RefusalError(f"{specification(family)}: {why}")
+
+
+def _device() -> dict[str, Any] | str:
+    """Name the device, or what stands in for it: spectra and integrands have forms in numpy."""
+    from gbnbench.opencl import choose
+
+    try:
+        return dict(choose().describe())
+    except DeviceError:
+        return "numpy"
+
+
+def _blocks(source: Source) -> list[tuple[int, int]]:
+    """Part a source's realizations in (first, count)."""
+    size = max(1, min(BLOCK_SETS, BLOCK_POINTS // source.n))
+    return [(first, min(size, source.realizations - first)) for first in range(0, source.realizations, size)]
+
+
+def _origin(source: Source, first: int, count: int) -> Generator | FloatArray:
+    """Give a worker what it has its sets from."""
+    if source.sets is not None:
+        return source.sets[first : first + count]
+    if source.generator is None:
+        raise TypeError(f"{source.key} has neither a generator nor sets")
+    return source.generator
+
+
+def _work(
+    origin: Generator | FloatArray,
+    n: int,
+    d: int,
+    first: int,
+    count: int,
+    families: Sequence[Family],
+    instances: int,
+    shifts: int,
+    seed: int,
+) -> dict[str, NDArray[Any]]:
+    """Draw a block of sets and estimate with it, in a worker."""
+    if isinstance(origin, np.ndarray):
+        sets = origin
+    else:
+        rngs = [realization_rng(seed, first + k) for k in range(count)]
+        if isinstance(origin, Watchable):
+            sets = origin.draw(n, d, rngs, Watch())
+        else:
+            sets = np.stack([origin(n, d, rng) for rng in rngs])
+    found: dict[str, NDArray[Any]] = {}
+    for family in families:
+        text = specification(family)
+        drawn = instances_of(family, d, seed, instances)
+        found[f"{text} errors"] = _errors(drawn, sets, first, seed, shifts)
+        series = series_of(family, drawn, d)
+        if series is not None:
+            found[f"{text} foretold"] = foretold_variance(series, sets)
+            found[f"{text} share"] = np.asarray(series.share)
+    return found
+
+
+def _errors(
+    integrands: Sequence[Integrand], sets: FloatArray, first: int, seed: int, shifts: int
+) -> FloatArray:
+    """Estimates less integrals: (integrands, sets, shifts or 1)."""
+    if shifts == 0:
+        return estimate_errors(integrands, sets)[:, :, None]
+    errors = np.empty((len(integrands), len(sets), shifts))
+    for k, points in enumerate(sets):
+        moved = np.empty((shifts, *points.shape))
+        for s in range(shifts):
+            rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(SHIFT, first + k, s)))
+            moved[s] = wrap(points + rng.random(points.shape[1]))
+        errors[:, k, :] = estimate_errors(integrands, moved)
+    return errors
+
+
+@dataclass(frozen=True)
+class _Gathered:
+    errors: FloatArray  # (instances, realizations, shifts or 1)
+    foretold: FloatArray | None  # (realizations,)
+    share: float
+
+
+def _gather(
+    keeper: PieceFolder, source: Source, blocks: Sequence[tuple[int, int]], family: Family
+) -> _Gathered:
+    """All blocks of one source and family."""
+    text = specification(family)
+    pieces = [keeper.read(f"{source.key}/{first:06d}") or {} for first, _ in blocks]
+    errors = np.concatenate([piece[f"{text} errors"] for piece in pieces], axis=1)
+    if f"{text} foretold" not in pieces[0]:
+        return _Gathered(errors, None, float("nan"))
+    foretold = np.concatenate([piece[f"{text} foretold"] for piece in pieces])
+    return _Gathered(errors, foretold, float(pieces[0][f"{text} share"]))
+
+
+def _tables(
+    sources: Sequence[Source],
+    families: Sequence[Family],
+    instances: int,
+    shifts: int,
+    errors: dict[tuple[str, str], _Gathered],
+) -> tuple[pd.DataFrame, pd.DataFrame]:
+    import pandas as pd
+
+    rows, lines = [], []
+    for family in families:
+        text = specification(family)
+        for source in sources:
+            gathered = errors[source.key, text]
+            rows.append(
+                {
+                    "source": source.label, "n": source.n, "d": source.d, "integrand": text,
+                    "instances": instances, "realizations": source.realizations, "shifts": shifts,
+                    **_row(gathered),
+                }
+            )  # fmt: skip
+        for label, d in dict.fromkeys((source.label, source.d) for source in sources):
+            group = sorted((s.n, s.key) for s in sources if (s.label, s.d) == (label, d))
+            if len(group) > 1:
+                slope = slope_of([n for n, _ in group], [errors[key, text].errors for _, key in group])
+                lines.append(
+                    {
+                        "source": label, "d": d, "integrand": text, "n_from": group[0][0],
+                        "n_to": group[-1][0], "slope": slope.value, "standard_error": slope.standard_error,
+                        "scatter": slope.scatter,
+                    }
+                )  # fmt: skip
+    columns = [
+        "source", "d", "integrand", "n_from", "n_to", "slope", "standard_error", "scatter"
+    ]  # fmt: skip
+    return pd.DataFrame(rows), pd.DataFrame(lines, columns=columns)
+
+
+def _row(gathered: _Gathered) -> dict[str, float]:
+    found = variance_of(gathered.errors)
+    row = {
+        "variance": found.value, "standard_error": found.standard_error, "low": found.low, "high": found.high,
+        "bias": found.bias, "bias_error": found.bias_error,
+    }  # fmt: skip
+    nan = float("nan")
+    if gathered.foretold is None:
+        return {**row, "foretold": nan, "foretold_error": nan, "share": nan, "deviation": nan}
+    count = len(gathered.foretold)
+    foretold = float(gathered.foretold.mean())
+    error = float(gathered.foretold.std(ddof=1) / np.sqrt(count)) if count > 1 else nan
+    joint = float(np.hypot(found.standard_error, 0.0 if count == 1 else error))
+    deviation = (found.value - foretold) / joint if joint > 0 else nan
+    return {
+        **row, "foretold": foretold, "foretold_error": error, "share": gathered.share, "deviation": deviation
+    }  # fmt: skip
