@@ -30,7 +30,7 @@ class Gaussians:
     ----------
     count : int
         Gaussians of a sum, >= 1.
-    points : float
+    points : int
         Whose nominal grid spacing the width is, >= 1.
 
     Notes
@@ -44,13 +44,13 @@ class Gaussians:
     summary: ClassVar[str] = "toroidal sum of Gaussians at random centres (Ahmed, Ren & Wonka 2022, Eq. 33)"
     periodic: ClassVar[bool] = True
     count: int = 64
-    points: float = 512.0
+    points: int = 512
 
     def __post_init__(self) -> None:
         if self.count < 1:
             raise InputError(f"count of gaussians must be at least 1; got {self.count}")
-        if not (math.isfinite(self.points) and self.points >= 1):
-            raise InputError(f"points of gaussians must be a number >= 1; got {self.points}")
+        if self.points < 1:
+            raise InputError(f"points of gaussians must be at least 1; got {self.points}")
 
     def refusal(self, d: int) -> str | None:
         """Say why there are none in d dimensions, else None."""
@@ -77,7 +77,7 @@ class Gaussians:
         while True:  # until what is not counted cannot matter
             squares, counts = shells(d, most)
             energy = counts * np.exp(-decay * squares)
-            if energy[squares > most // 2].sum() <= 1e-6 * share * energy[1:].sum():
+            if energy[squares > most // 4].sum() <= 1e-6 * share * energy[1:].sum():
                 break
             most *= 2
         outside = np.cumsum(energy[::-1])[::-1]  # at and beyond each shell
