@@ -15,35 +15,51 @@ from gbnbench.generators.gbn.energy import field
 from gbnbench.torus import FloatArray
 
 STOPS = (3, 10, 15, 30, 100, 300, 500, 1000, 3000, 10_000)
+LARGER = (100, 300, 500, 1000)  # of them, those that 4,096 points take, too
+LOWEST = 10.0  # times the fitted profile within which the lowest frequency belongs to it
 SHAPED = (0.1, 2.0)  # departure of c from 4 pi^2 and residual in dB within which a profile has its shape
 RING = 0.025  # width in nu of the bands in which the fastest fall is looked for
 ZERO = 1e-9  # of the largest curvature, below which one is 0: finite differences leave 1e-11
 
 
 def shape(sets: Sets) -> Iterator[Row]:
-    """Profile and floor after so many steps of the paper's descent."""
-    trace = sets.evolution(STOPS)
-    ladder = dict(zip(STOPS, trace.keep_at, strict=True))
-    for stop in (100, 300, 500, 1000, 10_000):
-        x = trace.points(ladder[stop])
-        drawn = Drawn(x)
-        told = drawn.measures
-        off, residual = told["profile_c"] / STEEPNESS - 1, told["profile_residual_db"]
-        shaped = abs(off) < SHAPED[0] and residual < SHAPED[1]
-        paper = {100: "not yet", 300: "not yet", 500: "there"}.get(stop, "")
-        verdict = BESIDE if not paper else holds(shaped == (paper == "there"))
-        yield reported(
-            f"c-{stop}",
-            f"c over 4 pi^2 after {stop} steps",
-            paper,
-            off + 1,
-            told.standard_error["profile_c"] / STEEPNESS,
-            of=drawn,
-            holds=verdict,
-        )
-        yield reported(
-            f"residual-{stop}", f"residual of the fit, dB, after {stop} steps", "", residual, of=drawn
-        )
+    """Profile after so many steps of the paper's descent, and whether the lowest frequency has come to it."""
+    for n, stops in ((1024, STOPS), (4096, LARGER)):
+        trace = sets.evolution(stops, n=n, sets=4 if n == 1024 else 2)
+        ladder = dict(zip(stops, trace.keep_at, strict=True))
+        for stop in LARGER:
+            drawn = Drawn(trace.points(ladder[stop]))
+            told = drawn.measures
+            c = told["profile_c"]
+            lowest = drawn.radial.power[0] / (
+                told["profile_epsilon"] * math.exp(c * float(drawn.radial.nu[0]) ** 2)
+            )
+            shaped = abs(c / STEEPNESS - 1) < SHAPED[0] and told["profile_residual_db"] < SHAPED[1]
+            there = shaped and lowest < LOWEST
+            paper = {100: "not yet", 500: "there"}.get(stop, "")
+            yield reported(
+                f"lowest-{n}-{stop}",
+                f"P(|f| = 1) over the profile fitted above it, {stop} steps, n = {n}",
+                paper,
+                float(lowest),
+                of=drawn,
+                holds=holds(there == (paper == "there")) if paper else BESIDE,
+            )
+            yield reported(
+                f"c-{n}-{stop}",
+                f"c over 4 pi^2 after {stop} steps, n = {n}",
+                "",
+                c / STEEPNESS,
+                told.standard_error["profile_c"] / STEEPNESS,
+                of=drawn,
+            )
+            yield reported(
+                f"residual-{n}-{stop}",
+                f"rms residual of the fit, dB, after {stop} steps, n = {n}",
+                "",
+                *drawn.value("profile_residual_db"),
+                of=drawn,
+            )
 
 
 def longer(sets: Sets) -> Iterator[Row]:
@@ -123,10 +139,9 @@ def rate(sets: Sets) -> Iterator[Row]:
 
 
 def dug(sets: Sets) -> Iterator[Row]:
-    """Find the band of nu that loses most power in the first steps."""
-    trace = sets.evolution(STOPS)
-    at = dict(zip(STOPS, trace.keep_at, strict=True))[10]
-    drawn = Drawn(trace.points(at))
+    """Find the band of nu that has lost most power after three steps."""
+    trace = sets.evolution((3,), n=4096, sets=8)
+    drawn = Drawn(trace.points(trace.keep_at[0]))
     radial = drawn.radial
     band = np.floor(radial.nu / RING).astype(np.int64)
     mean = np.bincount(band, radial.count * radial.power) / np.maximum(np.bincount(band, radial.count), 1)
@@ -134,7 +149,7 @@ def dug(sets: Sets) -> Iterator[Row]:
     nu = (int(np.argmin(mean)) + 0.5) * RING
     yield reported(
         "nu",
-        "nu of the band with least power after 10 steps",
+        "nu of the band with least power after 3 steps",
         "0.159 (sigma of the kernel's image)",
         nu,
         RING / 2,
@@ -143,7 +158,7 @@ def dug(sets: Sets) -> Iterator[Row]:
     )
     yield reported(
         "fastest",
-        "nu where |q|^2 w_q, the rate of the descent, is largest: sqrt(2) / 2 pi",
+        "nu where |q|^2 w_q, the rate of small steps, is largest: sqrt(2) / 2 pi",
         "",
         math.sqrt(2) / (2 * math.pi),
         holds=BESIDE,

@@ -71,7 +71,7 @@ def profile(sets: Sets) -> Iterator[Row]:
 
 
 def convention(sets: Sets) -> Iterator[Row]:
-    """Slope that filtering leaves of ln P over nu^2, by the energy's kernel and by that whose variance it is."""
+    """Filter by the kernel of the energy and by the one whose variance it is: slope of ln P left."""
     drawn = sets.draw(PAPER, sets=8)
     for row, sigma, title in (
         ("energy", 1.0, "the kernel of the energy, sigma = 1"),
