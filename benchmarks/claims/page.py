@@ -28,6 +28,11 @@ def number(text: str) -> str:
     return f"{value:.3g}" if math.isfinite(value) else ""
 
 
+def cell(text: str) -> str:
+    """Return words as a table's cell takes them."""
+    return text.replace("|", "\\|")
+
+
 def filled(claim: Claim, table: Table) -> str:
     """Return a claim's note with the measured numbers in it.
 
@@ -64,8 +69,7 @@ def line(cells: dict[str, str]) -> str:
     )
     sets = f"{cells['sets']} x " if cells["sets"] != "0" else ""
     holds = "" if cells["holds"] == BESIDE else cells["holds"]
-    words = (text.replace("|", "\\|") for text in (cells["quantity"], cells["paper"]))
-    return f"| {' | '.join(words)} | {value} | {sets}{size} | {holds} |"
+    return f"| {cell(cells['quantity'])} | {cell(cells['paper'])} | {value} | {sets}{size} | {holds} |"
 
 
 def section(claim: Claim, table: Table) -> Iterator[str]:
@@ -89,7 +93,7 @@ def page(table: Table) -> str:
     head = resources.files(__package__).joinpath(HEAD).read_text(encoding="utf-8").format(counts=counts)
     lines = [head, "| claim | place | the paper states | holds |", "|---|---|---|---|"]
     lines += [
-        f"| [`{claim.name}`](#{anchor(claim, found)}) | {claim.place} | {claim.says} | {found} |"
+        f"| [`{claim.name}`](#{anchor(claim, found)}) | {claim.place} | {cell(claim.says)} | {found} |"
         for claim, found in zip(CLAIMS, verdicts, strict=True)
     ]
     subject = ""

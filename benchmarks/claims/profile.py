@@ -62,7 +62,7 @@ def profile(sets: Sets) -> Iterator[Row]:
         yield reported(
             f"sigma-{sigma}",
             f"c over 4 pi^2 sigma^2 at sigma = {sigma}",
-            "1 (Eq. 13)",
+            "1 (Eq. 13 with the sigma of Eq. 15)",
             share,
             error,
             of=drawn,

@@ -16,7 +16,7 @@ from gbnbench.errors import GbnbenchError, InputError
 from gbnbench.generators.registry import find, generate
 from gbnbench.generators.watch import Trace, Watch
 from gbnbench.points import load
-from gbnbench.results import Measures, RadialPower, Spectrum
+from gbnbench.results import Measures, RadialPower, Spectrum, gaussian_response
 from gbnbench.torus import FloatArray, as_realizations
 
 SEED = 2022
@@ -56,6 +56,18 @@ class Drawn:
     def radial(self) -> RadialPower:
         """Mean power on exact shells."""
         return radial(self.spectrum)
+
+    @cached_property
+    def lowest(self) -> float:
+        """Mean power at |f| = 1, in any dimension."""
+        d = self.x.shape[2]
+        return float(periodogram(self.x, frequencies=np.eye(d, dtype=np.int64)).power.mean())
+
+    @property
+    def level(self) -> float:
+        """Power at |f| = 1 over exp(4 pi^2 nu^2): eps of Eq. (19) as the lowest shell has it."""
+        _, n, d = self.x.shape
+        return self.lowest * float(gaussian_response(np.array(n ** (-1 / d)), 1.0))
 
     def value(self, measure: str) -> tuple[float, float]:
         """Return a measure and its standard error."""
