@@ -11,7 +11,7 @@ import numpy as np
 from gbnbench.analysis.estimator import estimate_errors, foretold_variance, series_of
 from gbnbench.analysis.integrands.gaussians import Gaussians
 from gbnbench.analysis.integrands.half_space import HalfSpaces
-from gbnbench.analysis.integrands.integrand import Family, Integrand
+from gbnbench.analysis.integrands.integrand import Integrand
 from gbnbench.analysis.variance import Slope, Variance, slope_of, variance_of
 from gbnbench.benchmarks.claims.claim import BESIDE, NO, PARTLY, Row, holds, reported
 from gbnbench.benchmarks.claims.sets import FAST, SEED, Drawn, Sets
@@ -27,7 +27,7 @@ AGREES = 3.0  # joint standard errors
 
 
 @lru_cache(maxsize=8)
-def integrands(family: Family, d: int) -> tuple[Integrand, ...]:
+def integrands(family: Gaussians | HalfSpaces, d: int) -> tuple[Integrand, ...]:
     """Draw the integrands that all sets of a dimension are tried on."""
     rng = np.random.default_rng([SEED, d])
     return tuple(family.draw(d, rng) for _ in range(INSTANCES))
@@ -39,17 +39,19 @@ def draw(sets: Sets, generator: str, n: int, d: int) -> Drawn:
     return sets.draw(generator, n=n, d=d, sets=many)
 
 
-def errors(sets: Sets, family: Family, generator: str, n: int, d: int) -> FloatArray:
+def errors(sets: Sets, family: Gaussians | HalfSpaces, generator: str, n: int, d: int) -> FloatArray:
     """Estimates less integrals, (integrands, sets)."""
     return estimate_errors(integrands(family, d), draw(sets, generator, n, d).x)
 
 
-def variance(sets: Sets, family: Family, generator: str, n: int, d: int) -> Variance:
+def variance(sets: Sets, family: Gaussians | HalfSpaces, generator: str, n: int, d: int) -> Variance:
     """Variance of the estimates."""
     return variance_of(errors(sets, family, generator, n, d))
 
 
-def slope(sets: Sets, family: Family, generator: str, d: int, sizes: tuple[int, ...]) -> Slope:
+def slope(
+    sets: Sets, family: Gaussians | HalfSpaces, generator: str, d: int, sizes: tuple[int, ...]
+) -> Slope:
     """Exponent of the variance in n."""
     return slope_of(sizes, [errors(sets, family, generator, n, d) for n in sizes])
 
@@ -106,14 +108,16 @@ def sigmoid(sets: Sets) -> Iterator[Row]:
         if high not in found:
             continue
         fall = math.log(found[high].value / found[low].value)
+        error = math.hypot(*(found[n].standard_error / found[n].value for n in (low, high)))
         yield reported(
             f"exponent-{high}", f"exponent of the variance in n, {low} to {high}",
-            paper, fall / math.log(high / low),
+            paper, fall / math.log(high / low), error / math.log(high / low),
             n=high, d=2, sets=len(draw(sets, FAST, high, 2).x),
             holds=holds(abs(fall / math.log(high / low) + 1) < PARALLEL) if paper else BESIDE,
         )  # fmt: skip
         yield reported(
             f"share-{high}", f"ln of the variance lost a point, {low} to {high}", "", fall / (high - low),
+            error / (high - low),
             n=high, d=2, sets=len(draw(sets, FAST, high, 2).x),
         )  # fmt: skip
     if 512 in found:
