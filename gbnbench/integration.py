@@ -9,6 +9,7 @@ import os
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gbnbench import __version__, archive, disk, store
-from gbnbench.analysis.estimator import estimate_errors, foretold_variance, series_of
+from gbnbench.analysis.estimator import Series, estimate_errors, foretold_variance, series_of
 from gbnbench.analysis.integrands.integrand import Family, Integrand
 from gbnbench.analysis.integrands.registry import find as find_family
 from gbnbench.analysis.variance import Variance, slope_of, variance_of
@@ -144,7 +145,7 @@ def instances_of(family: Family, d: int, seed: int, count: int) -> list[Integran
 
 def integrate(
     sources: Sequence[str | Source] = DEFAULT_SOURCES,
-    folder: Path | None = None,
+    folder: str | Path | None = None,
     *,
     n: Sequence[int] = DEFAULT_N,
     d: Sequence[int] = (2,),
@@ -164,7 +165,7 @@ def integrate(
     ----------
     sources : sequence of str or Source
         Generators with settings, files and folders, as in ``gbnbench compare``.
-    folder : Path, optional
+    folder : path, optional
         By default one under ``runs`` named by the settings.
     n, d : sequence of int
         Sizes and dimensions for the generators; what a generator refuses is skipped and said.
@@ -224,7 +225,7 @@ def integrate(
         "instances": instances,
         "shifts": shifts,
     }
-    keeper = StudyFolder(folder or store.default_folder(settings, "integrate"), settings)
+    keeper = StudyFolder(Path(folder or store.default_folder(settings, "integrate")), settings)
     blocks = {source.key: _blocks(source) for source in given}
     plan = (families, instances, shifts, seed)
     pieces = [
@@ -362,13 +363,19 @@ def _work(
     found: dict[str, NDArray[Any]] = {}
     for family in families:
         text = specification(family)
-        drawn = instances_of(family, d, seed, instances)
+        drawn, series = _known(family, d, seed, instances)  # type: ignore[arg-type]  # frozen: hashable
         found[f"{text} errors"] = _errors(drawn, sets, first, seed, shifts)
-        series = series_of(family, drawn, d)
         if series is not None:
             found[f"{text} foretold"] = foretold_variance(series, sets)
             found[f"{text} share"] = np.asarray(series.share)
     return found
+
+
+@lru_cache(maxsize=16)
+def _known(family: Family, d: int, seed: int, instances: int) -> tuple[tuple[Integrand, ...], Series | None]:
+    """Integrands and their series, in a worker once for all of its pieces."""
+    drawn = tuple(instances_of(family, d, seed, instances))
+    return drawn, series_of(family, drawn, d)
 
 
 def _errors(

@@ -67,12 +67,22 @@ def panel(ax: Axes, part: pd.DataFrame, given: dict[str, style.Stroke]) -> None:
     if len(sizes):
         ax.set_xlim(sizes[0] / 1.3, sizes[-1] * 1.3)
     if len(sizes) <= 12:
-        ax.xaxis.set_major_locator(FixedLocator(list(sizes[:: 1 if len(sizes) <= 7 else 2])))
+        ax.xaxis.set_major_locator(FixedLocator(_apart(sizes)))
         ax.xaxis.set_minor_locator(NullLocator())
     ax.xaxis.set_major_formatter(FuncFormatter(lambda n, _: f"{n:,.0f}"))
     ax.yaxis.set_major_locator(LogLocator(numticks=9))
     ax.yaxis.set_minor_locator(NullLocator())
     ax.grid(True)
+
+
+def _apart(sizes: Any) -> list[float]:
+    """Sizes to label: those that leave room for a label, the largest first."""
+    room = 0.17 * (np.log2(sizes[-1] / sizes[0]) + 1)
+    kept: list[float] = []
+    for size in sizes[::-1]:
+        if not kept or np.log2(kept[-1] / size) >= room:
+            kept.append(float(size))
+    return kept
 
 
 def guide_line(ax: Axes, sizes: Any, part: pd.DataFrame) -> None:

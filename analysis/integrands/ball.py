@@ -10,7 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.analysis.integrands.ball_volume import ball_volume, radius_of
-from gbnbench.analysis.integrands.lattice import beyond_dimensions, check_count, half_ball, shells
+from gbnbench.analysis.integrands.lattice import (
+    MOST_FREQUENCIES,
+    beyond_dimensions,
+    check_count,
+    half_ball,
+    shells,
+)
 from gbnbench.errors import InputError, RefusalError
 from gbnbench.torus import FloatArray
 
@@ -59,7 +65,7 @@ class Balls:
         """``energy``, which no centre changes: (m, d) -> (m,)."""
         return ball_energy(frequencies, self.radius(frequencies.shape[1]))
 
-    def frequencies(self, d: int, share: float) -> NDArray[np.int64]:
+    def frequencies(self, d: int, share: float, most: int = MOST_FREQUENCIES) -> NDArray[np.int64]:
         """Half a ball of frequencies, those outside it holding less than this share of the energy.
 
         Notes
@@ -69,16 +75,18 @@ class Balls:
         """
         radius = self.radius(d)
         volume = ball_volume(d, radius)
-        wanted, most = (1 - share) * volume * (1 - volume), 4
+        wanted, longest = (1 - share) * volume * (1 - volume), 4
         while True:
-            squares, counts = shells(d, most)
+            squares, counts = shells(d, longest)
             kept = np.cumsum(counts[1:] * _shell_energy(d, np.sqrt(squares[1:]), radius))
             if kept[-1] > wanted:
                 break
-            check_count(f"less than leaves out {share:g} of the energy", d, counts[1:].sum() / 2)
-            most *= 2
+            check_count(f"less than leaves out {share:g} of the energy", d, counts[1:].sum() / 2, most)
+            longest *= 2
         last = int(np.searchsorted(kept, wanted, side="right"))
-        check_count(f"the ball that leaves out {share:g} of the energy", d, counts[1 : last + 2].sum() / 2)
+        check_count(
+            f"the ball that leaves out {share:g} of the energy", d, counts[1 : last + 2].sum() / 2, most
+        )
         return half_ball(d, int(squares[last + 1]))
 
 

@@ -101,7 +101,7 @@ def _factors(d: int) -> NDArray[np.complex128]:
 
     def rest(size: float) -> int:
         # |phi| <= (size / a)^d, a = 4 sqrt(m / d): terms beyond M add up to (4 / (pi d)) (size / a)^d at M.
-        return math.ceil(((size * math.sqrt(d) / 4) ** d * 4 / (math.pi * d * TAIL)) ** (2 / d))
+        return math.ceil(math.pow((size * math.sqrt(d) / 4) ** d * 4 / (math.pi * d * TAIL), 2 / d))
 
     late = 78 * d  # from here on a / 2 >= 17.6, and |C + i S| <= 0.7252
     terms = min(rest(1.9), max(rest(1.4504), late))

@@ -10,16 +10,20 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.analysis.integrands.lattice import beyond_dimensions, check_count, half_ball, shells
-from gbnbench.analysis.precision import Precision, padded, precision_of
+from gbnbench.analysis.integrands.device import NUMPY_POINTS, launch, rows_of, values
+from gbnbench.analysis.integrands.lattice import (
+    MOST_FREQUENCIES,
+    beyond_dimensions,
+    check_count,
+    half_ball,
+    shells,
+)
+from gbnbench.analysis.precision import Precision
 from gbnbench.errors import InputError, RefusalError
-from gbnbench.opencl import devices_present, runtime
 from gbnbench.torus import FloatArray
 
 NEAREST = 0.0577  # widths up to which one image an axis is theta to 2^-54 of its largest value
 NEGLIGIBLE = 2.0**-55  # of theta's largest value: what harmonics left out may add up to
-DEVICE_POINTS = 1 << 20  # of a launch
-NUMPY_POINTS = 1 << 12  # of a chunk that stays in cache
 
 
 @dataclass(frozen=True)
@@ -70,19 +74,21 @@ class Gaussians:
         """Mean of ``energy`` over random centres at frequencies other than 0: (m, d) -> (m,)."""
         return self.count * gaussian_energy(frequencies, self.width(frequencies.shape[1]))
 
-    def frequencies(self, d: int, share: float) -> NDArray[np.int64]:
+    def frequencies(self, d: int, share: float, most: int = MOST_FREQUENCIES) -> NDArray[np.int64]:
         """Half a ball of frequencies, those outside it holding less than this share of the mean energy."""
         decay = (2 * math.pi * self.width(d)) ** 2
-        most = 4
+        longest = 4
         while True:  # until what is not counted cannot matter
-            squares, counts = shells(d, most)
+            squares, counts = shells(d, longest)
             energy = counts * np.exp(-decay * squares)
-            if energy[squares > most // 4].sum() <= 1e-6 * share * energy[1:].sum():
+            if energy[squares > longest // 4].sum() <= 1e-6 * share * energy[1:].sum():
                 break
-            most *= 2
+            longest *= 2
         outside = np.cumsum(energy[::-1])[::-1]  # at and beyond each shell
         last = int(np.flatnonzero(outside >= share * outside[1])[-1])
-        check_count(f"the ball that leaves out {share:g} of the energy", d, counts[1 : last + 1].sum() / 2)
+        check_count(
+            f"the ball that leaves out {share:g} of the energy", d, counts[1 : last + 1].sum() / 2, most
+        )
         return half_ball(d, int(squares[last]))
 
 
@@ -115,16 +121,7 @@ class GaussianSum:
         An OpenCL device of double precision computes, else numpy. Coordinates that are multiples of 2^-53
         lose nothing; others are rounded to such where a narrow Gaussian's nearest image lies across an edge.
         """
-        points = np.ascontiguousarray(x, dtype=np.float64).reshape(-1, self.centres.shape[1])
-        device = double_device()
-        step = NUMPY_POINTS if device is None else DEVICE_POINTS
-        values = np.empty(len(points))
-        for begin in range(0, len(points), step):
-            part = points[begin : begin + step]
-            values[begin : begin + step] = (
-                self.by_numpy(part) if device is None else self.on_device(part, device)
-            )
-        return values.reshape(x.shape[:-1])
+        return values(self, x)
 
     def energy(self, frequencies: NDArray[np.int64]) -> FloatArray:
         """|transform|^2 at integer frequencies, (m, d) -> (m,)."""
@@ -168,28 +165,15 @@ class GaussianSum:
 
     def on_device(self, points: FloatArray, device: Precision) -> FloatArray:
         """Values at (n, d) points by gaussians.cl."""
-        n, d = points.shape
         degree = max(len(self.harmonics) - 1, 0)
-        program = device.program("/exp2.cl", "gaussians.cl", DIM=d, DEGREE=degree)
-        items = padded(padded(n, device.lanes) // device.lanes, device.runtime.group)
-        stride = items * device.lanes
+        rows = rows_of(points, device, turns=degree > 0)
         if degree:
-            rows = device.turns(points[None], stride)
-            centres = np.stack(circle(self.centres), axis=-1)
-            shape = np.append(self.harmonics, self.scale)
+            centres, shape = np.stack(circle(self.centres), axis=-1), np.append(self.harmonics, self.scale)
         else:
-            rows = np.zeros((d, stride))
-            rows[:, :n] = points.T
-            centres = self.centres
-            shape = np.array([-1 / (2 * math.log(2) * self.width**2)])
-        upload = device.runtime.upload
-        out = device.runtime.empty(8 * stride)
-        held = upload(rows), upload(centres), upload(shape)
-        program.run(
-            "gaussians", (items,), (device.runtime.group,),
-            held[0], np.uint32(stride), held[1], np.uint32(len(self.centres)), held[2], out,
-        )  # fmt: skip
-        return device.runtime.download(out, np.empty(n))
+            centres, shape = self.centres, np.array([-1 / (2 * math.log(2) * self.width**2)])
+        count = np.uint32(len(self.centres))
+        files = ("/exp2.cl", "gaussians.cl")
+        return launch(device, files, rows, len(points), centres, count, shape, DEGREE=degree)
 
     @cached_property
     def harmonics(self) -> FloatArray:
@@ -257,10 +241,3 @@ def gaussian_energy(frequencies: NDArray[np.int64], width: float) -> FloatArray:
         -4 * math.pi**2 * width**2 * square
     )
     return energy
-
-
-def double_device() -> Precision | None:
-    """Return double precision on the chosen device, None where there is no device or it has none."""
-    if not devices_present() or not runtime().device.has_double:
-        return None
-    return precision_of("double")

@@ -74,7 +74,7 @@ class Genz:
         total = DIFFICULTY[self.kind] if self.difficulty is None else self.difficulty
         return KINDS[self.kind](a * (total / a.sum()), rng.random(d))
 
-    def frequencies(self, d: int, share: float) -> NDArray[np.int64]:  # noqa: ARG002 (the protocol's)
+    def frequencies(self, d: int, share: float, most: int = 0) -> NDArray[np.int64]:  # noqa: ARG002
         """None: it is not periodic."""
         return np.empty((0, d), dtype=np.int64)
 

@@ -37,7 +37,7 @@ class HalfSpaces:
             raise RefusalError(reason)
         return HalfSpace(rng.random(d), rng.standard_normal(d))
 
-    def frequencies(self, d: int, share: float) -> NDArray[np.int64]:  # noqa: ARG002 (the protocol's)
+    def frequencies(self, d: int, share: float, most: int = 0) -> NDArray[np.int64]:  # noqa: ARG002
         """None: it is not periodic."""
         return np.empty((0, d), dtype=np.int64)
 
@@ -94,10 +94,9 @@ class HalfSpace:
         reach = sum(n * p for n, p in zip(normals, points, strict=True)) - least
         sides = [side * fraction for side in sides]
         d = len(sides)
-        even, odd = (
-            [reach] if reach > 0 else [],
-            [],
-        )  # what is left of the reach beyond corners of either sign
+        # What is left of the reach beyond the corners of either sign, where anything is.
+        even: list[int] = [reach] if reach > 0 else []
+        odd: list[int] = []
         for side in sides:
             even, odd = (
                 even + [rest - side for rest in odd if rest > side],
@@ -105,7 +104,7 @@ class HalfSpace:
             )
         before = sum(rest**d for rest in even) - sum(rest**d for rest in odd)
         whole = math.factorial(d) * math.prod(sides)
-        return (whole - before) / whole  # of whole numbers: rounded correctly
+        return float((whole - before) / whole)  # of whole numbers: rounded correctly
 
     def by_series(self) -> float | None:
         """``integral`` by the Fourier series of the sum's density, None where it is too long.

@@ -10,7 +10,7 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.analysis.integrands.lattice import beyond_dimensions, check_count
+from gbnbench.analysis.integrands.lattice import MOST_FREQUENCIES, beyond_dimensions, check_count
 from gbnbench.errors import InputError, RefusalError
 from gbnbench.torus import FloatArray
 
@@ -64,7 +64,7 @@ class Korobov:
         """``energy``, which no shift changes: (m, d) -> (m,)."""
         return korobov_energy(frequencies, self.smoothness, self.weight)
 
-    def frequencies(self, d: int, share: float) -> NDArray[np.int64]:
+    def frequencies(self, d: int, share: float, most: int = MOST_FREQUENCIES) -> NDArray[np.int64]:
         """Half a hyperbolic cross of frequencies; those outside hold less than this share of the energy.
 
         Notes
@@ -74,9 +74,9 @@ class Korobov:
         too many are needed RefusalError tells how many.
         """
         total = math.expm1(d * math.log1p(2 * self.weight**2 * ZETA[2 * self.smoothness]))
-        most = 1
+        largest = 1
         while True:
-            classes = _classes(d, most)
+            classes = _classes(d, largest)
             ranked = sorted(classes, key=self._class_energy, reverse=True)
             ranked.remove((0, 1))
             energy = np.array([classes[key] * self._class_energy(key) for key in ranked])
@@ -84,13 +84,14 @@ class Korobov:
             number = int(np.searchsorted(kept, (1 - share) * total, side="right")) + 1
             if number <= len(ranked):
                 break
-            check_count("more than the hyperbolic cross", d, sum(classes.values()) / 2)
-            most *= 2
+            check_count("more than the hyperbolic cross", d, sum(classes.values()) / 2, most)
+            largest *= 2
         chosen = ranked[:number]
         check_count(
             f"the hyperbolic cross that leaves out {share:g} of the energy",
             d,
             sum(classes[k] for k in chosen) / 2,
+            most,
         )
         return _cross(d, chosen)
 
@@ -165,8 +166,8 @@ def _cross(d: int, classes: list[tuple[int, int]]) -> NDArray[np.int64]:
     """Half the integer vectors of these classes, the first component that is not 0 being positive."""
     most = max(product for _, product in classes)
     wanted = np.zeros((d + 1, most + 1), dtype=bool)
-    for j, product in classes:
-        wanted[j, product] = True
+    for key in classes:
+        wanted[key] = True
     # Whether a vector may still become one of a class: by nonzeros and product so far, axes to go.
     open_to = [wanted]
     for _ in range(d):

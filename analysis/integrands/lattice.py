@@ -61,18 +61,17 @@ def shells(d: int, square: int) -> tuple[NDArray[np.int64], FloatArray]:
     return met, counts[met]
 
 
-def check_count(what: str, d: int, count: float) -> None:
-    """Refuse a list of more frequencies than memory should hold.
+def check_count(what: str, d: int, count: float, most: int = MOST_FREQUENCIES) -> None:
+    """Refuse a list of more frequencies than asked for, or than memory should hold.
 
     Raises
     ------
     RefusalError
-        If count is above ``MOST_FREQUENCIES``.
+        If count is above most.
     """
-    if count > MOST_FREQUENCIES:
+    if count > most:
         raise RefusalError(
-            f"{what} in d={d} is {count:.0f} frequencies, one of each pair f, -f; "
-            f"at most {MOST_FREQUENCIES} are listed"
+            f"{what} in d={d} is {count:.0f} frequencies, one of each pair f, -f; at most {most} are listed"
         )
 
 
@@ -93,7 +92,7 @@ def half_ball(d: int, square: int) -> NDArray[np.int64]:
     spare = np.array([square], dtype=np.int64)  # of the squared length
     side = np.arange(-math.isqrt(square), math.isqrt(square) + 1)
     for _ in range(d):
-        fits = (side**2 <= spare[:, None]) & (rows.any(axis=1)[:, None] | (side >= 0))
+        fits = (side**2 <= spare[:, None]) & ((rows != 0).any(axis=1, keepdims=True) | (side >= 0))
         row, h = np.nonzero(fits)
         rows = np.column_stack([rows[row], side[h]])
         spare = spare[row] - side[h] ** 2

@@ -10,12 +10,20 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.analysis.integrands.lattice import beyond_dimensions, check_count, half_ball, halved, shells
+from gbnbench.analysis.integrands.device import launch, rows_of, values
+from gbnbench.analysis.integrands.lattice import (
+    MOST_FREQUENCIES,
+    beyond_dimensions,
+    check_count,
+    half_ball,
+    halved,
+    shells,
+)
+from gbnbench.analysis.precision import Precision
 from gbnbench.errors import InputError, RefusalError
 from gbnbench.torus import FloatArray, fixed_point
 
 POINTS = 512  # whose nominal frequency the reach is in, as the Gaussians' width
-CHUNK = 1 << 13  # points that stay in cache
 RADIANS = 2 * math.pi / 2.0**64
 
 
@@ -78,10 +86,16 @@ class Waves:
         energy: FloatArray = within * (self.count / (4 * half))
         return energy
 
-    def frequencies(self, d: int, share: float) -> NDArray[np.int64]:  # noqa: ARG002 (the protocol's)
+    def frequencies(
+        self,
+        d: int,
+        share: float,  # noqa: ARG002
+        most: int = MOST_FREQUENCIES,
+    ) -> NDArray[np.int64]:
         """Half of all frequencies in reach: no share is left out."""
         if reason := self.refusal(d):
             raise RefusalError(reason)
+        check_count(f"reach={self.reach:g}", d, (shells(d, self.square(d))[1].sum() - 1) / 2, most)
         return half_ball(d, self.square(d))
 
 
@@ -107,19 +121,25 @@ class WaveSum:
 
     def __call__(self, x: FloatArray) -> FloatArray:
         """Values, (..., d) -> (...), to 4e-16 a wave: f . x is found exactly, in fractions of 2^-64 turns."""
-        d = self.waves.shape[1]
-        points = np.asarray(x, dtype=np.float64).reshape(-1, d)
-        multiples, start = self.waves.astype(np.uint64), fixed_point(self.phases, 64)
-        values = np.zeros(len(points))
-        for begin in range(0, len(points), CHUNK):
-            turns = fixed_point(np.ascontiguousarray(points[begin : begin + CHUNK].T), 64)
-            for multiple, phase in zip(multiples, start, strict=True):
-                turn = np.full(turns.shape[1], phase)
-                for m, coordinate in zip(multiple, turns, strict=True):
-                    if m:
-                        turn += m * coordinate
-                values[begin : begin + CHUNK] += np.cos(turn.view(np.int64) * RADIANS)
-        return values.reshape(x.shape[:-1])
+        return values(self, x)
+
+    def by_numpy(self, points: FloatArray) -> FloatArray:
+        """Values at (n, d) points in numpy."""
+        total = np.zeros(len(points))
+        turns = fixed_point(np.ascontiguousarray(points.T), 64)
+        for multiple, phase in zip(self.waves.astype(np.uint64), fixed_point(self.phases, 64), strict=True):
+            turn = np.full(len(points), phase)
+            for m, coordinate in zip(multiple, turns, strict=True):
+                if m:
+                    turn += m * coordinate
+            total += np.cos(turn.view(np.int64) * RADIANS)
+        return total
+
+    def on_device(self, points: FloatArray, device: Precision) -> FloatArray:
+        """Values at (n, d) points by waves.cl."""
+        rows = rows_of(points, device, turns=True)
+        multiples, phases = self.waves.astype(np.uint64), fixed_point(self.phases, 64)
+        return launch(device, ("waves.cl",), rows, len(points), multiples, phases, np.uint32(len(phases)))
 
     def energy(self, frequencies: NDArray[np.int64]) -> FloatArray:
         """|transform|^2 at integer frequencies, (m, d) -> (m,): |sum of exp(2 pi i phase)|^2 / 4."""

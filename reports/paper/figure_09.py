@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,16 +13,17 @@ from matplotlib.lines import Line2D
 
 from gbnbench.analysis.integrands.registry import find
 from gbnbench.integration import instances_of
-from gbnbench.material import Arrays, Request, Study, Tables
+from gbnbench.material import Request, Study, Tables
+from gbnbench.pieces import Arrays
 from gbnbench.reports import integration
-from gbnbench.reports.paper.common import label_of, stroke
+from gbnbench.reports.paper.common import NAMES, stroke
 from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
 
 FAMILIES = ("gaussians", "half-space")
 TITLES = {"gaussians": "64 Gaussians", "half-space": "half spaces"}
 DIMENSIONS = (2, 3, 8)
 SOURCES = ("random", "jittered", "sobol", "gbn")
-SIZES = {
+SIZES: dict[str, dict[int, tuple[int, ...]]] = {
     "tiny": {2: (16, 64), 3: (8, 27), 8: (4, 16)},
     "quick": {
         2: (16, 32, 64, 128, 256, 512, 1024, 2048, 4096),
@@ -65,7 +67,8 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
     """Draw a row a family, a column a dimension."""
     tables = {d: material[f"d{d}"].variance for d in DIMENSIONS}
     labels = list(dict.fromkeys(label for table in tables.values() for label in table["source"]))
-    given = {label: stroke(label_of(label, ask)) for label in labels}
+    methods = {label: _method(label, ask) for label in labels}
+    given = {label: stroke(method) for label, method in methods.items()}
 
     def paint(panel: SubFigure) -> None:
         axes = panel.subplots(len(FAMILIES), len(DIMENSIONS), squeeze=False)
@@ -87,12 +90,19 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
             Line2D([], [], color=given[label].colour, linestyle=given[label].dash, marker="o", markersize=2.6)
             for label in labels
         ]
-        names = [label_of(label, ask) for label in labels]
+        names = [NAMES.get(method, method) for method in methods.values()]
         handles.append(Line2D([], [], color="#9aa3af", linewidth=2.2, alpha=0.7))
         names.append("1/n")
         panel.legend(handles, names, loc="outside lower center", ncols=len(names), columnspacing=1.2)
 
     return Drawing(PAGE, 4.4, paint, _caption(material, ask))
+
+
+def _method(label: str, ask: Ask) -> str:
+    """Name the method of a source: a generator, or whose sets the user gave."""
+    stems = {Path(path).resolve().name if Path(path).is_dir() else Path(path).stem: name
+             for name, path in ask.sets.items()}  # fmt: skip
+    return stems.get(label, label)
 
 
 def _inset(ax: Axes, picture: Any) -> None:

@@ -46,7 +46,7 @@ class Family:
     def refusal(self, d):
         return None
 
-    def frequencies(self, d, share):
+    def frequencies(self, d, share, most=0):
         cube = np.indices((2 * self.reach + 1,) * d).reshape(d, -1).T - self.reach
         return cube[len(cube) // 2 + 1 :]
 

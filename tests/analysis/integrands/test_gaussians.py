@@ -6,10 +6,9 @@ import mpmath
 import numpy as np
 import pytest
 
-from gbnbench.analysis.integrands import gaussians
+from gbnbench.analysis.integrands import device
 from gbnbench.analysis.integrands.gaussians import NEAREST, Gaussians, GaussianSum, circle, polynomial
 from gbnbench.analysis.integrands.lattice import half_ball
-from gbnbench.analysis.precision import Precision
 from gbnbench.errors import InputError, RefusalError
 from gbnbench.torus import FloatArray
 
@@ -32,7 +31,7 @@ def exact(integrand: GaussianSum, x: FloatArray) -> list[mpmath.mpf]:
 
 
 def numpy_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(gaussians, "devices_present", lambda: False)
+    monkeypatch.setattr(device, "devices_present", lambda: False)
 
 
 @pytest.mark.parametrize("where", ["device", "numpy"])
@@ -137,18 +136,6 @@ def test_frequencies_leave_out_no_more_than_the_share(d: int, share: float) -> N
         kept = mpmath.fsum(each)
         assert 0 <= 1 - kept / total < share
         assert 1 - (kept - each[-1]) / total >= share or len(each) == 1  # no shell too many
-
-
-def test_the_kernel_of_one_lane_has_the_same_values() -> None:
-    device = gaussians.double_device()
-    if device is None:
-        pytest.skip("no OpenCL device of double precision")
-    rng = np.random.default_rng(8)
-    for d in (2, 4):
-        one = Gaussians(count=4).draw(d, rng)
-        x = rng.random((701, d))
-        scalar = one.on_device(x, Precision(device.runtime, True, 1))
-        assert one(x) == pytest.approx(scalar, rel=4e-15, abs=1e-15)
 
 
 def test_settings_and_dimensions_out_of_range_are_told() -> None:

@@ -27,10 +27,10 @@ def corners(half: HalfSpace) -> float:
         return float(total / (mpmath.factorial(d) * mpmath.fprod(normal)))
 
 
-@pytest.mark.parametrize("d", [1, 2, 3, 5, 8])
+@pytest.mark.parametrize("d", [1, 2, 3, 5, 8, 12])
 def test_the_integral_is_that_of_all_corners_in_many_digits(d: int) -> None:
     rng = np.random.default_rng(d)
-    for _ in range(6):
+    for _ in range(6 if d < 12 else 1):
         half = HalfSpaces().draw(d, rng)
         assert half.integral == pytest.approx(corners(half), abs=2e-16)
         series = half.by_series()

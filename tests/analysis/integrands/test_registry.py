@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import dataclasses
+from pathlib import Path
+
 import numpy as np
 import pytest
 
-from gbnbench.analysis.integrands import gaussians
+from gbnbench.analysis.integrands import device
 from gbnbench.analysis.integrands.integrand import Periodic
 from gbnbench.analysis.integrands.registry import FAMILIES, find
 from gbnbench.errors import InputError, RefusalError
@@ -25,6 +28,15 @@ def test_each_name_is_its_family() -> None:
         assert family.name == name
         assert family.summary
         assert specification(family()) == name
+
+
+def test_the_page_has_every_family_with_its_settings() -> None:
+    page = (Path(__file__).parents[3] / "docs" / "integrands.md").read_text()
+    for name, family in FAMILIES.items():
+        row = next(line for line in page.splitlines() if line.startswith(f"| `{name}` |"))
+        for field in dataclasses.fields(family):  # type: ignore[arg-type]
+            default = "none" if field.default is None else str(field.default).removesuffix(".0")
+            assert f"`{field.name}` ({default}" in row
 
 
 @pytest.mark.parametrize("text", TEXTS)
@@ -50,14 +62,15 @@ def test_wrong_texts_are_told(text: str, message: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "text", [*TEXTS, "gaussians[count=5] by numpy", "gaussians[points=5000,count=3] by numpy"]
+    "text",
+    [*TEXTS, "gaussians[count=5] by numpy", "gaussians[points=5000,count=3] by numpy", "waves by numpy"],
 )
 @pytest.mark.parametrize("d", [1, 2, 3, 7])
 def test_values_are_bitwise_the_same_however_points_are_batched(
     text: str, d: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     if text.endswith(" by numpy"):
-        monkeypatch.setattr(gaussians, "devices_present", lambda: False)
+        monkeypatch.setattr(device, "devices_present", lambda: False)
         text = text.removesuffix(" by numpy")
     family = find(text)
     one = family.draw(d, np.random.default_rng(3))
