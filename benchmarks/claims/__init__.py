@@ -1,0 +1,1 @@
+"""The quantitative claims of Ahmed, Ren & Wonka (2022), each measured by a small function."""

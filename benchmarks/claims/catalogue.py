@@ -1,0 +1,90 @@
+"""Every claim: its measurement by name here, its words in texts.toml, in the order of the page."""
+
+from __future__ import annotations
+
+import tomllib
+from importlib import resources
+
+from gbnbench.benchmarks.claims import (
+    complexity,
+    convergence,
+    equations,
+    integrals,
+    kernels,
+    profile,
+    spectra,
+    steps,
+)
+from gbnbench.benchmarks.claims.claim import Claim, Measure, untried
+
+MEASURES: dict[str, Measure] = {
+    "families": profile.families,
+    "fpo-exponent": profile.farthest_points,
+    "eq-19": profile.profile,
+    "eq-7": profile.convention,
+    "weight": profile.weight,
+    "floor-kernel": profile.kernel_floor,
+    "floor-bnot": profile.bnot_floor,
+    "below": profile.below,
+    "peak": profile.summit,
+    "first-dug": convergence.dug,
+    "steps-500": convergence.shape,
+    "steps-more": convergence.longer,
+    "slows": convergence.rate,
+    "equivalence": convergence.equivalence,
+    "million": convergence.million,
+    "deterministic": convergence.repeated,
+    "hessian": convergence.singular,
+    "dims-faster": convergence.dimensions,
+    "high-d": convergence.high,
+    "sigma": kernels.widths,
+    "alike": kernels.alike,
+    "leak": kernels.leak,
+    "truncation": kernels.truncated,
+    "support": kernels.support,
+    "nearest-image": kernels.images,
+    "eq-22-23": kernels.series,
+    "harmonics": kernels.harmonics,
+    "profiles": kernels.flat,
+    "eq-1": equations.variance,
+    "eq-24": equations.balance,
+    "border": equations.border,
+    "box-cost": equations.box_cost,
+    "eq-47": equations.adaptive,
+    "fig-8": steps.lowest,
+    "freedom": steps.counted,
+    "step": steps.step,
+    "step-heck": steps.heck,
+    "step-high-d": steps.wide,
+    "peak-fades": steps.peaks,
+    "line": steps.line,
+    "neighbours": steps.degrees,
+    "annuli": spectra.rings,
+    "digits": spectra.digits,
+    "random": integrals.random,
+    "integration": integrals.best,
+    "sigmoid": integrals.sigmoid,
+    "prediction": integrals.predicted,
+    "beta-alpha": integrals.exponents,
+    "half-space": integrals.half_spaces,
+    "owen": integrals.owen,
+    "quadratic": complexity.by_points,
+    "linear-d": complexity.by_dimension,
+    "titan": complexity.titan,
+    "large": complexity.large,
+    "kernel-profiles": untried("profiles of KDM, VnC and BlueNets"),
+    "discrete": untried("floors of VnC and BlueNets"),
+    "bnot-time": untried("times of BNOT and KDM"),
+    "adaptive": untried("adaptive sets and reconstructions"),
+}
+
+
+def _claims() -> tuple[Claim, ...]:
+    texts = tomllib.loads(resources.files(__package__).joinpath("texts.toml").read_text(encoding="utf-8"))
+    return tuple(
+        Claim(name, measure=MEASURES[name], **{key: " ".join(text.split()) for key, text in words.items()})
+        for name, words in texts.items()
+    )
+
+
+CLAIMS = _claims()

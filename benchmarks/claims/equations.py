@@ -1,0 +1,224 @@
+"""The paper's equations against numbers found another way: Eq. (1), (18), (24) to (26), (29) and (47)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+from scipy.integrate import dblquad
+
+from gbnbench.benchmarks.claims.claim import BESIDE, Row, holds, reported
+from gbnbench.benchmarks.claims.sets import FAST, SEED, Sets
+from gbnbench.benchmarks.interleave import interleave
+from gbnbench.generators.gbn.box import BoxField, domain_pull
+from gbnbench.generators.gbn.energy import field
+from gbnbench.generators.gbn.energy_profile import theta
+from gbnbench.torus import FloatArray
+
+SIDE, N = 8.0, 64  # a torus of unit density
+GRID = 96  # samples a side: the squares of Gaussians are exact to rounding
+EXACT = 1e-9
+
+
+def sampled_variance(u: FloatArray, a: FloatArray, sigma: float) -> float:
+    """Variance over the torus of sum over k of a_k exp(-a_k |x - u_k|^2 / 2 sigma^2), sampled on a grid."""
+    axis = np.arange(GRID) * SIDE / GRID
+    total = np.zeros((GRID, GRID))
+    for (x, y), weight in zip(u, a, strict=True):
+        width = sigma / math.sqrt(weight)
+        total += weight * np.outer(theta(axis - x, SIDE, width), theta(axis - y, SIDE, width))
+    return float(np.mean((total - total.mean()) ** 2))
+
+
+def printed_variance(u: FloatArray, a: FloatArray, sigma: float) -> float:
+    """Eq. (47), its squared distance over all periods; Eq. (1) where every a is 1."""
+    total = 0.0
+    for k, point in enumerate(u):
+        both = a[k] * a / (a[k] + a)
+        step = point - u
+        pair = np.array(
+            [
+                theta(step[j, :1], SIDE, sigma / math.sqrt(b))[0]
+                * theta(step[j, 1:], SIDE, sigma / math.sqrt(b))[0]
+                for j, b in enumerate(both)
+            ]
+        )
+        total += float(np.sum(2 * math.pi * sigma**2 * both * pair))
+    return total / len(u) - (2 * math.pi * sigma**2) ** 2
+
+
+def variance(_: Sets) -> Iterator[Row]:
+    """Eq. (1), and its gradient by Eq. (18)."""
+    rng = np.random.default_rng(SEED)
+    u, ones, sigma = rng.random((N, 2)) * SIDE, np.ones(N), 0.8
+    away = abs(printed_variance(u, ones, sigma) / sampled_variance(u, ones, sigma) - 1)
+    yield reported(
+        "eq-1",
+        "relative difference of Eq. 1 from the variance sampled on a grid",
+        "0",
+        away,
+        n=N,
+        d=2,
+        sets=1,
+        holds=holds(away < EXACT),
+    )
+    # Eq. (18) in the library's terms: its gradient is of the sum over pairs, with sigma^2 of Eq. (14).
+    wide = math.sqrt(2) * sigma
+    energy = field(N, 2, wide, "double")
+    ours = energy(u[None] / SIDE).gradient[0] * math.pi * wide**2 / N
+    h = 1e-4
+    step = np.zeros_like(u)
+    step[0, 0] = h
+    slope = (sampled_variance(u + step, ones, sigma) - sampled_variance(u - step, ones, sigma)) / (2 * h)
+    ratio = slope / float(ours[0, 0])
+    yield reported(
+        "eq-18",
+        "sampled variance's slope over Eq. 18",
+        "1",
+        ratio,
+        n=N,
+        d=2,
+        sets=1,
+        holds=holds(abs(ratio - 1) < 1e-6),
+    )
+
+
+def adaptive(_: Sets) -> Iterator[Row]:
+    """Eq. (47) with shaping factors, and its reduction to Eq. (1)."""
+    rng = np.random.default_rng(SEED)
+    u, a, sigma = rng.random((N, 2)) * SIDE, rng.uniform(0.5, 2.0, N), 0.8
+    away = abs(printed_variance(u, a, sigma) / sampled_variance(u, a, sigma) - 1)
+    yield reported(
+        "eq-47",
+        "relative difference of Eq. 29 and 47 from the variance sampled on a grid, a from 0.5 to 2",
+        "0",
+        away,
+        n=N,
+        d=2,
+        sets=1,
+        holds=holds(away < EXACT),
+    )
+    plain = printed_variance(u, np.ones(N), sigma)
+    squares = printed_variance(u, np.full(N, sigma**2), sigma)
+    yield reported(
+        "reduction",
+        "Eq. 47 with every a = sigma^2 over Eq. 1, sigma = 0.8",
+        "1",
+        squares / plain,
+        n=N,
+        d=2,
+        sets=1,
+        holds=holds(abs(squares / plain - 1) < EXACT),
+    )
+
+
+def balance(_: Sets) -> Iterator[Row]:
+    """Pull of the domain against the push of a continuum of points, at half a spacing from a face."""
+    side, sigma, fine = 12.0, 1.0, 1200
+    axis = (np.arange(fine) + 0.5) * side / fine
+    at = np.array([0.5, 3.0])
+    along = np.exp(-((axis - at[1]) ** 2) / (2 * sigma**2)).sum() * side / fine
+    push = float(
+        np.sum((axis - at[0]) * np.exp(-((axis - at[0]) ** 2) / (2 * sigma**2)))
+        * side
+        / fine
+        * along
+        / sigma**2
+    )
+    for row, width, title in (
+        ("printed", math.sqrt(2) * sigma, "4 sigma^2"),
+        ("standard", sigma, "2 sigma^2"),
+    ):
+        pull = domain_pull(at, side, width)[1][0]
+        away = abs(pull / push - 1)
+        yield reported(
+            row,
+            f"relative imbalance of the domain's pull with {title} and the points' push of Eq. 18",
+            "0",
+            float(away),
+            d=2,
+            holds=holds(bool(away < 1e-4)) if row == "printed" else BESIDE,
+        )
+    pulls = [domain_pull(np.array([x, 3.0]), side, math.sqrt(2) * sigma)[1][0] for x in (0.5, 1.5)]
+    found = [
+        dblquad(
+            lambda x, y, at=at: (x - at) * math.exp(-((x - at) ** 2 + (y - 3) ** 2) / (4 * sigma**2)),
+            0,
+            side,
+            0,
+            side,
+            epsabs=1e-10,
+        )[0]
+        for at in (0.5, 1.5)
+    ]
+    away = abs(pulls[0] / pulls[1] / (found[0] / found[1]) - 1)
+    yield reported(
+        "eq-26",
+        "relative difference of Eq. 26 from the integral of Eq. 24, as a ratio of two places",
+        "0",
+        float(away),
+        d=2,
+        holds=holds(bool(away < 1e-7)),
+    )
+
+
+def outermost(u: FloatArray, side: float) -> FloatArray:
+    """Distance from each face to the nearest point of each strip, a spacing wide, that stands on it."""
+    count = math.floor(side)
+    found = []
+    for axis in (0, 1):
+        strip = np.minimum((u[:, 1 - axis] * count / side).astype(np.int64), count - 1)
+        for away in (u[:, axis], side - u[:, axis]):
+            nearest = np.full(count, np.inf)
+            np.minimum.at(nearest, strip, away)
+            found.append(nearest[np.isfinite(nearest)])
+    return np.concatenate(found)
+
+
+def border(sets: Sets) -> Iterator[Row]:
+    """Distance of a box's outermost points from its faces."""
+    offsets = []
+    for sigma in (0.7, 1.0, 1.5):
+        drawn = sets.draw(f"gbn[domain=box,sigma={sigma:g}]", sets=3)
+        side = math.sqrt(drawn.x.shape[1])
+        each = np.array([float(outermost(x * side, side).mean()) for x in drawn.x])
+        offsets.append(float(each.mean()))
+        yield reported(
+            f"offset-{sigma:g}",
+            f"mean distance of the outermost points from the faces, spacings, sigma = {sigma:g}",
+            "of the order of sigma (0.3 to 3)" if sigma == 1 else "",
+            offsets[-1],
+            float(each.std(ddof=1) / math.sqrt(len(each))),
+            of=drawn,
+            holds=holds(0.3 < offsets[-1] < 3) if sigma == 1 else BESIDE,
+        )
+        extreme = float(np.concatenate([drawn.x.min(axis=1), 1 - drawn.x.max(axis=1)]).mean() * side)
+        yield reported(
+            f"extreme-{sigma:g}", f"distance of the nearest point to each, sigma = {sigma:g}", "", extreme,
+            of=drawn,
+        )  # fmt: skip
+    growth = offsets[-1] / offsets[0] / (1.5 / 0.7)
+    yield reported(
+        "growth", "growth of the mean from sigma = 0.7 to 1.5 over that of sigma", "1 (in proportion)",
+        growth, of=drawn, holds=holds(abs(growth - 1) < 0.2),
+    )  # fmt: skip
+
+
+def box_cost(sets: Sets) -> Iterator[Row]:
+    """CPU time of a gradient in the box over one on the torus."""
+    x = sets.draw(FAST, n=4096, sets=1).x
+    box, torus = BoxField(4096, 2, 1.0, "double"), field(4096, 2, 1.0, "double")
+    timings = interleave({"box": lambda: box(x), "torus": lambda: torus(x)}, 1.0)
+    ratio = timings["box"].over(timings["torus"])
+    yield reported(
+        "cost",
+        "CPU time of a gradient in the box over that on the torus, ours",
+        "below 1",
+        float(np.median(ratio)),
+        float(ratio.std(ddof=1) / math.sqrt(len(ratio))),
+        n=4096,
+        d=2,
+        sets=1,
+        holds=holds(float(np.median(ratio)) < 1),
+    )

@@ -1,0 +1,328 @@
+"""Claims about the kernel: sigma, its support, the torus (Sec. 4.3 to 4.5)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from gbnbench.analysis.profile import noise_floor
+from gbnbench.benchmarks.claims.claim import BESIDE, PARTLY, Row, holds, reported
+from gbnbench.benchmarks.claims.sets import FAST, SEED, Drawn, Sets
+from gbnbench.generators.gbn import kernel
+from gbnbench.generators.gbn.energy import field
+from gbnbench.generators.gbn.energy_profile import energy_profile, theta, truncated_transform
+from gbnbench.generators.gbn.optimiser import Descent, step_size
+from gbnbench.generators.protocol import realization_rng
+from gbnbench.torus import wrap
+
+SIGMAS = (0.5, 0.7, 0.85, 1.0, 1.2, 1.5)
+
+
+def widths(sets: Sets) -> Iterator[Row]:
+    """Measure the trade-off of Fig. 3(a)."""
+    drawn = {sigma: sets.draw(f"gbn[sigma={sigma:g}]" if sigma != 1 else FAST) for sigma in SIGMAS}
+    for sigma, some in drawn.items():
+        for row, measure in (
+            ("floor", "noise_floor"),
+            ("peak", "peak"),
+            ("oscillations", "oscillations"),
+            ("nyquist", "effective_nyquist"),
+            ("evacuated", "evacuated_energy"),
+            ("psi6", "psi6"),
+        ):
+            yield reported(
+                f"{row}-{sigma:g}",
+                f"{measure.replace('_', ' ')}, sigma = {sigma:g}",
+                "",
+                *some.value(measure),
+                of=some,
+            )
+    size = drawn[1.0]
+    of = {sigma: some.measures for sigma, some in drawn.items()}
+    residual = math.log10(of[0.5]["noise_floor"] / of[1.0]["noise_floor"])
+    yield reported(
+        "narrow-floor",
+        "orders from the floor at sigma = 1 up to that at 0.5",
+        "above 0: residual low frequencies",
+        residual,
+        of=size,
+        holds=holds(residual > 1),
+    )
+    ringing = of[0.5]["oscillations"] / of[1.0]["oscillations"]
+    yield reported(
+        "narrow-oscillations",
+        "oscillations at sigma = 0.5 over those at 1",
+        "above 1: too much oscillation",
+        ringing,
+        of=size,
+        holds=holds(ringing > 1),
+    )
+    gain = math.log10(of[1.0]["noise_floor"] / of[1.5]["noise_floor"])
+    yield reported(
+        "wide-floor",
+        "orders from the floor at sigma = 1.5 up to that at 1",
+        "above 0: lower floor",
+        gain,
+        of=size,
+        holds=holds(gain > 0),
+    )
+    band = of[1.5]["effective_nyquist"] / of[1.0]["effective_nyquist"]
+    yield reported(
+        "wide-band",
+        "effective Nyquist frequency at sigma = 1.5 over that at 1",
+        "below 1: narrower band",
+        band,
+        of=size,
+        holds=holds(band < 1),
+    )
+    best = max(of, key=lambda sigma: of[sigma]["evacuated_energy"])
+    yield reported(
+        "best", "sigma of the largest evacuated energy", "1", best, of=size, holds=holds(best == 1, PARTLY)
+    )
+
+
+def alike(sets: Sets) -> Iterator[Row]:
+    """Compare the two settings of Fig. 2."""
+    narrow = sets.draw("gbn[sigma=0.5,iterations=30]")
+    wide = sets.draw("gbn[sigma=1.1,gradients=3000]")
+    for row, measure, most in (
+        ("mean-distance", "mean_distance", 0.05),
+        ("psi6", "psi6", 0.15),
+        ("v6", "valence6", 0.15),
+    ):
+        a, b = (some.value(measure) for some in (narrow, wide))
+        for name, some in (("narrow", a), ("wide", b)):
+            yield reported(f"{row}-{name}", f"{measure.replace('_', ' ')}, {name}", "", *some, of=narrow)
+        yield reported(
+            row,
+            f"{measure.replace('_', ' ')}: sigma = 0.5, 30 steps over sigma = 1.1, 1M steps",
+            f"1 within {most:.0%}: look alike",
+            a[0] / b[0],
+            of=narrow,
+            holds=holds(abs(a[0] / b[0] - 1) < most),
+        )
+    orders = math.log10(narrow.measures["noise_floor"] / wide.measures["noise_floor"])
+    yield reported(
+        "floor",
+        "orders from the floor of the latter up to that of the former",
+        "very different",
+        orders,
+        of=narrow,
+        holds=holds(orders > 3),
+    )
+
+
+def leak(_: Sets) -> Iterator[Row]:
+    """High frequencies that truncation lets in: the transform at nu = 1 over that at 0, sigma = 1 spacing."""
+    levels = []
+    for cutoff in (1.0, 2.0, 6.0, math.inf):
+        at = np.abs(truncated_transform(np.linspace(0.9, 1.1, 201), 1.0, cutoff, 2)).max()
+        levels.append(float(at / truncated_transform(np.zeros(1), 1.0, cutoff, 2)[0]))
+        yield reported(
+            f"leak-{cutoff:g}",
+            f"largest transform at nu = 0.9 to 1.1 over that at 0, 2D, support {cutoff:g} sigma",
+            "" if len(levels) == 1 else "less than with a smaller support",
+            levels[-1],
+            d=2,
+            holds=BESIDE if len(levels) == 1 else holds(levels[-1] < levels[-2]),
+        )
+
+
+def truncated(sets: Sets) -> Iterator[Row]:
+    """Draw sets of truncated kernels after 10,000 steps, and Lloyd's beside that of 1 sigma."""
+    whole = sets.draw(FAST, sets=8)
+    some = {
+        cutoff: sets.draw(f"gbn[iterations=10000,cutoff={cutoff:g}]", sets=2) for cutoff in (1.0, 2.0, 3.0)
+    }
+    for cutoff, drawn in (*some.items(), (math.inf, whole)):
+        for row, measure in (
+            ("psi6", "psi6"),
+            ("v6", "valence6"),
+            ("floor", "noise_floor"),
+            ("peak", "peak"),
+            ("distance", "mean_distance"),
+            ("nearest", "min_distance"),
+        ):
+            yield reported(
+                f"{row}-{cutoff:g}",
+                f"{measure.replace('_', ' ')}, support {cutoff:g} sigma",
+                "",
+                *drawn.value(measure),
+                of=drawn,
+            )
+    for cutoff, drawn in some.items():
+        orders = math.log10(drawn.measures["noise_floor"] / whole.measures["noise_floor"])
+        yield reported(
+            f"distorted-{cutoff:g}",
+            f"orders from the whole kernel's floor up to that of {cutoff:g} sigma",
+            "above 0: distorted",
+            orders,
+            of=drawn,
+            holds=holds(orders > 1),
+        )
+    for cutoff in (1.0, 2.0, 3.0):
+        nu = np.linspace(0, 3, 3001)
+        transform = truncated_transform(nu, 1.0, cutoff, 2)
+        yield reported(
+            f"negative-{cutoff:g}",
+            f"most negative value of the transform over that at 0, support {cutoff:g} sigma",
+            "",
+            float(transform.min() / transform[0]),
+            d=2,
+        )
+    lloyd = sets.draw("lloyd", sets=4)
+    for row, measure, within in (
+        ("psi6", "psi6", 0.1),
+        ("v6", "valence6", 0.1),
+        ("distance", "mean_distance", 0.03),
+    ):
+        ratio = some[1.0].measures[measure] / lloyd.measures[measure]
+        yield reported(
+            f"cvt-{row}",
+            f"{measure.replace('_', ' ')} of 1 sigma over that of Lloyd's (CVT)",
+            f"1 within {within:.0%}: similar",
+            ratio,
+            of=lloyd,
+            holds=holds(abs(ratio - 1) < within),
+        )
+
+
+def support(sets: Sets) -> Iterator[Row]:
+    """Measure what pairs beyond 6 and 9 sigma add: to an energy of 1 and to the forces."""
+    x = sets.draw(FAST, n=1024).x[:1]
+    whole = field(1024, 2, 1.0, "double", method="images")(x).gradient
+    loose = np.random.default_rng(SEED).random((1, 1024, 2))
+    scale = np.abs(field(1024, 2, 1.0, "double", method="images")(loose).gradient).max()
+    for name, reach in (("float", 6.0), ("double", 9.0)):
+        eps = kernel.EPS[name]
+        energy = math.exp(-(reach**2) / 2)
+        yield reported(
+            f"energy-{name}",
+            f"energy of a pair {reach:g} sigma apart over the rounding of {name}",
+            "below 1",
+            energy / eps,
+            holds=holds(energy < eps),
+        )
+        cut = field(1024, 2, 1.0, "double", method="strips", cutoff=reach)(x).gradient
+        yield reported(
+            f"force-{name}",
+            f"force of all pairs beyond {reach:g} sigma over the largest at random points",
+            "",
+            float(np.abs(cut - whole).max() / scale),
+            n=1024,
+            d=2,
+            sets=1,
+        )
+
+
+def images(_: Sets) -> Iterator[Row]:
+    """Error of the nearest image alone, over theta(0)."""
+    for side, right in ((4.0, False), (8.0, False), (12.0, True), (18.0, True)):
+        u = np.linspace(0, side / 2, 501)
+        error = float(np.abs(theta(u, side, 1.0) - np.exp(-(u**2) / 2)).max())
+        yield reported(
+            f"side-{side:g}",
+            f"error of the nearest image alone, {side:g} spacings a side, sigma = 1",
+            "below the rounding of float" if right else "wrong",
+            error,
+            holds=holds((error < kernel.EPS["float"]) == right),
+        )
+
+
+def series(_: Sets) -> Iterator[Row]:
+    """Eq. (22) and (23): both sides, in the paper's unit box."""
+    for sigma in (0.05, 0.2, 0.5):
+        x = np.linspace(0, 1, 257)
+        k, f = np.arange(-40, 41)[:, None], np.arange(1, 41)[:, None]
+        sum_of_gaussians = np.exp(-((x - k) ** 2) / (2 * sigma**2)).sum(axis=0)
+        cosines = (np.exp(-2 * np.pi**2 * sigma**2 * f**2) * np.cos(2 * np.pi * f * x)).sum(axis=0)
+        scale = math.sqrt(2 * math.pi) * sigma
+        right = float(np.abs(scale * (1 + 2 * cosines) - sum_of_gaussians).max() / sum_of_gaussians.max())
+        printed = float(
+            np.abs(scale * (2 + 2 * cosines) - sum_of_gaussians).max() / sum_of_gaussians.max()
+        )  # all f, 0 among them
+        yield reported(
+            f"theta-{sigma:g}",
+            f"largest error over theta(0) of Eq. 22 with 1 + 2 sum over f >= 1, sigma = {sigma:g} boxes",
+            "0",
+            right,
+            d=1,
+            holds=holds(right < 1e-9),
+        )
+        yield reported(
+            f"printed-{sigma:g}",
+            f"the same with the sum of Eq. 23 as printed, over all f and 1 besides, sigma = {sigma:g} boxes",
+            "0",
+            printed,
+            d=1,
+            holds=holds(printed < 1e-9),
+        )
+
+
+def harmonics(_: Sets) -> Iterator[Row]:
+    """Run one descent by images and by harmonics, from one start."""
+    n, steps = 256, 300
+    start = realization_rng(SEED, 0).random((1, n, 2))
+    ends = []
+    for method in ("images", "harmonics"):
+        run = Descent(field(n, 2, 1.0, "double", method=method), start, step_size(n, 2, 1.0))
+        for _step in range(steps):
+            run.advance()
+        ends.append(run.x)
+    away = np.abs(ends[0] - ends[1]).max() * math.sqrt(n)
+    yield reported(
+        "points",
+        f"largest distance of the points, spacings, {steps} steps",
+        "almost 0",
+        float(away),
+        n=n,
+        d=2,
+        sets=1,
+        holds=holds(away < 1e-3),
+    )
+    floors = [noise_floor(Drawn(wrap(end)).radial) for end in ends]
+    yield reported(
+        "floor",
+        "ratio of the noise floors",
+        "1",
+        floors[0] / floors[1],
+        n=n,
+        d=2,
+        sets=1,
+        holds=holds(abs(floors[0] / floors[1] - 1) < 0.01),
+    )
+
+
+def flat(_: Sets) -> Iterator[Row]:
+    """Measure the profiles of Fig. 6: how flat, and whether Gaussian or raised cosine."""
+    for side in (1.0, 2.0, 4.0, 8.0):
+        u = np.linspace(-side / 2, side / 2, 1025)
+        profile = energy_profile(u, side, 1.0)
+        fall = float(1 - profile.min())
+        gaussian = np.exp(-(u**2) / 2)
+        cosine = profile.min() + fall * (1 + np.cos(2 * np.pi * u / side)) / 2
+        to_gaussian, to_cosine = (
+            float(np.sqrt(np.mean((profile - other) ** 2)) / fall) for other in (gaussian, cosine)
+        )
+        yield reported(
+            f"fall-{side:g}",
+            f"fall of the profile from its top to its lowest, {side:g} points an axis",
+            "almost flat" if side <= 1 else "",
+            fall,
+            holds=holds(fall < 0.05) if side <= 1 else BESIDE,
+        )
+        yield reported(
+            f"gaussian-{side:g}",
+            f"rms distance from the Gaussian over the fall, {side:g} points an axis",
+            "",
+            to_gaussian,
+        )
+        yield reported(
+            f"cosine-{side:g}",
+            f"rms distance from a raised cosine over the fall, {side:g} points an axis",
+            "below that from the Gaussian" if side == 8 else "",
+            to_cosine,
+            holds=holds(to_cosine < to_gaussian) if side == 8 else BESIDE,
+        )
