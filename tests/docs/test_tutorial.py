@@ -22,7 +22,9 @@ print(json.dumps({
     "order": [m["valence6"], deep["valence6"]],
     "message": message,
     "rounding": rounding,
-    "variance": variance,
+    "variance": {name: v.value for name, v in variance.items()},
+    "slope": dict(zip(study.slopes.source, study.slopes.slope)),
+    "deviation": study.variance.deviation.abs().max(),
     "home": gbnbench.__file__,
     "files": sorted(path.name for path in folder.iterdir()),
 }))
@@ -57,14 +59,16 @@ def test_it_runs_and_shows_what_it_says(tmp_path: Path, monkeypatch: pytest.Monk
     assert shown["message"].endswith("line 1: this line says 3 points, and the file ends after 2")
     assert shown["rounding"] < 1e-26
     assert shown["variance"]["deep"] < shown["variance"]["gbn"] < 1e-5 * shown["variance"]["sobol"]
-    assert shown["files"] == ["cut.txt", "deep.csv", "deep.npz", "mine.txt"]
+    assert shown["slope"]["gbn"] < -4 < shown["slope"]["sobol"] < shown["slope"]["random"] < -0.7
+    assert shown["deviation"] < 4
+    assert shown["files"] == ["cut.txt", "deep.csv", "deep.npz", "mine.txt", "study"]
     pictures = [
         output
         for cell in notebook.cells
         for output in cell.get("outputs", [])
         if "image/png" in output.get("data", {})
     ]
-    assert len(pictures) == 4
+    assert len(pictures) == 5
     assert not [o for cell in notebook.cells for o in cell.get("outputs", []) if o.get("name") == "stderr"]
     if "TUTORIAL_OUT" in os.environ:
         nbformat.write(notebook, os.environ["TUTORIAL_OUT"])
