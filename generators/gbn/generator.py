@@ -22,8 +22,8 @@ from gbnbench.generators.gbn.projective import ProjectiveField, subsets
 from gbnbench.generators.gbn.run import optimise
 from gbnbench.generators.memory import too_large
 from gbnbench.generators.newton.modes import bound
-from gbnbench.generators.settings import specification
 from gbnbench.generators.watch import Watch
+from gbnbench.settings import specification
 from gbnbench.torus import FloatArray, wrap
 
 PAPER_ITERATIONS = 10_000  # what the paper recommends
@@ -214,15 +214,18 @@ class GaussianBlueNoise:
         energy = self._energy(n, d)
         step = self._step(n, d)
         plain = self.domain == "torus" and not (self.edge or self.cutoff) and self.projections == "none"
+        # The transform of a kernel cut off in space is negative in places: its energy falls below that of
+        # uniform points, which is no end.
+        enough = -math.inf if self.cutoff and not self.excess else self.excess
         optimiser: Descent
         if self.iterations or self.method == "descent":
-            optimiser = Descent(energy, starts, step, self.excess)
+            optimiser = Descent(energy, starts, step, enough)
         else:
             # The lowest band's preconditioner knows the torus's whole energy alone: in the box, and in one
             # dimension below an edge, it diverges.
             noise = energy_error(d, self.sigma, self._precision())
             band = self.sigma if plain else None
-            optimiser = Nesterov(energy, starts, step, self.excess, noise=noise, sigma=band)
+            optimiser = Nesterov(energy, starts, step, enough, noise=noise, sigma=band)
         if plain:
             alone = theta_at_0(n, d, self.sigma) ** d  # each point with its own images
             optimiser.constant = (uniform_energy(d, self.sigma) - alone) / 2

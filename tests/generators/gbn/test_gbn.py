@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 from gbnbench.analysis import profile
+from gbnbench.analysis.delaunay import valence6
+from gbnbench.analysis.distances import min_distance
 from gbnbench.analysis.periodogram import periodogram
 from gbnbench.analysis.radial import radial
 from gbnbench.errors import InputError
@@ -59,6 +61,15 @@ def test_other_dimensions_and_small_sets_reach_deep_floors(n, d, floor):
 def test_it_stops_at_the_excess_asked_for():
     x = GaussianBlueNoise(excess=1e-3)(256, 2, realization_rng(4, 0))
     assert 2e-4 < field(256, 2, 1.0)(x[None]).excess[0] <= 1e-3
+
+
+def test_a_kernel_cut_off_runs_through_though_its_energy_falls_below_uniform_points():
+    """Within one sigma the sets become as regular as centroidal tessellations (Section 4.4)."""
+    x = GaussianBlueNoise(cutoff=1.0)(256, 2, realization_rng(7, 0))
+    at = field(256, 2, 1.0, cutoff=1.0)(x[None])
+    assert at.excess[0] < -0.01
+    assert valence6(x) > 0.75
+    assert min_distance(x) > 0.8
 
 
 @pytest.mark.parametrize("n", [1, 2, 3])

@@ -1,0 +1,77 @@
+"""Figure 2: two settings whose points look alike and whose spectra do not."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from matplotlib.figure import SubFigure
+
+from gbnbench.material import Comparison, Request
+from gbnbench.reports import spectrum
+from gbnbench.reports.paper import common
+from gbnbench.reports.paper.figure import COLUMN, Ask, Drawing, PaperFigure
+
+NARROW = "gbn[sigma=0.5,iterations=30]"
+
+
+def _wide(ask: Ask) -> tuple[str, int]:
+    gradients = ask.pick(60, 1000, 3000)
+    return f"gbn[sigma=1.1,gradients={gradients}]", gradients
+
+
+def needs(ask: Ask) -> Mapping[str, Request]:
+    """Both settings, many sets each."""
+    count = ask.pick(2, 32, 1000)
+    return {"sets": Comparison((NARROW, _wide(ask)[0]), (common.size(ask),), (2,), count)}
+
+
+def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
+    """Points over spectra, and both radial powers in one plot."""
+    text, gradients = _wide(ask)
+    run, n = material["sets"], common.size(ask)
+    narrow = common.made(run, NARROW, n, "σ = 0.5, 30 steps")
+    wide = common.made(run, text, n, f"σ = 1.1, {gradients:,} gradients")
+    strokes = {narrow.title: common.stroke("fpo"), wide.title: common.stroke("gbn")}
+    both = (narrow, wide)
+
+    def paint(panel: SubFigure) -> None:
+        pictures, plot = panel.subfigures(2, 1, squeeze=False, height_ratios=[2.15, 1])[:, 0]
+        for k, (above, below, one) in enumerate(zip(*pictures.subplots(2, 2), both, strict=True)):
+            common.scatter(above, one.source, 1.6)
+            common.heading(above, "ab"[k], one.title)
+            spectrum.panel(below, one.source, None, ticks=False)
+        ax = plot.subplots()
+        common.white(ax)
+        for one in both:
+            common.curve(ax, one.source.radial, strokes[one.title], one.title)
+        common.log_nu(ax, 0.97 * n**-0.5)
+        common.log_power(ax, common.lowest(one.source.radial for one in both), 30)
+        ax.set_ylabel("radial power")
+        ax.legend(loc="lower right", fontsize=7, handlelength=1.8, borderaxespad=0.1)
+        common.heading(ax, "c", "radial power")
+
+    floor = {one.title: one.source.measures["noise_floor"] for one in both}
+    near = [one.source.measures["mean_distance"] for one in both]
+    caption = (
+        "Two settings of Gaussian Blue Noise whose points look alike and whose spectra do not: "
+        f"(a) {narrow.title.replace('steps', 'steps of the descent')}; (b) {wide.title} of Nesterov's method. "
+        "Top: a set; middle: the mean spectrum in PSA's grey, white from a power of 16, both dark in the "
+        "middle to the eye; (c) radial power on exact shells with white noise at 1. The mean distance to the "
+        f"nearest neighbour is {near[0]:.2f} and {near[1]:.2f} of the densest packing's, but the noise floor "
+        f"(mean power up to a nu of 0.25) {common.rounded(floor[narrow.title])} and "
+        f"{common.rounded(floor[wide.title])}. {common.counted(both)} each, d = 2. The paper's (b) took a "
+        f"million steps of descent; k gradients of Nesterov's method do the work of about k^2/9 steps, "
+        f"{gradients:,} of {gradients**2 // 9:,}."
+    )
+    return Drawing(COLUMN, 5.1, paint, caption)
+
+
+FIGURE = PaperFigure(
+    "2",
+    "Two settings that look alike",
+    "A kernel of half a spacing after 30 steps and one of 1.1 spacings after a million give sets that look "
+    "alike, while their spectra differ by many orders of magnitude: the points alone are no guide to sigma.",
+    needs,
+    draw,
+)
