@@ -17,7 +17,7 @@ from gbnbench.generators.protocol import realization_rng
 from gbnbench.generators.registry import find
 from gbnbench.material import Comparison, Request, Tables
 from gbnbench.reports.numbers import number
-from gbnbench.reports.paper import axes
+from gbnbench.reports.paper import axes, common
 from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
 from gbnbench.results import RadialPower
 from gbnbench.run import Run, SourceResult
@@ -113,8 +113,8 @@ def _sigmas(ax: Axes, by_sigma: Mapping[float, SourceResult]) -> None:
         ax.plot(nu, power, color=colour, linewidth=0.8, label=f"{sigma:g}", zorder=3 - sigma / 4)
         c = 4 * math.pi**2 * sigma**2
         axes.profile(ax, level(nu, power, c), c, nu)
-    axes.loglog(ax, lowest / 4, nu=(float(nu[0]) * 0.93, 2.1))
-    ax.set_title(r"(a) kernel width $\sigma$, $d = 2$", loc="left", size=7.5)
+    axes.loglog(ax, lowest / 4, (float(nu[0]) * 0.93, 2.1))
+    common.heading(ax, "a", r"kernel width $\sigma$, $d = 2$")
     ax.set_ylabel("radial power")
     ax.legend(title=r"$\sigma$", fontsize=6.5, title_fontsize=7, loc="lower right", handlelength=1.6,
               labelspacing=0.25)  # fmt: skip
@@ -132,8 +132,8 @@ def _dimensions(ax: Axes, by_dimension: Mapping[int, RadialPower]) -> None:
                 markevery=marked, markersize=2.8, markeredgewidth=0)  # fmt: skip
     nu, power = by_dimension[2].nu, by_dimension[2].power
     axes.profile(ax, level(nu, power, 4 * math.pi**2), 4 * math.pi**2, nu)
-    axes.loglog(ax, lowest / 4, nu=(float(nu[0]) * 0.93, 2.1))
-    ax.set_title(r"(b) dimension $d$, $\sigma = 1$", loc="left", size=7.5)
+    axes.loglog(ax, lowest / 4, (float(nu[0]) * 0.93, 2.1))
+    common.heading(ax, "b", r"dimension $d$, $\sigma = 1$")
     ax.legend(title="$d$", fontsize=6.5, title_fontsize=7, loc="lower right", handlelength=1.6,
               labelspacing=0.25)  # fmt: skip
 

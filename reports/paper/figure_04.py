@@ -15,6 +15,7 @@ from gbnbench.generators.gbn.energy_profile import truncated_transform
 from gbnbench.material import Request, Tables
 from gbnbench.reports import style
 from gbnbench.reports.numbers import number
+from gbnbench.reports.paper import common
 from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
 from gbnbench.torus import FloatArray
 
@@ -63,7 +64,7 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:  # noqa: ARG001 - as
         for ax, letter, title in zip(
             axes, "abc", ("kernel", "its transform", "its transform, logarithmic"), strict=True
         ):
-            ax.set_title(f"({letter}) {title}", loc="left", size=7.5)
+            common.heading(ax, letter, title)
             ax.set_xlabel(r"$x/\sigma$" if letter == "a" else r"frequency, cycles per $\sigma$")
         axes[0].set_ylim(0, 1.4)
         axes[0].set_yticks([0, 0.5, 1])

@@ -20,7 +20,7 @@ from gbnbench.generators.watch import Trace, Watch
 from gbnbench.material import Request, Tables
 from gbnbench.reports import style
 from gbnbench.reports.numbers import number
-from gbnbench.reports.paper import axes
+from gbnbench.reports.paper import axes, common
 from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
 from gbnbench.results import RadialPower
 from gbnbench.torus import FloatArray
@@ -97,12 +97,12 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
             raw, filtered, _ = grid[row]
             _raw(raw, found[method], counts[method], UNITS[method], colours)
             _filtered(filtered, found[method], colours)
-            raw.set_title(f"({letters[0]}) {METHODS[method]}", loc="left", size=7.5)
-            filtered.set_title(f"({letters[1]}) the same, filtered", loc="left", size=7.5)
+            common.heading(raw, letters[0], METHODS[method])
+            common.heading(filtered, letters[1], "the same, filtered")
         _progress(grid[0, 2], found, counts, colours, "excess")
         _progress(grid[1, 2], found, counts, colours, "floor")
-        grid[0, 2].set_title("(e) excess energy a point", loc="left", size=7.5)
-        grid[1, 2].set_title("(f) noise floor", loc="left", size=7.5)
+        common.heading(grid[0, 2], "e", "excess energy a point")
+        common.heading(grid[1, 2], "f", "noise floor")
 
     return Drawing(PAGE, 4.0, paint, _caption(found, counts, ask))
 
@@ -130,7 +130,7 @@ def _raw(
 ) -> None:
     for count, power, colour in zip(counts, found["power"], colours, strict=True):
         ax.plot(found["nu"], power, color=colour, linewidth=0.7, label=f"{count:,}")
-    axes.loglog(ax, float(found["power"].min()) / 4, nu=_span(found))
+    axes.loglog(ax, float(found["power"].min()) / 4, _span(found))
     ax.set_ylabel("radial power")
     ax.legend(title=unit, fontsize=5.8, title_fontsize=6.5, loc="lower right", handlelength=1.2,
               labelspacing=0.12, borderaxespad=0.1)  # fmt: skip
@@ -146,7 +146,7 @@ def _filtered(ax: Axes, found: Mapping[str, FloatArray], colours: Sequence[str])
         r"$\sigma/\sqrt{2}$", (found["nu"][ridge], narrow[ridge]), xytext=(3, 2), textcoords="offset points",
         size=6.5, color=style.COLOURS[1],
     )  # fmt: skip
-    axes.loglog(ax, float(found["power"].min()) / 4, nu=_span(found))
+    axes.loglog(ax, float(found["power"].min()) / 4, _span(found))
 
 
 def _progress(
