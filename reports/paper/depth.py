@@ -91,13 +91,13 @@ def _spectra(ax: Axes, gbn: Mapping[int, Column], deep: Column, theirs: Sequence
         dash = SHOWN.get(gradients, style.DASHES[0])
         common.curve(ax, one.source.radial, style.Stroke(colour, dash), one.title, linewidth=0.8)
         radials.append(one.source.radial)
-    common.curve(ax, deep.source.radial, style.Stroke(deep.stroke.colour, "-"), deep.title, linewidth=0.8)
+    common.curve(ax, deep.source.radial, deep.stroke, deep.title, linewidth=0.9)
     for one in theirs:
         common.curve(ax, one.source.radial, one.stroke, one.title, linewidth=0.8)
         radials.append(one.source.radial)
     target, edge = Deep().profile(2)
     nu = np.geomspace(deep.source.radial.nu[0], edge, 200)
-    ax.plot(nu, target(nu), **{**axes.DOTTED, "color": style.INK, "zorder": 4})
+    ax.plot(nu, target(nu), color=deep.stroke.colour, linewidth=2.6, alpha=0.22, zorder=1.5)
     axes.loglog(ax, common.lowest(radials) / 3, (float(nu[0]) * 0.95, 2.05))
     ax.set_ylabel("radial power")
     ax.legend(loc="lower right", fontsize=6.5, handlelength=2.4, borderaxespad=0.2, labelspacing=0.3)
@@ -105,10 +105,7 @@ def _spectra(ax: Axes, gbn: Mapping[int, Column], deep: Column, theirs: Sequence
 
 
 def _integration(ax: Axes, table: Any) -> None:
-    deep = common.stroke("deep")
-    given = {label: style.Stroke(deep.colour, "-") if label == "deep" else common.stroke("gbn")
-             for label in table["source"].unique()}  # fmt: skip
-    given[BESIDE] = common.stroke(BESIDE)
+    given = {label: common.stroke(label.partition("[")[0]) for label in table["source"].unique()}
     integration.panel(ax, table, given)
     ax.set_xlabel("points n")
     ax.set_ylabel("variance of the integral")
@@ -116,7 +113,8 @@ def _integration(ax: Axes, table: Any) -> None:
         rows = table[table["source"] == label].sort_values("n")
         ax.annotate(
             common.title_of(label), (float(rows["n"].iloc[-1]), float(rows["variance"].iloc[-1])),
-            xytext=(-4, 6), textcoords="offset points", ha="right", size=6.5, color=line.colour,
+            xytext=(-6, -3) if label == "deep" else (-4, 6), textcoords="offset points", ha="right",
+            size=6.5, color=line.colour,
         )  # fmt: skip
     common.heading(ax, "b", "integration, 64 Gaussians")
 
@@ -126,15 +124,16 @@ def _order(
 ) -> None:
     """One measure of order against the noise floor, deeper to the right."""
     paths = [
-        (gbn, common.stroke("gbn").colour, "o"), (deep, common.stroke("deep").colour, "D"),
-        *(([one], one.stroke.colour, "s") for one in theirs),
+        (gbn, common.stroke("gbn"), "o"), (deep, common.stroke("deep"), "D"),
+        *(([one], one.stroke, "s") for one in theirs),
     ]  # fmt: skip
-    for path, colour, marker in paths:
+    for path, line, marker in paths:
         floors = [one.source.measures["noise_floor"] for one in path]
         values = [one.source.measures[name] for one in path]
         errors = [one.source.measures.standard_error[name] for one in path]
         ax.errorbar(
-            floors, values, np.nan_to_num(errors), color=colour, marker=marker, markersize=3,
+            floors, values, np.nan_to_num(errors), color=line.colour, linestyle=line.dash,
+            marker=marker, markersize=3,
             linewidth=0.9, elinewidth=0.7, label=path[-1].title.partition(",")[0],
         )  # fmt: skip
     for one in gbn:
@@ -146,7 +145,7 @@ def _order(
     ax.xaxis.set_major_locator(LogLocator(numticks=6))
     ax.xaxis.set_minor_locator(NullLocator())
     ax.invert_xaxis()
-    ax.margins(0.13, 0.12)
+    ax.margins(0.2, 0.12)
     ax.set_xlabel("noise floor")
     if name == next(iter(ORDER)):
         ax.legend(fontsize=6.5, loc="upper right", borderaxespad=0.1, handlelength=1.6)
@@ -163,25 +162,37 @@ def _caption(
     most = int(table["n"].max())
     at = {row.source: row for row in table[table["n"] == most].itertuples()}
     plain = at[usual.source.label]
-    generator = Deep()
-    edge = generator.profile(2)[1]
+    by_n = table.pivot_table("variance", "n", "source")
+    ratio = by_n["deep"] / by_n[usual.source.label]
+    worse = (
+        "; below the Gaussians' own 512 points deep is the worse, by a factor of "
+        f"{number(float(ratio.max()))} at most"
+        if ratio[ratio.index < 512].max() > 1
+        else ""
+    )
+    edge = Deep().profile(2)[1]
     steep = ", ".join(f"{c / math.pi**2:.0f}" for c in ask.pick((), STEEPNESS, STEEPNESS))
-    path = f"Deep: c = {steep} and 10 pi^2 at an edge of {edge:g}. " if steep else ""
+    path = (
+        f"Deep: c = {steep} and 10 pi^2 at an edge of {edge:g}, v6 from {of(deep[0], 'valence6')} to "
+        f"{of(last, 'valence6')}. "
+        if steep
+        else ""
+    )
     given = f" Also {common.listed([one.title for one in theirs])}, of given files." if theirs else ""
     return (
         "Depth against order. Gaussian Blue Noise (GBN) becomes deeper by longer optimisation (gradients "
         "of Nesterov's method in the labels; 320 do the work of the paper's 10,000 steps) and more ordered "
         "with it; the deep profile P = exp(-c (edge^2 - nu^2)) is reached from a short GBN by the least "
-        "move, and its steepness c costs no order. (a) Radial power, the grey line is white noise; dotted: "
+        "move, and its steepness c costs little order. (a) Radial power, the grey line is white noise; pale: "
         "the deep target. (b) Variance of the integral of toroidal sums of 64 Gaussians of width "
         f"512^(-1/2): {int(plain.instances)} integrands, {int(plain.realizations)} sets; bands 95%; "
         f"crosses: foretold by the spectra; grey: 1/n. At n = {most:,} it is {number(plain.variance)} for "
-        f"GBN and {number(at['deep'].variance)} for deep. (c, d, e) Share of six-sided Voronoi cells, "
-        "sixfold order and spectral peak against the noise floor, deeper to the right, with standard "
-        f"errors. {path}From {usual.title.partition(', ')[2]} to {longest.title.partition(', ')[2]} "
-        f"gradients GBN's floor goes from {of(usual, 'noise_floor')} to {of(longest, 'noise_floor')}, its "
-        f"v6 from {of(usual, 'valence6')} to {of(longest, 'valence6')}; deep has {of(last, 'noise_floor')} "
-        f"and {of(last, 'valence6')}. "
+        f"GBN and {number(at['deep'].variance)} for deep{worse}. (c, d, e) Share of six-sided Voronoi "
+        "cells, sixfold order and spectral peak against the noise floor, deeper to the right, with "
+        f"standard errors. {path}From {usual.title.partition(', ')[2]} to "
+        f"{longest.title.partition(', ')[2]} gradients GBN's floor goes from {of(usual, 'noise_floor')} to "
+        f"{of(longest, 'noise_floor')}, its v6 from {of(usual, 'valence6')} to {of(longest, 'valence6')}; "
+        f"deep has {of(last, 'noise_floor')} and {of(last, 'valence6')}. "
         f"{common.counted([*gbn, *deep])[0].upper()}{common.counted([*gbn, *deep])[1:]}; d = 2.{given}"
     )
 

@@ -85,7 +85,7 @@ def test_widths_and_dimensions_are_the_library_s(made: tuple[Path, Ask]) -> None
     assert list(widths) == ["0.5", "0.7", "0.85", "1", "1.25", "1.5"]
     x = generate("gbn[sigma=0.7,gradients=60]", n=64, realizations=2)
     nu, power = widths["0.7"]
-    expected = radial(periodogram(x, int(round(nu[-1] * 8))))
+    expected = radial(periodogram(x, round(nu[-1] * 8)))
     assert nu == pytest.approx(expected.nu)
     assert power == pytest.approx(expected.power, rel=1e-6)
     assert list(dimensions) == [str(d) for d in range(2, 9)]
@@ -107,7 +107,7 @@ def test_ideal_profile_is_equation_19() -> None:
 def test_transforms_are_those_of_the_kernels_drawn(made: tuple[Path, Ask]) -> None:
     """By the trapezoid over the kernel's own curve, which shares nothing with the closed forms."""
     figure, _, _ = drawn(made, "4")
-    kernels = [line for line in panel(figure, "a").get_lines()]
+    kernels = list(panel(figure, "a").get_lines())
     transforms = panel(figure, "b").get_lines()
     logarithmic = panel(figure, "c").get_lines()
     for kernel, transform, log in zip(kernels, transforms, logarithmic, strict=False):
