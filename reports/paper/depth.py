@@ -1,0 +1,200 @@
+"""Our own figure: what depth costs in order, and what it buys in integration."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import SubFigure
+from matplotlib.ticker import LogLocator, NullLocator
+
+from gbnbench.generators.deep import Deep
+from gbnbench.material import Comparison, Request, Study
+from gbnbench.reports import integration, style
+from gbnbench.reports.numbers import number
+from gbnbench.reports.paper import axes, common
+from gbnbench.reports.paper.common import Column
+from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
+
+GRADIENTS = (100, 320, 1000, 3000)  # of Gaussian Blue Noise; 320 are the default
+STEEPNESS = (39.5, 59.2, 79.0)  # of the deep profile: 4, 6 and 8 pi^2; 10 pi^2 is the default
+BESIDE = "random"
+ORDER = {"valence6": r"$v_6$", "psi6": r"$\psi_6$", "peak": "peak"}
+SHOWN = {320: style.DASHES[0], 1000: style.DASHES[1], 3000: style.DASHES[2]}
+FAMILY = "gaussians"
+
+
+def _gradients(ask: Ask) -> tuple[int, ...]:
+    found: tuple[int, ...] = ask.pick((20, 60), GRADIENTS, GRADIENTS)
+    return found
+
+
+def _gbn(gradients: int) -> str:
+    return "gbn" if gradients == 320 else f"gbn[gradients={gradients}]"
+
+
+def _deep(ask: Ask) -> list[str]:
+    steep = ask.pick((), STEEPNESS, STEEPNESS)
+    return [*(f"deep[c={c:g}]" for c in steep), "deep"]
+
+
+def needs(ask: Ask) -> Mapping[str, Request]:
+    """Ask for sets along both paths to depth, and for a study of integration."""
+    n, gradients = common.size(ask), _gradients(ask)
+    longest, others = gradients[-1], gradients[:-1]
+    sources = (*map(_gbn, others), *_deep(ask))
+    few = ask.pick(2, 8, 1000)  # the longest runs are those of figure 1
+    sizes = ask.pick((16, 36), (64, 128, 256, 512, 1024), (64, 128, 256, 512, 1024, 2048, 4096))
+    return {
+        "sets": Comparison(sources, (n,), (2,), ask.pick(2, 8, 100)),
+        "long": Comparison((_gbn(longest),), (n,), (2,), few),
+        "study": Study(
+            (BESIDE, _gbn(gradients[1]), "deep"), sizes, (2,), ask.pick(2, 8, 100), (FAMILY,),
+            ask.pick(2, 20, 100),
+        ),
+        **common.given(ask, ask.sets),
+    }  # fmt: skip
+
+
+def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
+    """Draw spectra and integration above, order against the noise floor below."""
+    n, gradients = common.size(ask), _gradients(ask)
+    gbn = [
+        common.made(material["long" if k == gradients[-1] else "sets"], _gbn(k), n, f"GBN, {k:,}")
+        for k in gradients
+    ]
+    deep = [common.made(material["sets"], text, n) for text in _deep(ask)]
+    theirs = common.yours(material, ask.sets, n)
+    table = material["study"].variance
+
+    def paint(panel: SubFigure) -> None:
+        top, bottom = panel.subfigures(2, 1, squeeze=False, height_ratios=(1.28, 1))[:, 0]
+        spectra, variance = top.subplots(1, 2, width_ratios=(1.3, 1))
+        _spectra(spectra, dict(zip(gradients, gbn, strict=True)), deep[-1], theirs)
+        _integration(variance, table)
+        for ax, letter, name in zip(bottom.subplots(1, 3), "cde", ORDER, strict=True):
+            _order(ax, name, gbn, deep, theirs)
+            common.heading(ax, letter, f"{ORDER[name]} against depth")
+
+    return Drawing(PAGE, 4.6, paint, _caption(gbn, deep, theirs, table, ask))
+
+
+def _spectra(ax: Axes, gbn: Mapping[int, Column], deep: Column, theirs: Sequence[Column]) -> None:
+    colour = common.stroke("gbn").colour
+    radials = [deep.source.radial]
+    for gradients, one in gbn.items():
+        if len(gbn) > 3 and gradients not in SHOWN:
+            continue
+        dash = SHOWN.get(gradients, style.DASHES[0])
+        common.curve(ax, one.source.radial, style.Stroke(colour, dash), one.title, linewidth=0.8)
+        radials.append(one.source.radial)
+    common.curve(ax, deep.source.radial, deep.stroke, deep.title, linewidth=0.9)
+    for one in theirs:
+        common.curve(ax, one.source.radial, one.stroke, one.title, linewidth=0.8)
+        radials.append(one.source.radial)
+    target, edge = Deep().profile(2)
+    nu = np.geomspace(deep.source.radial.nu[0], edge, 200)
+    ax.plot(nu, target(nu), color=deep.stroke.colour, linewidth=2.6, alpha=0.22, zorder=1.5)
+    axes.loglog(ax, common.lowest(radials) / 3, (float(nu[0]) * 0.95, 2.05))
+    ax.set_ylabel("radial power")
+    ax.legend(loc="lower right", fontsize=6.5, handlelength=2.4, borderaxespad=0.2, labelspacing=0.3)
+    common.heading(ax, "a", "radial power")
+
+
+def _integration(ax: Axes, table: Any) -> None:
+    given = {label: common.stroke(label.partition("[")[0]) for label in table["source"].unique()}
+    integration.panel(ax, table, given)
+    ax.set_xlabel("points n")
+    ax.set_ylabel("variance of the integral")
+    for label, line in given.items():
+        rows = table[table["source"] == label].sort_values("n")
+        ax.annotate(
+            common.title_of(label), (float(rows["n"].iloc[-1]), float(rows["variance"].iloc[-1])),
+            xytext=(-6, -3) if label == "deep" else (-4, 6), textcoords="offset points", ha="right",
+            size=6.5, color=line.colour,
+        )  # fmt: skip
+    common.heading(ax, "b", "integration, 64 Gaussians")
+
+
+def _order(
+    ax: Axes, name: str, gbn: Sequence[Column], deep: Sequence[Column], theirs: Sequence[Column]
+) -> None:
+    """One measure of order against the noise floor, deeper to the right."""
+    paths = [
+        (gbn, common.stroke("gbn"), "o"), (deep, common.stroke("deep"), "D"),
+        *(([one], one.stroke, "s") for one in theirs),
+    ]  # fmt: skip
+    for path, line, marker in paths:
+        floors = [one.source.measures["noise_floor"] for one in path]
+        values = [one.source.measures[name] for one in path]
+        errors = [one.source.measures.standard_error[name] for one in path]
+        ax.errorbar(
+            floors, values, np.nan_to_num(errors), color=line.colour, linestyle=line.dash,
+            marker=marker, markersize=3,
+            linewidth=0.9, elinewidth=0.7, label=path[-1].title.partition(",")[0],
+        )  # fmt: skip
+    for one in gbn:
+        ax.annotate(
+            one.title.partition(", ")[2], (one.source.measures["noise_floor"], one.source.measures[name]),
+            xytext=(-4, 2), textcoords="offset points", ha="right", size=6, color=style.FAINT,
+        )  # fmt: skip
+    ax.set_xscale("log")
+    ax.xaxis.set_major_locator(LogLocator(numticks=6))
+    ax.xaxis.set_minor_locator(NullLocator())
+    ax.invert_xaxis()
+    ax.margins(0.2, 0.12)
+    ax.set_xlabel("noise floor")
+    if name == next(iter(ORDER)):
+        ax.legend(fontsize=6.5, loc="upper right", borderaxespad=0.1, handlelength=1.6)
+
+
+def _caption(
+    gbn: Sequence[Column], deep: Sequence[Column], theirs: Sequence[Column], table: Any, ask: Ask
+) -> str:
+    usual, longest, last = gbn[1], gbn[-1], deep[-1]
+
+    def of(one: Column, name: str) -> str:
+        return number(one.source.measures[name])
+
+    most = int(table["n"].max())
+    at = {row.source: row for row in table[table["n"] == most].itertuples()}
+    plain = at[usual.source.label]
+    by_n = table.pivot_table("variance", "n", "source")
+    ratio = by_n["deep"] / by_n[usual.source.label]
+    worse = (
+        "; below the Gaussians' own 512 points deep is the worse, by a factor of "
+        f"{number(float(ratio.max()))} at most"
+        if ratio[ratio.index < 512].max() > 1
+        else ""
+    )
+    edge = Deep().profile(2)[1]
+    steep = ", ".join(f"{c / math.pi**2:.0f}" for c in ask.pick((), STEEPNESS, STEEPNESS))
+    path = (
+        f"Deep: c = {steep} and 10 pi^2 at an edge of {edge:g}, v6 from {of(deep[0], 'valence6')} to "
+        f"{of(last, 'valence6')}. "
+        if steep
+        else ""
+    )
+    given = f" Also {common.listed([one.title for one in theirs])}, of given files." if theirs else ""
+    return (
+        "Depth against order. Gaussian Blue Noise (GBN) becomes deeper by longer optimisation (gradients "
+        "of Nesterov's method in the labels; 320 do the work of the paper's 10,000 steps) and more ordered "
+        "with it; the deep profile P = exp(-c (edge^2 - nu^2)) is reached from a short GBN by the least "
+        "move, and its steepness c costs little order. (a) Radial power, the grey line is white noise; pale: "
+        "the deep target. (b) Variance of the integral of toroidal sums of 64 Gaussians of width "
+        f"512^(-1/2): {int(plain.instances)} integrands, {int(plain.realizations)} sets; bands 95%; "
+        f"crosses: foretold by the spectra; grey: 1/n. At n = {most:,} it is {number(plain.variance)} for "
+        f"GBN and {number(at['deep'].variance)} for deep{worse}. (c, d, e) Share of six-sided Voronoi "
+        "cells, sixfold order and spectral peak against the noise floor, deeper to the right, with "
+        f"standard errors. {path}From {usual.title.partition(', ')[2]} to "
+        f"{longest.title.partition(', ')[2]} gradients GBN's floor goes from {of(usual, 'noise_floor')} to "
+        f"{of(longest, 'noise_floor')}, its v6 from {of(usual, 'valence6')} to {of(longest, 'valence6')}; "
+        f"deep has {of(last, 'noise_floor')} and {of(last, 'valence6')}. "
+        f"{common.counted([*gbn, *deep])[0].upper()}{common.counted([*gbn, *deep])[1:]}; d = 2.{given}"
+    )
+
+
+FIGURE = PaperFigure("depth", "Depth against order", "", needs, draw)

@@ -1,0 +1,224 @@
+"""Figure 7: how radial power evolves while the points move, raw and filtered by the kernel."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import SubFigure
+from matplotlib.ticker import LogLocator, NullLocator
+
+from gbnbench.analysis.profile import exponential_fit, noise_floor
+from gbnbench.analysis.shell_spectrum import shells
+from gbnbench.errors import RefusalError
+from gbnbench.generators.gbn.generator import GaussianBlueNoise
+from gbnbench.generators.protocol import realization_rng
+from gbnbench.generators.watch import Trace, Watch
+from gbnbench.material import Request, Tables
+from gbnbench.reports import style
+from gbnbench.reports.numbers import number
+from gbnbench.reports.paper import axes, common
+from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
+from gbnbench.results import RadialPower
+from gbnbench.torus import FloatArray
+
+COUNTS = (1, 3, 10, 30, 100, 300, 1000, 3000, 10_000, 30_000, 100_000)
+KERNEL, VARIANCE = 1.0, math.sqrt(0.5)  # filters, in spacings: the energy's kernel, and Eq. 14's
+METHODS = {"descent": "descent", "nesterov": "Nesterov's method"}
+UNITS = {"descent": "steps", "nesterov": "gradients"}
+LOOKS: dict[str, dict[str, Any]] = {
+    "descent": {"linestyle": style.DASHES[1], "marker": "s"},
+    "nesterov": {"linestyle": "-", "marker": "o"},
+}
+
+
+def gradients(steps: int) -> int:
+    """Gradients of Nesterov's method that do the work of so many steps of descent: k do that of k^2 / 9."""
+    return max(1, round(3 * math.sqrt(steps)))
+
+
+def evolution(
+    method: str, counts: Sequence[int], n: int, seed: int, first: int, sets: int
+) -> dict[str, FloatArray]:
+    """Spectra of some realizations in 2D after each count of evaluations, and what they cost and bring.
+
+    Returns
+    -------
+    dict
+        nu of the shells; power, and the same filtered by the kernel and by Eq. 14's width, (counts, shells);
+        floor and c, (counts,), of the mean spectra; excess, (evaluations,), mean energy a point above that of
+        a uniform density.
+    """
+    trace, most = Trace(keep_at=counts), max(counts)
+    descent = GaussianBlueNoise(iterations=most)
+    generator = descent if method == "descent" else GaussianBlueNoise(gradients=most)
+    generator.draw(n, 2, [realization_rng(seed, first + k) for k in range(sets)], Watch(trace=trace))
+    found = [shells(trace.points(count)).radial() for count in counts]
+    return {
+        "nu": found[0].nu,
+        "power": np.stack([radial.power for radial in found]),
+        "kernel": np.stack([radial.filtered(KERNEL).power for radial in found]),
+        "variance": np.stack([radial.filtered(VARIANCE).power for radial in found]),
+        "floor": np.array([noise_floor(radial) for radial in found]),
+        "c": np.array([_steepness(radial) for radial in found]),
+        "excess": trace.to_frame().groupby("gradient").excess.mean().to_numpy(),
+    }
+
+
+def _steepness(radial: RadialPower) -> float:
+    try:
+        return exponential_fit(radial).slope
+    except RefusalError:
+        return math.nan
+
+
+def needs(ask: Ask) -> Mapping[str, Request]:
+    """Ask for both methods from the same starts, at counts that do the same work."""
+    n, block, blocks = _sizes(ask)
+    calls = {
+        f"{method}_{k:03d}": (method, counts, n, ask.seed, k * block, block)
+        for method, counts in _counts(ask).items() for k in range(blocks)
+    }  # fmt: skip
+    return {"evolution": Tables(evolution, calls)}
+
+
+def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
+    """Draw rows: descent, Nesterov's method. Columns: raw, filtered; then excess energy and noise floor."""
+    counts = _counts(ask)
+    found = {method: _mean(material["evolution"], method) for method in METHODS}
+    colours = axes.family(len(counts["descent"]))[::-1]
+
+    def paint(panel: SubFigure) -> None:
+        grid = panel.subplots(2, 3, width_ratios=(1, 1, 0.9))
+        for row, (method, letters) in enumerate(zip(METHODS, ("ab", "cd"), strict=True)):
+            raw, filtered, _ = grid[row]
+            _raw(raw, found[method], counts[method], UNITS[method], colours)
+            _filtered(filtered, found[method], colours)
+            common.heading(raw, letters[0], METHODS[method])
+            common.heading(filtered, letters[1], "the same, filtered")
+        _progress(grid[0, 2], found, counts, colours, "excess")
+        _progress(grid[1, 2], found, counts, colours, "floor")
+        common.heading(grid[0, 2], "e", "excess energy a point")
+        common.heading(grid[1, 2], "f", "noise floor")
+
+    return Drawing(PAGE, 4.0, paint, _caption(found, counts, ask))
+
+
+def _sizes(ask: Ask) -> tuple[int, int, int]:
+    """Points, sets a piece, pieces."""
+    sizes: tuple[int, int, int] = ask.pick((64, 2, 1), (1024, 3, 2), (1024, 4, 8))
+    return sizes
+
+
+def _counts(ask: Ask) -> dict[str, list[int]]:
+    most = ask.pick(300, 10_000, 100_000)
+    steps = [count for count in COUNTS if count <= most]
+    return {"descent": steps, "nesterov": [gradients(count) for count in steps]}
+
+
+def _mean(pieces: Mapping[str, Mapping[str, FloatArray]], method: str) -> dict[str, FloatArray]:
+    """Mean over blocks of equally many sets."""
+    blocks = [piece for key, piece in pieces.items() if key.startswith(method)]
+    return {what: np.mean([block[what] for block in blocks], axis=0) for what in blocks[0]}
+
+
+def _raw(
+    ax: Axes, found: Mapping[str, FloatArray], counts: Sequence[int], unit: str, colours: Sequence[str]
+) -> None:
+    for count, power, colour in zip(counts, found["power"], colours, strict=True):
+        ax.plot(found["nu"], power, color=colour, linewidth=0.7, label=f"{count:,}")
+    axes.loglog(ax, float(found["power"].min()) / 4, _span(found))
+    ax.set_ylabel("radial power")
+    ax.legend(title=unit, fontsize=5.8, title_fontsize=6.5, loc="lower right", handlelength=1.2,
+              labelspacing=0.12, borderaxespad=0.1)  # fmt: skip
+
+
+def _filtered(ax: Axes, found: Mapping[str, FloatArray], colours: Sequence[str]) -> None:
+    for power, colour in zip(found["kernel"], colours, strict=True):
+        ax.plot(found["nu"], power, color=colour, linewidth=0.7)
+    narrow = found["variance"][-1]
+    ax.plot(found["nu"], narrow, color=style.COLOURS[1], linewidth=0.6)
+    ridge = int(np.argmax(narrow))
+    ax.annotate(
+        r"$\sigma/\sqrt{2}$", (found["nu"][ridge], narrow[ridge]), xytext=(3, 2), textcoords="offset points",
+        size=6.5, color=style.COLOURS[1],
+    )  # fmt: skip
+    axes.loglog(ax, float(found["power"].min()) / 4, _span(found))
+
+
+def _progress(
+    ax: Axes,
+    found: Mapping[str, Mapping[str, FloatArray]],
+    counts: Mapping[str, Sequence[int]],
+    colours: Sequence[str],
+    what: str,
+) -> None:
+    """One line a method against evaluations of the energy, a dot in the spectrum's colour at each count."""
+    for method, look in LOOKS.items():
+        at, values = np.array(counts[method]), found[method][what]
+        if what == "excess":
+            ax.plot(np.arange(1, len(values) + 1), values, color=style.INK, linewidth=0.8,
+                    linestyle=look["linestyle"])  # fmt: skip
+            values = values[at - 1]
+        else:
+            ax.plot(at, values, color=style.INK, linewidth=0.8, linestyle=look["linestyle"])
+        ax.scatter(at, values, c=colours, s=11, marker=look["marker"], linewidths=0, zorder=3)
+        ax.plot([], [], color=style.INK, linewidth=0.8, linestyle=look["linestyle"], marker=look["marker"],
+                markersize=3, label=METHODS[method])  # fmt: skip
+    ax.set_xscale("log")
+    ax.set_yscale("log")
+    ax.xaxis.set_major_locator(LogLocator(numticks=6))
+    ax.yaxis.set_major_locator(LogLocator(numticks=6))
+    for axis in (ax.xaxis, ax.yaxis):
+        axis.set_minor_locator(NullLocator())
+    ax.set_xlabel("evaluations of the energy")
+    if what == "excess":
+        ax.legend(fontsize=6.3, loc="upper right", handlelength=2.4, borderaxespad=0.1)
+
+
+def _span(found: Mapping[str, FloatArray]) -> tuple[float, float]:
+    return float(found["nu"][0]) * 0.93, float(found["nu"][-1]) * 1.04
+
+
+def _caption(
+    found: Mapping[str, Mapping[str, FloatArray]], counts: Mapping[str, Sequence[int]], ask: Ask
+) -> str:
+    n, block, blocks = _sizes(ask)
+    descent, ours = found["descent"], found["nesterov"]
+    row = counts["descent"].index(30)
+    nu, power = descent["nu"], descent["power"][row]
+    deepest = int(np.argmin(power))
+    ridge = int(np.argmax(descent["variance"][-1]))
+    at, same = counts["descent"], counts["nesterov"]
+    fitted = [float(one["c"][-1]) / (4 * math.pi**2) for one in (descent, ours)]
+    return (
+        f"Radial power over exact shells while the energy is lowered, mean of {block * blocks} sets, n = "
+        f"{n}, d = 2, sigma = 1, from random points; grey line: white noise. (a, b) The paper's descent; "
+        "(c, d) Nesterov's method with restart from the same points, at three times the square root of as "
+        "many gradients, in the same colours. (b, d) Times exp(-4 pi^2 nu^2), the square of the transform "
+        "of the energy's kernel. Energy is dug out of the middle first (after 30 steps power is least, "
+        f"{number(float(power[deepest]))}, at nu = {nu[deepest]:.2f}, beside {number(float(power[0]))} at "
+        f"|f| = 1; the kernel's transform is {1 / (2 * math.pi):.2f} wide), then from both sides. The last "
+        f"spectra have a fitted c of {fitted[0]:.2f} and {fitted[1]:.2f} times 4 pi^2: filtered by the "
+        "kernel they are flat. By Eq. 14 the filter whose variance falls is narrower in space, sigma / "
+        "sqrt 2 (orange: the last spectrum so filtered), and leaves a ridge of "
+        f"{number(float(descent['variance'][-1][ridge]))} at nu = {nu[ridge]:.2f}: what stays is inverse to "
+        "the square of the energy's weight, not to the weight. (e) Energy above a uniform density's. (f) "
+        f"Mean power up to nu = 0.25: {number(float(descent['floor'][-1]))} after {at[-1]:,} steps and "
+        f"{number(float(ours['floor'][-1]))} after {same[-1]:,} gradients."
+    )
+
+
+FIGURE = PaperFigure(
+    "7",
+    "Evolution of radial power",
+    "Radial power at several iteration counts of the paper's descent, (a) of the points and (b) of the "
+    "points filtered by the Gaussian. Energy is excavated first somewhere in the middle, then towards both "
+    "ends; the profile has its shape around 500 iterations, where progress slows, and the filtered "
+    "spectrum becomes nearly flat.",
+    needs,
+    draw,
+)

@@ -1,0 +1,114 @@
+"""Figure 13: blue noise in one dimension."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import SubFigure
+from matplotlib.patches import Circle
+from matplotlib.ticker import LogLocator, NullLocator
+
+from gbnbench.analysis.shell_spectrum import shells
+from gbnbench.generators.gbn.generator import GaussianBlueNoise
+from gbnbench.generators.protocol import realization_rng
+from gbnbench.generators.watch import Watch
+from gbnbench.material import Request, Tables
+from gbnbench.reports import style
+from gbnbench.reports.numbers import number
+from gbnbench.reports.paper import axes, common
+from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
+from gbnbench.torus import FloatArray
+
+EDGE = 0.3  # nu up to which the energy is summed
+N, NU = 64, 2.0
+
+
+def line_sets(gradients: int, n: int, seed: int, first: int, sets: int) -> dict[str, FloatArray]:
+    """Draw sets of the line together, which one by one cost ten times as much; points and mean power."""
+    rngs = [realization_rng(seed, first + k) for k in range(sets)]
+    points = GaussianBlueNoise(edge=EDGE, gradients=gradients).draw(n, 1, rngs, Watch())
+    found = shells(points)
+    return {"points": points[:, :, 0], "nu": found.nu, "power": found.power}
+
+
+def needs(ask: Ask) -> Mapping[str, Request]:
+    """Ask for sets of the truncated energy in 1D."""
+    block, blocks = ask.pick((4, 1), (64, 6), (64, 16))
+    calls = {f"{k:03d}": (_gradients(ask), N, ask.seed, k * block, block) for k in range(blocks)}
+    return {"line": Tables(line_sets, calls)}
+
+
+def _gradients(ask: Ask) -> int:
+    count: int = ask.pick(300, 1500, 1500)
+    return count
+
+
+def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
+    """Draw two sets as beads on a circle, then their mean periodogram in linear and in log scale."""
+    pieces: Mapping[str, Mapping[str, FloatArray]] = material["line"]
+    blocks = [pieces[key] for key in sorted(pieces)]
+    nu, power = blocks[0]["nu"], np.mean([block["power"] for block in blocks], axis=0)
+
+    def paint(panel: SubFigure) -> None:
+        grid = panel.subplots(1, 4, width_ratios=(1, 1, 1.32, 1.32))
+        for ax, points, letter in zip(grid, blocks[0]["points"], "ab", strict=False):
+            _beads(ax, points)
+            common.heading(ax, letter, "a set")
+        for ax, letter, title in zip(grid[2:], "cd", ("mean power", "logarithmic"), strict=True):
+            _power(ax, nu, power)
+            common.heading(ax, letter, title)
+        grid[3].set_yscale("log")
+        grid[3].set_ylim(float(power.min()) / 30, 100)
+        grid[3].yaxis.set_major_locator(LogLocator(numticks=5))
+        grid[3].yaxis.set_minor_locator(NullLocator())
+        grid[2].set_ylim(0, None)
+
+    sets = sum(len(block["points"]) for block in blocks)
+    inside, outside = nu <= EDGE, (nu > EDGE) & (nu < 0.95)
+    top = int(np.argmax(power))
+    caption = (
+        f"One-dimensional blue noise: n = {N} points on a torus of one dimension by the energy truncated at "
+        f"nu = {EDGE:g} (supplement B), gbn[edge={EDGE:g},gradients={_gradients(ask)}]. (a, b) Two sets, as "
+        "beads on a string around a circle: the power at |f| = 1 is the squared length of the sum of the "
+        "unit vectors to the beads, over n; for |f| = 2 the string goes round twice. (c, d) Power at every "
+        f"frequency, mean of {sets} sets; grey line: white noise, dotted: the edge. Below the edge at most "
+        f"{number(float(power[inside].max()))} is left, which is rounding; between it and nu = 0.95 the "
+        f"mean is {number(float(power[outside].mean()))}; the peak is {number(float(power[top]))} at nu = "
+        f"{nu[top]:.2f}, beside a ridge that ends at 1 - {EDGE:g}. Without the truncation the points end as "
+        "a regular grid. The paper says that its band is very narrow, but neither its width nor its n."
+    )
+    return Drawing(PAGE, 1.85, paint, caption)
+
+
+def _beads(ax: Axes, x: FloatArray) -> None:
+    """Points of the circle's circumference, 0 at the right, counter-clockwise."""
+    ax.add_patch(Circle((0, 0), 1, fill=False, edgecolor=style.RULE, linewidth=0.9))
+    ax.plot(np.cos(2 * np.pi * x), np.sin(2 * np.pi * x), "o", color=style.INK, markersize=2.3,
+            markeredgewidth=0)  # fmt: skip
+    ax.set_xlim(-1.06, 1.06)
+    ax.set_ylim(-1.06, 1.06)
+    ax.set_aspect("equal")
+    ax.set_axis_off()
+
+
+def _power(ax: Axes, nu: FloatArray, power: FloatArray) -> None:
+    common.white(ax)
+    ax.axvline(EDGE, **axes.DOTTED)
+    ax.plot(nu, power, color=common.stroke("gbn").colour, linewidth=0.9)
+    ax.set_xlim(0, NU)
+    ax.set_xticks([0, 0.5, 1, 1.5, 2])
+    ax.set_xlabel(r"$\nu = |f|/n$")
+
+
+FIGURE = PaperFigure(
+    "13",
+    "One dimension",
+    "Blue noise on a one-dimensional torus, which the paper believes to be the first: two sets, and their "
+    "average periodogram. The whole energy would end in the regular grid; truncating it to a very narrow "
+    "band of frequencies does not.",
+    needs,
+    draw,
+)
