@@ -3,13 +3,18 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: compare test lint types wheel clean
+.PHONY: compare test docs lint types wheel clean
 
 compare: $(VENV)/.installed
 	$(BIN)/gbnbench compare $(ARGS)
 
 test: $(VENV)/.installed
 	$(BIN)/python -m pytest -n auto $(ARGS)
+
+# Every cross reference must resolve, and any warning fails.
+docs: $(VENV)/.installed
+	$(BIN)/python -m sphinx --quiet --fail-on-warning --keep-going --nitpicky docs build/docs
+	@echo "built build/docs/index.html"
 
 lint: $(VENV)/.installed
 	$(BIN)/ruff check .

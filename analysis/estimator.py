@@ -14,10 +14,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from gbnbench.analysis.integrands.integrand import Family, Integrand, Periodic
 from gbnbench.analysis.periodogram import periodogram
-from gbnbench.errors import InputError
+from gbnbench.errors import InputError, RefusalError
 from gbnbench.torus import FloatArray, as_realizations
 
-SHARES = (1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-15, 1e-18, 1e-21, 1e-24, 1e-27)
+SHARES = (1e-27, 1e-24, 1e-21, 1e-18, 1e-15, 1e-12, 1e-10, 1e-8, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1)
 MOST_FREQUENCIES = 20_000
 CHUNK = 1 << 20  # points handed to an integrand at once
 
@@ -78,11 +78,13 @@ def series_of(family: Family, integrands: Sequence[Integrand], d: int) -> Series
     Returns
     -------
     Series or None
-        None for a family that is not periodic.
+        None for a family that is not periodic, or whose series is not known or too long to hold nine tenths
+        of its energy.
     """
-    if not family.periodic:
+    found = _frequencies(family, d) if family.periodic else None  # type: ignore[arg-type]  # frozen: hashable
+    if found is None:
         return None
-    frequencies, share = _frequencies(family, d)  # type: ignore[arg-type]  # frozen, so hashable
+    frequencies, share = found
     energy = np.zeros(len(frequencies))
     for integrand in integrands:
         if not isinstance(integrand, Periodic):
@@ -92,15 +94,14 @@ def series_of(family: Family, integrands: Sequence[Integrand], d: int) -> Series
 
 
 @lru_cache(maxsize=32)
-def _frequencies(family: Family, d: int) -> tuple[NDArray[np.int64], float]:
-    """List the frequencies that hold the largest share that is affordable."""
-    found, held = family.frequencies(d, SHARES[0]), SHARES[0]
-    for share in SHARES[1:]:
-        more = family.frequencies(d, share)
-        if len(more) > MOST_FREQUENCIES:
-            break
-        found, held = more, share
-    return found, held
+def _frequencies(family: Family, d: int) -> tuple[NDArray[np.int64], float] | None:
+    """List the frequencies that leave out the least share that is affordable."""
+    for share in SHARES:
+        try:
+            return family.frequencies(d, share, MOST_FREQUENCIES), share
+        except RefusalError:
+            continue
+    return None
 
 
 def foretold_variance(series: Series, x: ArrayLike) -> FloatArray:

@@ -62,7 +62,8 @@ def variance_of(errors: ArrayLike) -> Variance:
     -----
     Squares e^2 of integrand i and set k are crossed random effects: their mean over I and K of them has
     variance s_I^2 / I + s_K^2 / K - s_R^2 / (I K), s_I^2 and s_K^2 being the variances of the row and column
-    means and s_R^2 that of what these leave (two-way analysis of variance without repetition).
+    means and s_R^2 that of what these leave (two-way analysis of variance without repetition). The estimate
+    is unbiased, and raised to s_R^2 / (I K) where it falls below what independence alone would give.
     """
     crossed = _crossed(errors)
     value, error = _mean_and_error((crossed**2).mean(axis=2))

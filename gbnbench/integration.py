@@ -9,6 +9,7 @@ import os
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gbnbench import __version__, archive, disk, store
-from gbnbench.analysis.estimator import estimate_errors, foretold_variance, series_of
+from gbnbench.analysis.estimator import Series, estimate_errors, foretold_variance, series_of
 from gbnbench.analysis.integrands.integrand import Family, Integrand
 from gbnbench.analysis.integrands.registry import find as find_family
 from gbnbench.analysis.variance import Variance, slope_of, variance_of
@@ -203,7 +204,7 @@ def integrate(
     began = time.monotonic()
     progress = progress or Progress()
     _require(instances=(instances, 1), shifts=(shifts, 0), seed=(seed, 0), jobs=(jobs or 1, 1))
-    families = tuple(find_family(text) for text in dict.fromkeys(integrands))
+    families = tuple(dict.fromkeys(find_family(text) for text in integrands))
     if not families:
         raise InputError("no integrand given: name one, such as gaussians")
     given = [source for source in sources if isinstance(source, Source)]
@@ -362,13 +363,19 @@ def _work(
     found: dict[str, NDArray[Any]] = {}
     for family in families:
         text = specification(family)
-        drawn = instances_of(family, d, seed, instances)
+        drawn, series = _known(family, d, seed, instances)  # type: ignore[arg-type]  # frozen: hashable
         found[f"{text} errors"] = _errors(drawn, sets, first, seed, shifts)
-        series = series_of(family, drawn, d)
         if series is not None:
             found[f"{text} foretold"] = foretold_variance(series, sets)
             found[f"{text} share"] = np.asarray(series.share)
     return found
+
+
+@lru_cache(maxsize=16)
+def _known(family: Family, d: int, seed: int, instances: int) -> tuple[tuple[Integrand, ...], Series | None]:
+    """Integrands and their series, in a worker once for all of its pieces."""
+    drawn = tuple(instances_of(family, d, seed, instances))
+    return drawn, series_of(family, drawn, d)
 
 
 def _errors(

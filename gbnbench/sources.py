@@ -16,6 +16,7 @@ import numpy as np
 
 from gbnbench.errors import InputError, RefusalError
 from gbnbench.generators.protocol import Generator
+from gbnbench.settings import specification
 from gbnbench.torus import FloatArray
 
 SUFFIXES = (".txt", ".dat", ".rps", ".eps", ".csv", ".npy", ".npz")  # what a folder's point sets end in
@@ -95,8 +96,6 @@ def resolve(
     RefusalError
         If nothing remains.
     """
-    from gbnbench.generators.settings import specification
-
     for argument, values in (("n", n), ("d", d), ("realizations", (realizations,))):
         if bad := [v for v in values if v < 1]:
             raise InputError(f"{argument} must be at least 1; got {bad[0]}")

@@ -18,11 +18,11 @@ from gbnbench.generators.latin import LatinHypercube
 from gbnbench.generators.lloyd import Lloyd
 from gbnbench.generators.memory import too_large
 from gbnbench.generators.protocol import Generator, realization_rng
-from gbnbench.generators.settings import configure, nearest, parse
 from gbnbench.generators.sobol import Sobol
 from gbnbench.generators.stealthy import Stealthy
 from gbnbench.generators.uniform import Uniform
 from gbnbench.generators.watch import Watch, Watchable, only_progress
+from gbnbench.settings import configure, nearest, parse
 from gbnbench.torus import FloatArray
 
 GENERATORS: dict[str, type[Generator]] = {

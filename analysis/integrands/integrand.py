@@ -19,7 +19,10 @@ class Integrand(Protocol):
         ...
 
     def __call__(self, x: FloatArray) -> FloatArray:
-        """Values at points of [0, 1)^d: (..., d) -> (...), to a few roundings of the function's size."""
+        """Values at points of [0, 1)^d: (..., d) -> (...), to a few roundings of the function's size.
+
+        Bitwise the same however points are batched.
+        """
         ...
 
 
@@ -28,7 +31,10 @@ class Periodic(Integrand, Protocol):
     """A function of the torus, whose Fourier series foretells the variance of its estimates."""
 
     def energy(self, frequencies: NDArray[np.int64]) -> FloatArray:
-        """|integral of f(x) exp(-2 pi i f.x)|^2 at integer frequencies: (m, d) -> (m,)."""
+        """|integral of f(x) exp(-2 pi i f.x)|^2 at integer frequencies: (m, d) -> (m,).
+
+        RefusalError where it is not known, as for a ball that meets its own images.
+        """
         ...
 
 
@@ -47,7 +53,7 @@ class Family(Protocol):
         """Draw one."""
         ...
 
-    def frequencies(self, d: int, share: float) -> NDArray[np.int64]:
+    def frequencies(self, d: int, share: float, most: int = ...) -> NDArray[np.int64]:
         """Half the frequencies that matter: those outside hold less than this share of the family's energy.
 
         Parameters
@@ -56,10 +62,17 @@ class Family(Protocol):
             Dimension.
         share : float
             Of the mean of ``energy`` summed over all f != 0, 0 < share < 1.
+        most : int
+            Length of the list that is not exceeded; RefusalError, at no great cost, where it would be.
 
         Returns
         -------
         (m, d) int64
             One of each pair f, -f; never 0. Empty for a family that is not periodic.
+
+        Raises
+        ------
+        RefusalError
+            If they are too many to list, or the spectrum is not known in d dimensions.
         """
         ...

@@ -14,7 +14,7 @@ from gbnbench.check.observe import NAMES, lattice
 from gbnbench.disk import write_whole
 from gbnbench.errors import FormatError, InputError
 from gbnbench.generators.registry import find
-from gbnbench.generators.settings import nearest
+from gbnbench.settings import nearest
 
 FORMAT = 1
 CASE_KEYS = (

@@ -15,6 +15,7 @@ from gbnbench.cli.check import check
 from gbnbench.cli.compare import compare
 from gbnbench.cli.figures import figures
 from gbnbench.cli.generate import generate
+from gbnbench.cli.integrate import integrate
 from gbnbench.cli.machine import devices, doctor
 from gbnbench.cli.report import report
 from gbnbench.cli.spectrum import spectrum
@@ -38,7 +39,19 @@ def gbnbench() -> None:
     """
 
 
-for _command in (compare, generate, analyze, spectrum, figures, report, check, bench, devices, doctor):
+for _command in (
+    compare,
+    generate,
+    analyze,
+    spectrum,
+    integrate,
+    figures,
+    report,
+    check,
+    bench,
+    devices,
+    doctor,
+):
     gbnbench.add_command(_command)
 
 

@@ -47,7 +47,7 @@ def load(path: str | os.PathLike[str], *, max_bytes: int | None = None) -> Float
     Parameters
     ----------
     path : path-like
-        A file in any of the formats above.
+        A file in any of the formats that ``gbnbench.points`` tells of.
     max_bytes : int, optional
         Files this large or larger are refused unread; by default the environment variable
         GBNBENCH_MAX_FILE_BYTES, else 2 GB.

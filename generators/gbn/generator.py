@@ -22,8 +22,8 @@ from gbnbench.generators.gbn.projective import ProjectiveField, subsets
 from gbnbench.generators.gbn.run import optimise
 from gbnbench.generators.memory import too_large
 from gbnbench.generators.newton.modes import bound
-from gbnbench.generators.settings import specification
 from gbnbench.generators.watch import Watch
+from gbnbench.settings import specification
 from gbnbench.torus import FloatArray, wrap
 
 PAPER_ITERATIONS = 10_000  # what the paper recommends

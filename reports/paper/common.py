@@ -14,7 +14,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from gbnbench.generators.registry import find
-from gbnbench.generators.settings import specification
+from gbnbench.settings import specification
 from gbnbench.material import Comparison
 from gbnbench.reports import spectrum, style
 from gbnbench.reports.paper.figure import Ask

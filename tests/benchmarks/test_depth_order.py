@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from gbnbench.analysis.integrands.korobov import Korobov
 from gbnbench.analysis.periodogram import periodogram
 from gbnbench.analysis.radial import radial
 from gbnbench.benchmarks import depth_integration as integration
@@ -89,56 +90,19 @@ def test_a_lattice_has_waves_and_noise_has_none():
     assert new["anisotropy_edge_db"] == pytest.approx(-10 * math.log10(4), abs=1.2)
 
 
-@pytest.mark.parametrize("d", [1, 2, 3])
-def test_integrals_are_those_of_a_fine_grid(d):
-    rng = np.random.default_rng(d)
-    m = {1: 4096, 2: 400, 3: 60}[d]
-    x = (np.stack(np.meshgrid(*[np.arange(m)] * d), axis=-1).reshape(-1, d) + 0.5) / m
-    few = integration.Bumps(rng.random((3, d)))
-    assert few(x).mean() == pytest.approx(few.integral, rel=1e-12)  # spectral accuracy
-    assert integration.korobov(d, rng)(x).mean() == pytest.approx(1, abs=3 * (2 * math.pi / m) ** 4)
-    for _ in range(8):
-        half = integration.half_space(d, rng)
-        assert half(x).mean() == pytest.approx(half.integral, abs=1.5 / m)
-
-
-def test_a_half_space_and_its_other_side_fill_the_box():
-    rng = np.random.default_rng(3)
-    for d in (1, 2, 3, 5):
-        half = integration.half_space(d, rng)
-        assert half.integral + integration.HalfSpace(half.point, -half.normal).integral == pytest.approx(1)
-    corner = integration.HalfSpace(np.array([0.5, 0.0]), np.array([-1.0, -1.0]))
-    assert corner.integral == pytest.approx(0.125)
-
-
-@pytest.mark.parametrize(("d", "m"), [(2, 128), (3, 48)])
-def test_transforms_are_those_of_samples(d, m):
-    x = np.stack(np.meshgrid(*[np.arange(m) / m] * d, indexing="ij"), axis=-1)
-    f = np.array([[1] * d, [3] + [0] * (d - 1), [2] * d])
-    rng = np.random.default_rng(4)
-
-    def sampled(integrand):
-        return np.abs(np.fft.fftn(integrand(x))[tuple(f.T)] / m**d) ** 2
-
-    one = integration.Bumps(rng.random((1, d)))
-    assert sampled(one) == pytest.approx(integration.Bumps.energy(f.astype(float), 1), rel=1e-9)
-    smooth = integration.korobov(d, rng)
-    assert sampled(smooth) == pytest.approx(integration.Korobov.energy(f.astype(float)), rel=1e-4)
-
-
 def test_measured_variance_is_what_the_spectrum_foretells():
     rng = np.random.default_rng(5)
     x = rng.random((3, 40, 2))
-    family = [integration.korobov(2, rng) for _ in range(40)]
-    variance, error = integration.measured(family, x, 40, rng)
-    foretold = integration.predicted(integration.Korobov.energy, x, 12)
+    drawn = [Korobov().draw(2, rng) for _ in range(40)]
+    variance, error = integration.measured(drawn, x, 40, rng)
+    foretold = integration.predicted(Korobov().mean_energy, x, 12)
     assert variance == pytest.approx(foretold, abs=4 * error)
     assert error < 0.1 * variance
 
 
 def test_integration_writes_a_row_a_source_and_family(tmp_path, monkeypatch):
     monkeypatch.setattr(integration, "SOURCES", ("random", "deep[edge={lower}]"))
-    few = {name: replace(family, count=3) for name, family in integration.FAMILIES.items()}
+    few = {name: replace(drawn, count=3) for name, drawn in integration.FAMILIES.items()}
     monkeypatch.setattr(integration, "FAMILIES", few)
     found = pd.DataFrame(integration.rows(((100, 2, {"lower": 0.5}, 20),), sets=2, shifts=4))
     assert list(found.columns) == list(integration.COLUMNS)

@@ -12,7 +12,7 @@ import pytest
 from gbnbench.errors import InputError, RefusalError
 from gbnbench.generators.protocol import Generator, realization_rng
 from gbnbench.generators.registry import GENERATORS, find, generate
-from gbnbench.generators.settings import specification
+from gbnbench.settings import specification
 
 QUICK: dict[str, dict[str, Any]] = {"lloyd": {"iterations": 4}, "gbn": {"gradients": 20}}
 SIZES = (16, 15, 27)

@@ -16,7 +16,7 @@ from gbnbench.generators.newton.reach import Outcome
 from gbnbench.generators.profile import Exponential, Table
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.generators.registry import find, generate
-from gbnbench.generators.settings import specification
+from gbnbench.settings import specification
 from tests.oracles import direct_power, half_space
 
 

@@ -1,4 +1,4 @@
-"""Generators as text, ``name[setting=value,...]``: read, checked against the class's fields, written back."""
+"""Settings as text, ``name[setting=value,...]``: read, checked against the class's fields, written back."""
 
 from __future__ import annotations
 
@@ -9,19 +9,34 @@ import re
 import types
 import typing
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any, cast
+from typing import Any, ClassVar, Protocol, TypeVar, cast
 
 import numpy as np
 
 from gbnbench.errors import InputError
-from gbnbench.generators.protocol import Generator
 
 SPECIFICATION = re.compile(r"\s*([^\[\]=,\s]+)\s*(?:\[([^\[\]]*)\]\s*)?")
 TRUE, FALSE = ("true", "yes", "on", "1"), ("false", "no", "off", "0")
 
 
-def parse(text: str) -> tuple[str, dict[str, str]]:
-    """Part a generator's text in its name and settings, both unchecked.
+class Configured(Protocol):
+    """A frozen dataclass of settings with a name, such as a generator or a family of integrands."""
+
+    name: ClassVar[str]
+
+
+T = TypeVar("T", bound=Configured)
+
+
+def parse(text: str, what: str = "a generator") -> tuple[str, dict[str, str]]:
+    """Part a text in its name and settings, both unchecked.
+
+    Parameters
+    ----------
+    text : str
+        ``name`` or ``name[setting=value,...]``.
+    what : str
+        What it should describe, for the error.
 
     Raises
     ------
@@ -35,7 +50,7 @@ def parse(text: str) -> tuple[str, dict[str, str]]:
     """
     match = SPECIFICATION.fullmatch(text)
     if match is None:
-        raise InputError(f"a generator must read name or name[setting=value,...]; got {text!r}")
+        raise InputError(f"{what} must read name or name[setting=value,...]; got {text!r}")
     name, inside = match.group(1), match.group(2) or ""
     settings: dict[str, str] = {}
     for item in inside.split(",") if inside.strip() else []:
@@ -48,13 +63,13 @@ def parse(text: str) -> tuple[str, dict[str, str]]:
     return name, settings
 
 
-def configure(kind: type[Generator], settings: Mapping[str, object]) -> Generator:
-    """Make a generator from settings given as text or as values.
+def configure(kind: type[T], settings: Mapping[str, object]) -> T:
+    """Make a generator, or whatever has settings, from settings given as text or as values.
 
     Parameters
     ----------
     kind : type
-        A frozen dataclass, one of ``GENERATORS``.
+        A frozen dataclass, such as one of ``GENERATORS``.
     settings : mapping
         Setting -> text, read by its field's type, or a value of that type; a field may bring a function of
         its own as the metadata ``read``.
@@ -82,11 +97,11 @@ def configure(kind: type[Generator], settings: Mapping[str, object]) -> Generato
             )
         read = fields[key].metadata.get("read")
         values[key] = read(value) if read else _convert(f"{key} of {kind.name}", hints[key], value)
-    return cast(Callable[..., Generator], kind)(**values)
+    return cast(Callable[..., T], kind)(**values)
 
 
-def specification(generator: Generator) -> str:
-    """Canonical text of a generator: its name and the settings that are not default, in field order.
+def specification(thing: Configured) -> str:
+    """Canonical text: the name and the settings that are not default, in field order.
 
     Examples
     --------
@@ -95,11 +110,11 @@ def specification(generator: Generator) -> str:
     ('lloyd[iterations=50]', 'lloyd')
     """
     given = [
-        f"{field.name}={_text(getattr(generator, field.name))}"
-        for field in _fields(type(generator))
-        if getattr(generator, field.name) != field.default
+        f"{field.name}={_text(getattr(thing, field.name))}"
+        for field in _fields(type(thing))
+        if getattr(thing, field.name) != field.default
     ]
-    return f"{generator.name}[{','.join(given)}]" if given else generator.name
+    return f"{thing.name}[{','.join(given)}]" if given else thing.name
 
 
 def nearest(word: str, words: Iterable[str]) -> str:
@@ -108,7 +123,7 @@ def nearest(word: str, words: Iterable[str]) -> str:
     return f"; did you mean {close[0]!r}?" if close else ""
 
 
-def _fields(kind: type[Generator]) -> tuple[dataclasses.Field[Any], ...]:
+def _fields(kind: type[Configured]) -> tuple[dataclasses.Field[Any], ...]:
     return dataclasses.fields(cast(Any, kind))
 
 

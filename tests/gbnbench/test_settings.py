@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gbnbench.errors import InputError
-from gbnbench.generators.settings import configure, parse, specification
+from gbnbench.settings import configure, parse, specification
 from gbnbench.torus import FloatArray
 
 
@@ -112,3 +112,12 @@ MALFORMED = (
 def test_malformed_text_is_refused(text: str) -> None:
     with pytest.raises(InputError):
         parse(text)
+
+
+def test_a_malformed_text_is_told_what_it_should_describe() -> None:
+    with pytest.raises(
+        InputError, match=r"^a generator must read name or name\[setting=value,...\]; got 'a b'"
+    ):
+        parse("a b")
+    with pytest.raises(InputError, match=r"^an integrand must read name"):
+        parse("a b", "an integrand")

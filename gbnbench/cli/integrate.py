@@ -1,0 +1,168 @@
+"""``gbnbench integrate``: the variance of integrals estimated by point sets."""
+
+from __future__ import annotations
+
+import shlex
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from gbnbench.cli import options
+from gbnbench.cli.columns import aligned, number
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from gbnbench.integration import Integration
+
+EPILOG = """\b
+Examples:
+  gbnbench integrate                                    random, jittered, sobol, gbn in 2D
+  gbnbench integrate gbn sobol -d 8 -n 64,256,1024
+  gbnbench integrate gbn mine.txt --integrand ball --integrand 'genz[kind=continuous]'
+  gbnbench integrate --list                             every family of integrands
+"""
+
+
+def _list(context: click.Context, _: click.Parameter, asked: bool) -> None:
+    if not asked:
+        return
+    from gbnbench.analysis.integrands.registry import FAMILIES
+    from gbnbench.settings import specification
+
+    for line in aligned(
+        ("family", "periodic", "what"),
+        [
+            (specification(family()), "yes" if family.periodic else "no", family.summary)
+            for family in FAMILIES.values()
+        ],
+    ):
+        click.echo(line)
+    context.exit()
+
+
+@click.command(epilog=EPILOG)
+@click.argument("sources", nargs=-1)
+@click.option(
+    "-n", "n", type=options.Whole(), default="16,64,256,1024", show_default=True, help="Points a set."
+)
+@click.option("-d", "d", type=options.Whole(), default="2", show_default=True, help="Dimensions.")
+@click.option(
+    "--integrand", "integrands", multiple=True, metavar="FAMILY",
+    help="Family of integrands, with or without settings; may come again.  [default: gaussians, half-space]",
+)  # fmt: skip
+@click.option(
+    "--instances", type=click.IntRange(1), default=100, show_default=True, help="Integrands of each family."
+)
+@click.option(
+    "--realizations", type=click.IntRange(1), default=16, show_default=True, help="Sets of each generator."
+)
+@click.option(
+    "--shifts", type=click.IntRange(0), default=0, show_default=True,
+    help="Random toroidal shifts of each set; 0 takes the sets as they are.",
+)  # fmt: skip
+@options.seed
+@click.option(
+    "--out", type=click.Path(path_type=Path), help="Folder of results.  [default: runs/NAME, by the settings]"
+)
+@click.option("--jobs", type=click.IntRange(1), help="Worker processes.  [default: one a core]")
+@click.option("--quiet", is_flag=True, help="No progress.")
+@click.option(
+    "--list", "listed", is_flag=True, is_eager=True, expose_value=False, callback=_list,
+    help="List the families of integrands.",
+)  # fmt: skip
+@options.device
+def integrate(
+    sources: tuple[str, ...],
+    n: tuple[int, ...],
+    d: tuple[int, ...],
+    integrands: tuple[str, ...],
+    instances: int,
+    realizations: int,
+    shifts: int,
+    seed: int,
+    out: Path | None,
+    jobs: int | None,
+    quiet: bool,
+) -> None:
+    """Estimate integrals by the means over SOURCES' points, and tell their variance against n.
+
+    SOURCES are generators with settings, files and folders, any mix. Every integrand of a family is estimated
+    with every set. Beside each variance stands what the power spectrum of the points foretells, where the
+    family is periodic. Stopped in any way, the same command goes on where it was.
+    """
+    from gbnbench import progress
+    from gbnbench.integration import DEFAULT_INTEGRANDS, DEFAULT_SOURCES
+    from gbnbench.integration import integrate as run
+
+    with progress.choose(quiet) as teller:
+        outcome = run(
+            sources or DEFAULT_SOURCES,
+            out,
+            n=n,
+            d=d,
+            realizations=realizations,
+            integrands=integrands or DEFAULT_INTEGRANDS,
+            instances=instances,
+            shifts=shifts,
+            seed=seed,
+            jobs=jobs,
+            command=shlex.join(["gbnbench", *sys.argv[1:]]),
+            progress=teller,
+            draw=draw,
+        )
+    for line in report(outcome.study):
+        click.echo(line)
+    kept = f", {outcome.reused} of {outcome.pieces} pieces reused" if outcome.reused else ""
+    click.echo(f"\nfolder: {outcome.folder} ({outcome.seconds:.1f} s{kept})")
+
+
+def draw(study: Integration, folder: Path) -> None:
+    """Write the picture as PNG and PDF."""
+    from gbnbench.disk import write_whole
+    from gbnbench.reports.figures import pdf, png
+    from gbnbench.reports.integration import figure
+
+    drawn = figure(study)
+    write_whole(folder / "integration.png", png(drawn))
+    write_whole(folder / "integration.pdf", pdf(drawn))
+
+
+def report(study: Integration) -> Iterator[str]:
+    """Lay out a table for each family and d: a row a source, a column an n, and the slope."""
+    for _, part in study.variance.groupby(["integrand", "d"], sort=False):
+        family, d = str(part["integrand"].iloc[0]), int(part["d"].iloc[0])
+        sizes = sorted(part["n"].unique())
+        yield f"\n{family}, d={d}: variance, its standard error, [what the points' spectrum foretells]"
+        yield from aligned(
+            ("source", *(f"n={n}" for n in sizes), "slope"),
+            [
+                (
+                    label,
+                    *(_cell(rows, n) for n in sizes),
+                    _slope(study.slopes, str(label), d, family),
+                )
+                for label, rows in part.groupby("source", sort=False)
+            ],
+        )
+
+
+def _cell(rows: pd.DataFrame, n: int) -> str:
+    there = rows[rows["n"] == n]
+    if there.empty:
+        return "-"
+    row = there.iloc[0]
+    told = "" if row["foretold"] != row["foretold"] else f" [{number(row['foretold'])}]"
+    spread = "" if row["standard_error"] != row["standard_error"] else f" ± {number(row['standard_error'])}"
+    return f"{number(row['variance'])}{spread}{told}"
+
+
+def _slope(slopes: pd.DataFrame, label: str, d: int, family: str) -> str:
+    found = slopes[(slopes["source"] == label) & (slopes["d"] == d) & (slopes["integrand"] == family)]
+    if found.empty:
+        return "-"
+    row = found.iloc[0]
+    return f"{row['slope']:.2f} ± {row['standard_error']:.2f}"
