@@ -73,8 +73,8 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
     caption = (
         "The classic measures of blue noise. From top to bottom: a set; the mean spectrum in PSA's grey, "
         "white from a power of 16; radial power on exact shells against nu, with white noise at 1; a zone "
-        "plate sampled at the points; and the Voronoi cells by number of neighbours, the valence of the Delaunay "
-        f"triangulation. Highest radial power: {each('peak', form='.1f')}. Points with six neighbours, in "
+        "plate sampled at the points; and the Voronoi cells by number of neighbours, the valence of the "
+        f"Delaunay triangulation. Highest radial power: {each('peak', form='.1f')}. Points with six neighbours, in "
         f"percent: {each('valence6', 100, '.0f')}. Noise floor, mean power up to a nu of 0.25: "
         + ", ".join(f"{common.rounded(one.source.measures['noise_floor'])} ({one.title})" for one in columns)
         + f". {common.counted(columns)}, d = 2; GBN is at sigma = 1 with 320 gradients of Nesterov's "
