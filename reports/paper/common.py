@@ -14,12 +14,12 @@ from matplotlib.colors import LogNorm
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from gbnbench.generators.registry import find
-from gbnbench.settings import specification
 from gbnbench.material import Comparison
 from gbnbench.reports import spectrum, style
 from gbnbench.reports.paper.figure import Ask
 from gbnbench.results import RadialPower
 from gbnbench.run import Run, SourceResult
+from gbnbench.settings import specification
 
 NAMES = {
     "random": "Random", "jittered": "Stratified", "sobol": "Owen-Sobol", "halton": "Halton", "lloyd": "CVT",

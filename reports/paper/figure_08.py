@@ -56,6 +56,8 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
             power.tick_params(labelleft=k == 0, pad=1.5)
             zone_plate.panel(plate, one.source)
             valence.panel(cells, one.source)
+            for patch in cells.patches:
+                patch.set_linewidth(min(0.35, 0.22 * wide))
         for ax, name in zip(axes[:, 0], ROWS, strict=True):
             ax.set_ylabel(name, labelpad=2)
         panel.legend(
@@ -70,17 +72,19 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
             f"{format(scale * one.source.measures[measure], form)} ({one.title})" for one in columns
         )
 
+    floors = ", ".join(
+        f"{common.rounded(one.source.measures['noise_floor'])} ({one.title})" for one in columns
+    )
     caption = (
         "The classic measures of blue noise. From top to bottom: a set; the mean spectrum in PSA's grey, "
         "white from a power of 16; radial power on exact shells against nu, with white noise at 1; a zone "
         "plate sampled at the points; and the Voronoi cells by number of neighbours, the valence of the "
-        f"Delaunay triangulation. Highest radial power: {each('peak', form='.1f')}. Points with six neighbours, in "
-        f"percent: {each('valence6', 100, '.0f')}. Noise floor, mean power up to a nu of 0.25: "
-        + ", ".join(f"{common.rounded(one.source.measures['noise_floor'])} ({one.title})" for one in columns)
-        + f". {common.counted(columns)}, d = 2; GBN is at sigma = 1 with 320 gradients of Nesterov's "
-        f"method, the work of the paper's 10,000 steps. {common.absent(ask, PAPER)}"
+        f"Delaunay triangulation. Highest radial power: {each('peak', form='.1f')}. Points with six "
+        f"neighbours, in percent: {each('valence6', 100, '.0f')}. Noise floor, mean power up to a nu of "
+        f"0.25: {floors}. {common.counted(columns)}, d = 2; GBN is at sigma = 1 with 320 gradients of "
+        f"Nesterov's method, the work of the paper's 10,000 steps. {common.absent(ask, PAPER)}"
     ).rstrip()
-    height = 0.75 + 4.62 * wide
+    height = 0.88 + 4.62 * wide
     return Drawing(PAGE, height, paint, caption)
 
 
