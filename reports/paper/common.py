@@ -1,4 +1,4 @@
-"""What figures share: requests that two of them make, one name and stroke a method, and small parts of plots."""
+"""What figures share: requests that two of them make, a name and stroke for each method, parts of plots."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm
-from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullLocator
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from gbnbench.generators.registry import find
 from gbnbench.material import Comparison
@@ -74,13 +74,13 @@ class Column:
 
 
 def size(ask: Ask) -> int:
-    """Points a set in the galleries."""
+    """Count the points of a set in the galleries."""
     n: int = ask.pick(100, 1024, 1024)
     return n
 
 
 def sets(ask: Ask) -> int:
-    """Sets of each method in the galleries."""
+    """Count the sets of each method in the galleries."""
     count: int = ask.pick(2, 16, 1000)
     return count
 
@@ -160,7 +160,7 @@ def stroke(label: str) -> style.Stroke:
 
 
 def listed(words: Sequence[str]) -> str:
-    """``a, b and c``."""
+    """Join words as in a sentence: a, b and c."""
     return " and ".join(filter(None, [", ".join(words[:-1]), *words[-1:]]))
 
 
@@ -219,7 +219,7 @@ def power_bar(axes: Sequence[Axes], limits: tuple[float, float] = POWER, **where
         ScalarMappable(LogNorm(*limits), spectrum.palette()), ax=list(axes), aspect=24, pad=0.02,
         ticks=[10.0**k for k in range(0, low - 1, -step)], **where,
     )  # fmt: skip
-    bar.outline.set_linewidth(0.4)  # type: ignore[operator]
+    bar.outline.set_linewidth(0.4)
     bar.ax.tick_params(labelsize=6.5, length=2, pad=1.5)
     bar.minorticks_off()
 
@@ -246,10 +246,13 @@ def log_nu(ax: Axes, low: float, high: float = 2.0, marks: Sequence[float] = MAR
 
 
 def log_power(ax: Axes, low: float, high: float, ticks: int = 7) -> None:
-    """Make a log axis of power with few ticks and a quiet grid."""
+    """Make a log axis of power with about so many ticks and a quiet grid."""
     ax.set_yscale("log")
     ax.set_ylim(low, high)
-    ax.yaxis.set_major_locator(LogLocator(numticks=ticks))
+    first, last = math.ceil(math.log10(low) - 1e-9), math.floor(math.log10(high) + 1e-9)
+    step = next(step for step in (1, 2, 4, 8, 16, 32) if last - first <= step * ticks)
+    marks = range(step * math.ceil(first / step), last + 1, step)  # 1 is always among them
+    ax.yaxis.set_major_locator(FixedLocator([10.0**k for k in marks]))
     ax.yaxis.set_minor_locator(NullLocator())
     ax.grid(True, which="major", axis="y")
 

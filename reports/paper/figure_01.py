@@ -41,7 +41,7 @@ def _long_n(ask: Ask) -> int:
 
 
 def needs(ask: Ask) -> Mapping[str, Request]:
-    """Sets for the gallery and larger ones for the plot."""
+    """Ask for sets for the gallery and larger ones for the plot."""
     return {
         "classic": common.classic(ask),
         "long": Comparison((_long(ask)[0],), (common.size(ask),), (2,), ask.pick(2, 8, 1000)),
@@ -143,6 +143,8 @@ def _between(ax: Axes, above: RadialPower, below: RadialPower) -> None:
 
 def _caption(gallery: Sequence[Column], lines: Sequence[Column], ask: Ask) -> str:
     gradients = _long(ask)[1]
+    bnot = any(one.title == common.NAMES["bnot"] for one in lines)
+    shaded = " Shaded: what GBN gains over BNOT." if bnot else ""
     fits = ", ".join(
         f"{exponential_fit(one.source.radial).residual_db:.1f} and "
         f"{powerlaw_fit(one.source.radial).residual_db:.1f} ({one.title})"
@@ -151,14 +153,14 @@ def _caption(gallery: Sequence[Column], lines: Sequence[Column], ask: Ask) -> st
     floors = ", ".join(f"{common.rounded(one.source.measures['noise_floor'])} ({one.title})" for one in lines)
     return (
         "Blue noise of different methods. Top: a set; middle: the mean spectrum in PSA's grey, white from a "
-        f"power of 16; below: log10 of its middle, up to a nu of {CLOSE:g}: to the eye all are black there, "
-        "and are not. Last panel: radial power on exact shells; the grey line at 1 is white noise; dotted: "
-        "(pi^2/3) nu^2, the low band of stratified sets, and epsilon exp(4 pi^2 nu^2), the ideal Gaussian blue "
-        f"noise, at GBN's fitted epsilon. Noise floor, mean power up to a nu of 0.25: {floors}. Residuals in dB "
-        f"of the exponential and of the power law fitted to each: {fits}. GBN took 320 gradients of Nesterov's "
-        f"method, the work of the paper's 10,000 steps of descent; GBN, 1M, takes {gradients:,} in place of "
-        f"its million steps (k gradients do the work of about k^2/9). Pictures: {common.counted(gallery)}; "
-        f"plot: {common.counted(lines)}; d = 2. {common.absent(ask, PAPER)}"
+        f"power of 16; below: log10 of its middle, up to a nu of {CLOSE:g}: in grey all are dark there, and "
+        "differ. Last panel: radial power on exact shells; the grey line at 1 is white noise; dotted: "
+        "(pi^2/3) nu^2, the low band of stratified sets, and epsilon exp(4 pi^2 nu^2), the ideal Gaussian "
+        f"blue noise, at GBN's fitted epsilon.{shaded} Noise floor, mean power up to a nu of 0.25: {floors}. "
+        f"Residuals in dB of the exponential and of the power law fitted to each: {fits}. GBN took 320 "
+        "gradients of Nesterov's method, the work of the paper's 10,000 steps of descent; GBN, 1M, takes "
+        f"{gradients:,} in place of its million steps (k gradients do the work of about k^2/9). Pictures: "
+        f"{common.counted(gallery)}; plot: {common.counted(lines)}; d = 2. {common.absent(ask, PAPER)}"
     ).rstrip()
 
 
@@ -166,8 +168,8 @@ FIGURE = PaperFigure(
     "1",
     "Methods, their spectra and radial power",
     "The spectra of blue-noise methods look alike, but the middle of GBN's is perfectly black. In log-log "
-    "scale two families appear, polynomial (BNOT, stratified), which are straight, and exponential (GBN, VnC, "
-    "KDM, FPO); GBN's noise floor is ten orders below other kernel methods and two below BNOT.",
+    "scale two families appear: polynomial (BNOT, stratified), which is straight, and exponential (GBN, VnC, "
+    "KDM, FPO). GBN's noise floor is ten orders below that of other kernel methods, two below BNOT's.",
     needs,
     draw,
 )

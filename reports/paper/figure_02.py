@@ -8,7 +8,7 @@ from typing import Any
 from matplotlib.figure import SubFigure
 
 from gbnbench.material import Comparison, Request
-from gbnbench.reports import spectrum
+from gbnbench.reports import spectrum, style
 from gbnbench.reports.paper import common
 from gbnbench.reports.paper.figure import COLUMN, Ask, Drawing, PaperFigure
 
@@ -32,8 +32,9 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
     run, n = material["sets"], common.size(ask)
     narrow = common.made(run, NARROW, n, "σ = 0.5, 30 steps")
     wide = common.made(run, text, n, f"σ = 1.1, {gradients:,} gradients")
-    strokes = {narrow.title: common.stroke("fpo"), wide.title: common.stroke("gbn")}
     both = (narrow, wide)
+    strokes = (style.Stroke(style.FAINT, "-"), common.stroke("gbn"))
+    low = common.lowest(one.source.radial for one in both)
 
     def paint(panel: SubFigure) -> None:
         pictures, plot = panel.subfigures(2, 1, squeeze=False, height_ratios=[2.15, 1])[:, 0]
@@ -43,25 +44,29 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
             spectrum.panel(below, one.source, None, ticks=False)
         ax = plot.subplots()
         common.white(ax)
-        for one in both:
-            common.curve(ax, one.source.radial, strokes[one.title], one.title)
+        for one, line, lift in zip(both, strokes, (4.0, 12.0), strict=True):
+            radial = one.source.radial
+            common.curve(ax, radial, line)
+            spot = int((radial.nu < 0.12).sum()) - 1 if line is strokes[0] else 0
+            ax.text(
+                radial.nu[spot], lift * radial.power[spot], one.title, size=7, color=line.colour, va="bottom"
+            )
         common.log_nu(ax, 0.97 * n**-0.5)
-        common.log_power(ax, common.lowest(one.source.radial for one in both), 30)
+        common.log_power(ax, low, 30)
         ax.set_ylabel("radial power")
-        ax.legend(loc="lower right", fontsize=7, handlelength=1.8, borderaxespad=0.1)
         common.heading(ax, "c", "radial power")
 
     floor = {one.title: one.source.measures["noise_floor"] for one in both}
     near = [one.source.measures["mean_distance"] for one in both]
     caption = (
         "Two settings of Gaussian Blue Noise whose points look alike and whose spectra do not: "
-        f"(a) {narrow.title.replace('steps', 'steps of the descent')}; (b) {wide.title} of Nesterov's method. "
+        f"(a) {narrow.title} of the paper's descent; (b) {wide.title} of Nesterov's method. "
         "Top: a set; middle: the mean spectrum in PSA's grey, white from a power of 16, both dark in the "
         "middle to the eye; (c) radial power on exact shells with white noise at 1. The mean distance to the "
         f"nearest neighbour is {near[0]:.2f} and {near[1]:.2f} of the densest packing's, but the noise floor "
         f"(mean power up to a nu of 0.25) {common.rounded(floor[narrow.title])} and "
         f"{common.rounded(floor[wide.title])}. {common.counted(both)} each, d = 2. The paper's (b) took a "
-        f"million steps of descent; k gradients of Nesterov's method do the work of about k^2/9 steps, "
+        f"million steps of descent; k gradients of Nesterov's method do the work of about k^2/9 such steps, "
         f"{gradients:,} of {gradients**2 // 9:,}."
     )
     return Drawing(COLUMN, 5.1, paint, caption)

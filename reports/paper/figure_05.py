@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from matplotlib import colormaps
+from matplotlib.colors import to_hex
 from matplotlib.figure import SubFigure
 
 from gbnbench.material import Comparison, Request
@@ -15,7 +16,10 @@ from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
 
 CUTOFFS = (1, 2, 3, 4)  # sigmas
 STROKES = (
-    *(style.Stroke(colormaps["viridis"](0.85 - 0.2 * k), style.DASHES[0]) for k in range(len(CUTOFFS))),
+    *(
+        style.Stroke(to_hex(colormaps["viridis"](0.85 - 0.2 * k)), style.DASHES[0])
+        for k in range(len(CUTOFFS))
+    ),
     common.stroke("gbn"),
 )
 

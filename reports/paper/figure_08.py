@@ -15,11 +15,11 @@ from gbnbench.reports.paper import common
 from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
 
 PAPER = ("bnot", "kdm", "vnc", "ccvt", "bluenets")
-ROWS = ("points", "spectrum", "radial power", "zone plate", "valence")
+ROWS = ("points", "spectrum", "radial\npower", "zone plate", "valence")
 
 
 def needs(ask: Ask) -> Mapping[str, Request]:
-    """Generators here that are commonly compared, and the user's sets."""
+    """Ask for generators that are commonly compared, and the user's sets."""
     strata = Comparison(("jittered",), (common.size(ask),), (2,), common.sets(ask))
     methods = common.shown_methods(ask, PAPER)
     return {
@@ -56,11 +56,13 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
             power.tick_params(labelleft=k == 0, pad=1.5)
             zone_plate.panel(plate, one.source)
             valence.panel(cells, one.source)
+            for patch in cells.patches:
+                patch.set_linewidth(min(0.35, 0.22 * wide))
         for ax, name in zip(axes[:, 0], ROWS, strict=True):
             ax.set_ylabel(name, labelpad=2)
         panel.legend(
             [Patch(facecolor=p, edgecolor="#8a94a3", linewidth=0.5) for p in valence.DEGREE_COLOURS.values()],
-            [f"{name} neighbours" if k == 0 else name for k, name in enumerate(valence.DEGREE_NAMES.values())],
+            [f"{name} neighbours" if k == 4 else name for k, name in valence.DEGREE_NAMES.items()],
             loc="outside lower center", ncols=5, fontsize=7, handlelength=1.0, columnspacing=1.4,
             handletextpad=0.4,
         )  # fmt: skip
@@ -70,17 +72,19 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
             f"{format(scale * one.source.measures[measure], form)} ({one.title})" for one in columns
         )
 
+    floors = ", ".join(
+        f"{common.rounded(one.source.measures['noise_floor'])} ({one.title})" for one in columns
+    )
     caption = (
-        "The classic measures of blue noise. From top to bottom: a set; the mean spectrum in PSA's grey, white "
-        "from a power of 16; radial power on exact shells against nu, with white noise at 1; a zone plate "
-        "sampled at the points; and the Voronoi cells by number of neighbours, the valence of the Delaunay "
-        f"triangulation. Highest radial power: {each('peak', form='.1f')}. Points with six neighbours, in "
-        f"percent: {each('valence6', 100, '.0f')}. Noise floor, mean power up to a nu of 0.25: "
-        + ", ".join(f"{common.rounded(one.source.measures['noise_floor'])} ({one.title})" for one in columns)
-        + f". {common.counted(columns)}, d = 2; GBN is at sigma = 1 with 320 gradients of Nesterov's method, "
-        f"the work of the paper's 10,000 steps. {common.absent(ask, PAPER)}"
+        "The classic measures of blue noise. From top to bottom: a set; the mean spectrum in PSA's grey, "
+        "white from a power of 16; radial power on exact shells against nu, with white noise at 1; a zone "
+        "plate sampled at the points; and the Voronoi cells by number of neighbours, the valence of the "
+        f"Delaunay triangulation. Highest radial power: {each('peak', form='.1f')}. Points with six "
+        f"neighbours, in percent: {each('valence6', 100, '.0f')}. Noise floor, mean power up to a nu of "
+        f"0.25: {floors}. {common.counted(columns)}, d = 2; GBN is at sigma = 1 with 320 gradients of "
+        f"Nesterov's method, the work of the paper's 10,000 steps. {common.absent(ask, PAPER)}"
     ).rstrip()
-    height = 0.75 + 4.62 * wide
+    height = 0.88 + 4.62 * wide
     return Drawing(PAGE, height, paint, caption)
 
 

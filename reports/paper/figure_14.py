@@ -58,9 +58,9 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
         "What averaging over annuli hides. Top: radial power on exact shells, all frequencies of one |f|, a "
         f"dot a shell; bottom: the same spectra over annuli of width {WIDTH:g}, PSA's default, "
         f"{len(rings[0].nu):,} in place of {len(exact[0].nu):,} values. The grey line at 1 is white noise. "
-        f"The innermost annulus has {' and '.join(first)}. The dips of Owen-Sobol, which the annuli hide, are "
-        "the shells that lie on the axes alone, |f| = 1, 2, 3, 4, 6, 7, 8, 9, 11 and so on: its projections on "
-        "either axis are stratified n-fold. "
+        f"The innermost annulus has {' and '.join(first)}. The dips of Owen-Sobol, which the annuli hide, "
+        "are the shells that lie on the axes alone, |f| = 1, 2, 3, 4, 6, 7, 8, 9, 11 and so on: its "
+        "projections on either axis are stratified n-fold. "
         f"{common.counted(examples)}, d = 2."
     )
     if "bnot" not in ask.sets:
