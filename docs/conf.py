@@ -1,7 +1,9 @@
 """Sphinx: the pages and the reference, from docstrings and from the command itself, as one site."""
 
+import os
 import re
 import sys
+import tempfile
 from pathlib import Path
 
 from numpydoc import xref
@@ -25,6 +27,13 @@ extensions = [
     "sphinx.ext.autosummary",
     "sphinx_click",
 ]
+# The tutorial's kernel serves this build alone: that its sockets are not encrypted is no news.
+_IPYTHON = tempfile.TemporaryDirectory()
+_PROFILE = Path(_IPYTHON.name, "profile_default")
+_PROFILE.mkdir()
+(_PROFILE / "ipython_kernel_config.py").write_text("c.IPKernelApp.log_level = 'ERROR'\n")
+os.environ["IPYTHONDIR"] = _IPYTHON.name
+
 smartquotes = False  # two hyphens before an option are two hyphens
 exclude_patterns = ["extensions"]
 
@@ -98,18 +107,6 @@ def _signature(what: str, signature: str | None) -> tuple[str, None] | None:
     return ("", None) if what == "class" and signature == "(*args, **kwargs)" else None
 
 
-def _leave_out_missing(app: Sphinx, docname: str, content: list[str]) -> None:
-    """Drop from the tables of contents of the first page those pages that this checkout does not have."""
-    if docname == "index":
-        pages = app.project.docnames
-        lines, inside = [], False
-        for line in content[0].split("\n"):
-            inside = line.startswith("```{toctree}") or (inside and not line.startswith("```"))
-            if not (inside and re.fullmatch(r"[\w/]+", line) and line not in pages):
-                lines.append(line)
-        content[0] = "\n".join(lines)
-
-
 def _lead_out(app: Sphinx, docname: str, content: list[str]) -> None:
     """Make of a link out of this folder, which leads on in the repository, the file; to a folder, text."""
     place = Path(app.env.doc2path(docname)).parent
@@ -124,7 +121,6 @@ def _lead_out(app: Sphinx, docname: str, content: list[str]) -> None:
 
 def setup(app: Sphinx) -> None:
     """Hold docstrings and the command's help to plain text, and the contents to the pages there are."""
-    app.connect("source-read", _leave_out_missing)
     app.connect("source-read", _lead_out)
     app.connect("autodoc-skip-member", lambda *event: _is_imported(event[1], event[3]))
     app.connect("autodoc-process-signature", lambda *event: _signature(event[1], event[5]))

@@ -108,14 +108,14 @@ def given(ask: Ask, methods: Iterable[str]) -> dict[str, Comparison]:
     return {name: Comparison((ask.sets[name],)) for name in methods if name in ask.sets}
 
 
-def absent(ask: Ask, methods: Iterable[str]) -> str:
+def absent(ask: Ask, methods: Iterable[str], whose: str = "of the paper") -> str:
     """Sentence about the methods that the user has no sets of; empty where there is none."""
     names = [name for name in methods if name not in ask.sets]
     if not names:
         return ""
     verb, them = ("is", "it") if len(names) == 1 else ("are", "them")
     return (
-        f"{listed([NAMES[name] for name in names])} of the paper {verb} left out: there is no generator for "
+        f"{listed([NAMES[name] for name in names])} {whose} {verb} left out: there is no generator for "
         f"{them} here and no sets were given (--sets {names[0]}=PATH)."
     )
 

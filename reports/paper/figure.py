@@ -103,7 +103,7 @@ def compose(drawing: Drawing, heading: str, foot: str, captions: bool = True) ->
         figure = Figure(figsize=(drawing.width, drawing.height), layout="constrained")
         drawing.paint(figure.subfigures(1, 1, squeeze=False)[0, 0])
         return figure
-    width = max(24, int((drawing.width - 0.16) / 0.0505))
+    width = max(24, int((drawing.width - 0.16) / 0.0455))
     lines = textwrap.wrap(style.shown(f"{heading} {drawing.caption} {foot}", 10_000), width)
     room = 0.1 + 0.122 * len(lines)
     figure = Figure(figsize=(drawing.width, drawing.height + room), layout="constrained")

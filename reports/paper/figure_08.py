@@ -82,7 +82,8 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
         f"Delaunay triangulation. Highest radial power: {each('peak', form='.1f')}. Points with six "
         f"neighbours, in percent: {each('valence6', 100, '.0f')}. Noise floor, mean power up to a nu of "
         f"0.25: {floors}. {common.counted(columns)}, d = 2; GBN is at sigma = 1 with 320 gradients of "
-        f"Nesterov's method, the work of the paper's 10,000 steps. {common.absent(ask, PAPER)}"
+        f"Nesterov's method, the work of the paper's 10,000 steps. "
+        + common.absent(ask, PAPER, "of the state of the art")
     ).rstrip()
     height = 0.88 + 4.62 * wide
     return Drawing(PAGE, height, paint, caption)
