@@ -71,6 +71,11 @@ class Series:
     energy: FloatArray
     share: float
 
+    @property
+    def beyond(self) -> float:
+        """Most energy that the frequencies left out can hold: over n, what white noise there would add."""
+        return float(2 * self.energy.sum() * self.share / (1 - self.share))
+
 
 def series_of(family: Family, integrands: Sequence[Integrand], d: int) -> Series | None:
     """Fourier series of drawn integrands, as far as 20,000 frequencies reach.
@@ -119,7 +124,7 @@ def foretold_variance(series: Series, x: ArrayLike) -> FloatArray:
     (realizations,) float64
         sum over f != 0 of energy(f) P(f) / n: the inner product of the two power spectra. Exact, to
         rounding, for integrands whose series ends within the list; else short of the truth by the part of the
-        sum beyond it, which for white noise there is ``series.share`` of the family's energy over n.
+        sum beyond it, which for white noise there is at most ``series.beyond`` / n.
 
     Raises
     ------

@@ -9,28 +9,25 @@ import os
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from gbnbench import __version__, archive, disk, store
-from gbnbench.analysis.estimator import Series, estimate_errors, foretold_variance, series_of
-from gbnbench.analysis.integrands.integrand import Family, Integrand
+from gbnbench.analysis.integrands.integrand import Family
 from gbnbench.analysis.integrands.registry import find as find_family
-from gbnbench.analysis.variance import Variance, slope_of, variance_of
+from gbnbench.analysis.variance import Variance, variance_of
 from gbnbench.errors import DeviceError, FormatError, InputError, RefusalError
-from gbnbench.generators.protocol import Generator, realization_rng
-from gbnbench.generators.watch import Watch, Watchable
+from gbnbench.estimates import errors_of, instances_of, pieces_of
 from gbnbench.kept import MANIFEST, SETTINGS, read_json, said_where
-from gbnbench.pieces import Piece, PieceFolder, carry_out
+from gbnbench.pieces import PieceFolder, carry_out
 from gbnbench.progress import Progress
 from gbnbench.provenance import versions
 from gbnbench.settings import specification
 from gbnbench.sources import Source, resolve
-from gbnbench.torus import FloatArray, as_realizations, wrap
+from gbnbench.torus import as_realizations
+from gbnbench.variances import gather, tables
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -38,8 +35,6 @@ if TYPE_CHECKING:
 DEFAULT_SOURCES = ("random", "jittered", "sobol", "gbn")
 DEFAULT_INTEGRANDS = ("gaussians", "half-space")
 DEFAULT_N = (16, 64, 256, 1024)
-INSTANCE, SHIFT = 2**31 + 1, 2**31 + 2  # first words of spawn keys, far from any realization's number
-BLOCK_POINTS, BLOCK_SETS = 16_384, 32  # of a piece; fixed, so that pieces do not depend on the machine
 TEXT = ("source", "integrand")
 TABLES = ("variance", "slopes")
 
@@ -54,9 +49,10 @@ class Integration:
         JSON-ready: command, settings, seed, device, versions.
     variance : DataFrame
         A row a source, n, d and family: columns source, n, d, integrand, instances, realizations, shifts,
-        variance, standard_error, low, high (95% band), bias, bias_error, foretold, foretold_error, share
-        (of the family's energy beyond the frequencies summed), deviation (of variance from foretold, in their
-        joint standard errors); the last four nan for families that are not periodic.
+        variance, standard_error, low, high (95% band), bias, bias_error, foretold, foretold_error, beyond
+        (most that white noise would add beyond the frequencies summed), deviation (of variance from the range
+        of foretold to foretold + beyond, in joint standard errors); the last four nan for families whose
+        spectrum is not known.
     slopes : DataFrame
         A row a source, d and family with two or more n: columns source, d, integrand, n_from, n_to, slope,
         standard_error, scatter (decades).
@@ -134,13 +130,7 @@ def variance(
     d = sets.shape[2]
     _refuse(family, d)
     drawn = instances_of(family, d, seed, instances)
-    return variance_of(_errors(drawn, sets, 0, seed, shifts))
-
-
-def instances_of(family: Family, d: int, seed: int, count: int) -> list[Integrand]:
-    """Draw integrands: number i from ``SeedSequence(seed, spawn_key=(2^31 + 1, i))`` whatever the count."""
-    seeds = (np.random.SeedSequence(seed, spawn_key=(INSTANCE, i)) for i in range(count))
-    return [family.draw(d, np.random.default_rng(each)) for each in seeds]
+    return variance_of(errors_of(drawn, sets, 0, seed, shifts))
 
 
 def integrate(
@@ -226,17 +216,9 @@ def integrate(
         "shifts": shifts,
     }
     keeper = StudyFolder(Path(folder or store.default_folder(settings, "integrate")), settings)
-    blocks = {source.key: _blocks(source) for source in given}
-    plan = (families, instances, shifts, seed)
+    largest_first = sorted(given, key=lambda source: -source.n * source.d)
     pieces = [
-        Piece(
-            f"{source.key}/{first:06d}",
-            f"{source.label}, n={source.n}, d={source.d}",
-            _work,
-            (_origin(source, first, count), source.n, source.d, first, count, *plan),
-        )
-        for source in sorted(given, key=lambda s: -s.n * s.d)
-        for first, count in blocks[source.key]
+        piece for source in largest_first for piece in pieces_of(source, families, instances, shifts, seed)
     ]
     with keeper.lock(), said_where(keeper.path):
         if keeper.whole:
@@ -247,7 +229,7 @@ def integrate(
         keeper.begin()
         reused = carry_out(keeper, pieces, jobs or os.cpu_count() or 1, progress)
         errors = {
-            (source.key, specification(family)): _gather(keeper, source, blocks[source.key], family)
+            (source.key, specification(family)): gather(keeper, source, family)
             for source in given for family in families
         }  # fmt: skip
         manifest = {
@@ -261,7 +243,7 @@ def integrate(
             "seconds": round(time.monotonic() - began, 3),
             "skipped": list(skipped),
         }
-        study = Integration(manifest, *_tables(given, families, instances, shifts, errors))
+        study = Integration(manifest, *tables(given, families, instances, shifts, errors))
         keeper.write_tables(study)
         if draw is not None:
             progress.advance("drawing", 0)
@@ -323,149 +305,3 @@ def _device() -> dict[str, Any] | str:
         return dict(choose().describe())
     except DeviceError:
         return "numpy"
-
-
-def _blocks(source: Source) -> list[tuple[int, int]]:
-    """Part a source's realizations in (first, count)."""
-    size = max(1, min(BLOCK_SETS, BLOCK_POINTS // source.n))
-    return [(first, min(size, source.realizations - first)) for first in range(0, source.realizations, size)]
-
-
-def _origin(source: Source, first: int, count: int) -> Generator | FloatArray:
-    """Give a worker what it has its sets from."""
-    if source.sets is not None:
-        return source.sets[first : first + count]
-    if source.generator is None:
-        raise TypeError(f"{source.key} has neither a generator nor sets")
-    return source.generator
-
-
-def _work(
-    origin: Generator | FloatArray,
-    n: int,
-    d: int,
-    first: int,
-    count: int,
-    families: Sequence[Family],
-    instances: int,
-    shifts: int,
-    seed: int,
-) -> dict[str, NDArray[Any]]:
-    """Draw a block of sets and estimate with it, in a worker."""
-    if isinstance(origin, np.ndarray):
-        sets = origin
-    else:
-        rngs = [realization_rng(seed, first + k) for k in range(count)]
-        if isinstance(origin, Watchable):
-            sets = origin.draw(n, d, rngs, Watch())
-        else:
-            sets = np.stack([origin(n, d, rng) for rng in rngs])
-    found: dict[str, NDArray[Any]] = {}
-    for family in families:
-        text = specification(family)
-        drawn, series = _known(family, d, seed, instances)  # type: ignore[arg-type]  # frozen: hashable
-        found[f"{text} errors"] = _errors(drawn, sets, first, seed, shifts)
-        if series is not None:
-            found[f"{text} foretold"] = foretold_variance(series, sets)
-            found[f"{text} share"] = np.asarray(series.share)
-    return found
-
-
-@lru_cache(maxsize=16)
-def _known(family: Family, d: int, seed: int, instances: int) -> tuple[tuple[Integrand, ...], Series | None]:
-    """Integrands and their series, in a worker once for all of its pieces."""
-    drawn = tuple(instances_of(family, d, seed, instances))
-    return drawn, series_of(family, drawn, d)
-
-
-def _errors(
-    integrands: Sequence[Integrand], sets: FloatArray, first: int, seed: int, shifts: int
-) -> FloatArray:
-    """Estimates less integrals: (integrands, sets, shifts or 1)."""
-    if shifts == 0:
-        return estimate_errors(integrands, sets)[:, :, None]
-    errors = np.empty((len(integrands), len(sets), shifts))
-    for k, points in enumerate(sets):
-        moved = np.empty((shifts, *points.shape))
-        for s in range(shifts):
-            rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(SHIFT, first + k, s)))
-            moved[s] = wrap(points + rng.random(points.shape[1]))
-        errors[:, k, :] = estimate_errors(integrands, moved)
-    return errors
-
-
-@dataclass(frozen=True)
-class _Gathered:
-    errors: FloatArray  # (instances, realizations, shifts or 1)
-    foretold: FloatArray | None  # (realizations,)
-    share: float
-
-
-def _gather(
-    keeper: PieceFolder, source: Source, blocks: Sequence[tuple[int, int]], family: Family
-) -> _Gathered:
-    """All blocks of one source and family."""
-    text = specification(family)
-    pieces = [keeper.read(f"{source.key}/{first:06d}") or {} for first, _ in blocks]
-    errors = np.concatenate([piece[f"{text} errors"] for piece in pieces], axis=1)
-    if f"{text} foretold" not in pieces[0]:
-        return _Gathered(errors, None, float("nan"))
-    foretold = np.concatenate([piece[f"{text} foretold"] for piece in pieces])
-    return _Gathered(errors, foretold, float(pieces[0][f"{text} share"]))
-
-
-def _tables(
-    sources: Sequence[Source],
-    families: Sequence[Family],
-    instances: int,
-    shifts: int,
-    errors: dict[tuple[str, str], _Gathered],
-) -> tuple[pd.DataFrame, pd.DataFrame]:
-    import pandas as pd
-
-    rows, lines = [], []
-    for family in families:
-        text = specification(family)
-        for source in sources:
-            gathered = errors[source.key, text]
-            rows.append(
-                {
-                    "source": source.label, "n": source.n, "d": source.d, "integrand": text,
-                    "instances": instances, "realizations": source.realizations, "shifts": shifts,
-                    **_row(gathered),
-                }
-            )  # fmt: skip
-        for label, d in dict.fromkeys((source.label, source.d) for source in sources):
-            group = sorted((s.n, s.key) for s in sources if (s.label, s.d) == (label, d))
-            if len(group) > 1:
-                slope = slope_of([n for n, _ in group], [errors[key, text].errors for _, key in group])
-                lines.append(
-                    {
-                        "source": label, "d": d, "integrand": text, "n_from": group[0][0],
-                        "n_to": group[-1][0], "slope": slope.value, "standard_error": slope.standard_error,
-                        "scatter": slope.scatter,
-                    }
-                )  # fmt: skip
-    columns = [
-        "source", "d", "integrand", "n_from", "n_to", "slope", "standard_error", "scatter"
-    ]  # fmt: skip
-    return pd.DataFrame(rows), pd.DataFrame(lines, columns=columns)
-
-
-def _row(gathered: _Gathered) -> dict[str, float]:
-    found = variance_of(gathered.errors)
-    row = {
-        "variance": found.value, "standard_error": found.standard_error, "low": found.low, "high": found.high,
-        "bias": found.bias, "bias_error": found.bias_error,
-    }  # fmt: skip
-    nan = float("nan")
-    if gathered.foretold is None:
-        return {**row, "foretold": nan, "foretold_error": nan, "share": nan, "deviation": nan}
-    count = len(gathered.foretold)
-    foretold = float(gathered.foretold.mean())
-    error = float(gathered.foretold.std(ddof=1) / np.sqrt(count)) if count > 1 else nan
-    joint = float(np.hypot(found.standard_error, 0.0 if count == 1 else error))
-    deviation = (found.value - foretold) / joint if joint > 0 else nan
-    return {
-        **row, "foretold": foretold, "foretold_error": error, "share": gathered.share, "deviation": deviation
-    }  # fmt: skip

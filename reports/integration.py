@@ -18,7 +18,8 @@ from gbnbench.reports import style
 CAPTION = (
     "Mean squared error of the mean over n points, over {instances} integrands of each family and {sets} "
     "sets of each source. Bands: 95%, over integrands and sets. Crosses: what the sets' power spectra "
-    "foretell (the inner product with the integrands' spectra). Grey: the slope of random sampling, 1/n. In "
+    "foretell (the inner product with the integrands' spectra), with a bar for what white noise beyond the "
+    "frequencies summed would add. Grey: the slope of random sampling, 1/n. In "
     "the key: fitted slopes with standard errors. {shifts}seed {seed} · gbnbench {version}"
 )
 
@@ -60,6 +61,9 @@ def panel(ax: Axes, part: pd.DataFrame, given: dict[str, style.Stroke]) -> None:
         ax.fill_between(line["n"], line["low"], line["high"], color=stroke.colour, alpha=0.18, linewidth=0)
         told = line[line["foretold"] > 0]
         ax.plot(told["n"], told["foretold"], "x", color=stroke.colour, markersize=5, markeredgewidth=0.9)
+        ax.vlines(
+            told["n"], told["foretold"], told["foretold"] + told["beyond"], color=stroke.colour, linewidth=0.9
+        )
     sizes = np.array(sorted(part["n"].unique()), dtype=float)
     positive = part[part["variance"] > 0]
     if len(sizes) > 1 and len(positive):

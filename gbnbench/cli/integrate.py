@@ -136,7 +136,8 @@ def report(study: Integration) -> Iterator[str]:
     for _, part in study.variance.groupby(["integrand", "d"], sort=False):
         family, d = str(part["integrand"].iloc[0]), int(part["d"].iloc[0])
         sizes = sorted(part["n"].unique())
-        yield f"\n{family}, d={d}: variance, its standard error, [what the points' spectrum foretells]"
+        told = ", [what the points' spectrum foretells]" if part["foretold"].notna().any() else ""
+        yield f"\n{family}, d={d}: variance, its standard error{told}"
         yield from aligned(
             ("source", *(f"n={n}" for n in sizes), "slope"),
             [
@@ -155,9 +156,15 @@ def _cell(rows: pd.DataFrame, n: int) -> str:
     if there.empty:
         return "-"
     row = there.iloc[0]
-    told = "" if row["foretold"] != row["foretold"] else f" [{number(row['foretold'])}]"
+    told = "" if row["foretold"] != row["foretold"] else f" [{_told(row['foretold'], row['beyond'])}]"
     spread = "" if row["standard_error"] != row["standard_error"] else f" ± {number(row['standard_error'])}"
     return f"{number(row['variance'])}{spread}{told}"
+
+
+def _told(foretold: float, beyond: float) -> str:
+    """Write what is foretold, as a range where the frequencies left out may matter."""
+    most = f" to {number(foretold + beyond)}" if beyond > 0.02 * foretold else ""
+    return number(foretold) + most
 
 
 def _slope(slopes: pd.DataFrame, label: str, d: int, family: str) -> str:

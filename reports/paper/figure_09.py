@@ -12,7 +12,7 @@ from matplotlib.figure import SubFigure
 from matplotlib.lines import Line2D
 
 from gbnbench.analysis.integrands.registry import find
-from gbnbench.integration import instances_of
+from gbnbench.estimates import instances_of
 from gbnbench.material import Request, Study, Tables
 from gbnbench.pieces import Arrays
 from gbnbench.reports import integration

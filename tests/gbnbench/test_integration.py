@@ -13,7 +13,8 @@ from gbnbench.analysis.integrands.registry import find
 from gbnbench.analysis.variance import variance_of
 from gbnbench.cli import run as command
 from gbnbench.errors import InputError, RefusalError
-from gbnbench.integration import instances_of, integrate, read_integration, variance
+from gbnbench.estimates import instances_of
+from gbnbench.integration import integrate, read_integration, variance
 
 
 def study(folder, sources=("random", "jittered"), **changes):
@@ -66,7 +67,7 @@ def test_foretold_is_for_periodic_families_alone(done):
     table = done.study.variance
     periodic = table.integrand.str.startswith("korobov")
     assert table[periodic].foretold.notna().all()
-    assert table[~periodic][["foretold", "share", "deviation"]].isna().all().all()
+    assert table[~periodic][["foretold", "beyond", "deviation"]].isna().all().all()
 
 
 def test_one_worker_and_another_order_give_the_same_numbers(done, tmp_path):
