@@ -55,14 +55,14 @@ def estimate_errors(integrands: Sequence[Integrand], x: ArrayLike) -> FloatArray
 
 @dataclass(frozen=True)
 class Series:
-    """Mean energy of a family's integrands where it matters.
+    """Energy of drawn integrands where it matters.
 
     Attributes
     ----------
     frequencies : (m, d) int64
         One of each pair f, -f.
-    energy : (m,) float64
-        Mean over the integrands of |transform|^2 there.
+    energy : (integrands, m) float64
+        |transform|^2 there.
     share : float
         The frequencies left out hold less than this share of the family's energy.
     """
@@ -74,7 +74,7 @@ class Series:
     @property
     def beyond(self) -> float:
         """Most energy that the frequencies left out can hold: over n, what white noise there would add."""
-        return float(2 * self.energy.sum() * self.share / (1 - self.share))
+        return float(2 * self.energy.sum(axis=1).mean() * self.share / (1 - self.share))
 
 
 def series_of(family: Family, integrands: Sequence[Integrand], d: int) -> Series | None:
@@ -90,12 +90,12 @@ def series_of(family: Family, integrands: Sequence[Integrand], d: int) -> Series
     if found is None:
         return None
     frequencies, share = found
-    energy = np.zeros(len(frequencies))
-    for integrand in integrands:
+    energy = np.empty((len(integrands), len(frequencies)))
+    for row, integrand in zip(energy, integrands, strict=True):
         if not isinstance(integrand, Periodic):
             raise TypeError(f"{family.name} is declared periodic and its integrands have no energy")
-        energy += integrand.energy(frequencies)
-    return Series(frequencies, energy / len(integrands), share)
+        row[:] = integrand.energy(frequencies)
+    return Series(frequencies, energy, share)
 
 
 @lru_cache(maxsize=32)
@@ -110,7 +110,7 @@ def _frequencies(family: Family, d: int) -> tuple[NDArray[np.int64], float] | No
 
 
 def foretold_variance(series: Series, x: ArrayLike) -> FloatArray:
-    """Variance of the estimate over random toroidal shifts of each set.
+    """Variance of each estimate over random toroidal shifts of each set.
 
     Parameters
     ----------
@@ -121,7 +121,7 @@ def foretold_variance(series: Series, x: ArrayLike) -> FloatArray:
 
     Returns
     -------
-    (realizations,) float64
+    (integrands, realizations) float64
         sum over f != 0 of energy(f) P(f) / n: the inner product of the two power spectra. Exact, to
         rounding, for integrands whose series ends within the list; else short of the truth by the part of the
         sum beyond it, which for white noise there is at most ``series.beyond`` / n.
@@ -141,5 +141,6 @@ def foretold_variance(series: Series, x: ArrayLike) -> FloatArray:
     n, d = sets.shape[1:]
     if d != series.frequencies.shape[1]:
         raise InputError(f"the series is of d={series.frequencies.shape[1]}, the points of d={d}")
-    power = [periodogram(points, frequencies=series.frequencies).power for points in sets]
-    return np.array([2 * np.sum(series.energy * p) / n for p in power])
+    power = np.array([periodogram(points, frequencies=series.frequencies).power for points in sets])
+    foretold: FloatArray = 2 * series.energy @ power.T / n
+    return foretold

@@ -8,11 +8,12 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.stats import t
 
 from gbnbench.errors import InputError
 from gbnbench.torus import FloatArray
 
-BAND = 1.959963984540054  # standard errors on each side of a 95% band
+BAND = 0.975  # quantile at the upper end of a 95% band
 
 
 @dataclass(frozen=True)
@@ -27,7 +28,8 @@ class Variance:
         Over both, each counted as drawn at random; over one of them alone where the other has a single
         member, nan where both have.
     low, high : float
-        95% band, log-normal; nan where the standard error is.
+        95% band, of ln value by Student's t; nan where the standard error is. It covers less where few
+        integrands or sets decide: docs/integration.md has figures.
     bias, bias_error : float
         Mean error and its standard error.
     """
@@ -66,10 +68,12 @@ def variance_of(errors: ArrayLike) -> Variance:
     is unbiased, and raised to s_R^2 / (I K) where it falls below what independence alone would give.
     """
     crossed = _crossed(errors)
-    value, error = _mean_and_error((crossed**2).mean(axis=2))
-    bias, bias_error = _mean_and_error(crossed.mean(axis=2))
-    factor = math.exp(BAND * error / value) if value > 0 and math.isfinite(error) else math.nan
-    return Variance(value, error, value / factor, value * factor, bias, bias_error)
+    mean, bias = crossed_mean((crossed**2).mean(axis=2)), crossed_mean(crossed.mean(axis=2))
+    value, error = mean.value, mean.standard_error
+    factor = math.nan
+    if value > 0 and math.isfinite(error):
+        factor = math.exp(min(t.ppf(BAND, mean.freedom) * error / value, 700.0))
+    return Variance(value, error, value / factor, value * factor, bias.value, bias.standard_error)
 
 
 @dataclass(frozen=True)
@@ -159,21 +163,43 @@ def _crossed(errors: ArrayLike) -> FloatArray:
     return array
 
 
-def _mean_and_error(values: FloatArray) -> tuple[float, float]:
-    """Mean of crossed values (integrands, sets), and its standard error."""
+@dataclass(frozen=True)
+class Mean:
+    """Mean of crossed values.
+
+    Attributes
+    ----------
+    value, standard_error : float
+        The latter nan for a single value.
+    freedom : float
+        Degrees of freedom of the standard error, by Satterthwaite's rule; 0 where there is none.
+    """
+
+    value: float
+    standard_error: float
+    freedom: float
+
+
+def crossed_mean(values: FloatArray) -> Mean:
+    """Average values of every integrand with every set, (integrands, sets); see ``variance_of``."""
     rows, columns = values.shape
-    parts = []
+    parts, freedom, least = [], [], 0.0
     if rows > 1:
         parts.append(values.mean(axis=1).var(ddof=1) / rows)
+        freedom.append(rows - 1)
     if columns > 1:
         parts.append(values.mean(axis=0).var(ddof=1) / columns)
-    least = 0.0
+        freedom.append(columns - 1)
     if rows > 1 and columns > 1:
         least = _residual(values) / values.size  # counted in the rows and in the columns
         parts.append(-least)
+        freedom.append((rows - 1) * (columns - 1))
     if not parts:
-        return float(values.mean()), math.nan
-    return float(values.mean()), math.sqrt(max(sum(parts), least))
+        return Mean(float(values.mean()), math.nan, 0.0)
+    variance = max(sum(parts), least)
+    spread = sum(part**2 / count for part, count in zip(parts, freedom, strict=True))
+    degrees = min(max(variance**2 / spread, min(freedom)), sum(freedom)) if spread > 0 else sum(freedom)
+    return Mean(float(values.mean()), math.sqrt(variance), float(degrees))
 
 
 def _residual(values: FloatArray) -> float:

@@ -81,7 +81,8 @@ def estimate_block(
     -------
     dict
         For each family by its specification: ``... errors``, (instances, count, shifts or 1) estimates less
-        integrals; where its spectrum is known ``... foretold``, (count,) variances, and ``... beyond``.
+        integrals; where its spectrum is known ``... foretold``, (instances, count) variances, and
+        ``... beyond``.
     """
     if isinstance(origin, np.ndarray):
         sets = origin

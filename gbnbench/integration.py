@@ -51,8 +51,8 @@ class Integration:
         A row a source, n, d and family: columns source, n, d, integrand, instances, realizations, shifts,
         variance, standard_error, low, high (95% band), bias, bias_error, foretold, foretold_error, beyond
         (most that white noise would add beyond the frequencies summed), deviation (of variance from the range
-        of foretold to foretold + beyond, in joint standard errors); the last four nan for families whose
-        spectrum is not known.
+        of foretold to foretold + beyond, in standard errors of their difference, which is taken integrand by
+        integrand and set by set); the last four nan for families whose spectrum is not known.
     slopes : DataFrame
         A row a source, d and family with two or more n: columns source, d, integrand, n_from, n_to, slope,
         standard_error, scatter (decades).

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gbnbench.analysis.integrands.integrand import Family
-from gbnbench.analysis.variance import slope_of, variance_of
+from gbnbench.analysis.variance import crossed_mean, slope_of, variance_of
 from gbnbench.estimates import blocks, piece_key
 from gbnbench.pieces import PieceFolder
 from gbnbench.settings import specification
@@ -28,14 +28,14 @@ class Gathered:
     ----------
     errors : (instances, realizations, shifts or 1) float64
         Estimates less integrals.
-    foretold : (realizations,) float64 or None
+    foretold : (instances, realizations) float64 or None
         Variances that the spectra foretell.
     beyond : float
         What the frequencies left out may add to them.
     """
 
-    errors: FloatArray  # (instances, realizations, shifts or 1)
-    foretold: FloatArray | None  # (realizations,)
+    errors: FloatArray
+    foretold: FloatArray | None
     beyond: float
 
 
@@ -46,7 +46,7 @@ def gather(keeper: PieceFolder, source: Source, family: Family) -> Gathered:
     errors = np.concatenate([piece[f"{text} errors"] for piece in pieces], axis=1)
     if f"{text} foretold" not in pieces[0]:
         return Gathered(errors, None, float("nan"))
-    foretold = np.concatenate([piece[f"{text} foretold"] for piece in pieces])
+    foretold = np.concatenate([piece[f"{text} foretold"] for piece in pieces], axis=1)
     return Gathered(errors, foretold, float(pieces[0][f"{text} beyond"]))
 
 
@@ -113,16 +113,15 @@ def _row(gathered: Gathered) -> dict[str, float]:
     nan = float("nan")
     if gathered.foretold is None:
         return {**row, "foretold": nan, "foretold_error": nan, "beyond": nan, "deviation": nan}
-    count = len(gathered.foretold)
-    foretold = float(gathered.foretold.mean())
-    error = float(gathered.foretold.std(ddof=1) / np.sqrt(count)) if count > 1 else nan
-    joint = float(np.hypot(found.standard_error, 0.0 if count == 1 else error))
-    nearest = min(max(found.value, foretold), foretold + gathered.beyond)
-    deviation = (found.value - nearest) / joint if joint > 0 else nan
+    foretold = crossed_mean(gathered.foretold)
+    # Integrand by integrand and set by set: what both have in common is no error of their difference.
+    difference = crossed_mean((gathered.errors**2).mean(axis=2) - gathered.foretold)
+    outside = difference.value - min(max(difference.value, 0.0), gathered.beyond)
+    deviation = outside / difference.standard_error if difference.standard_error > 0 else nan
     return {
         **row,
-        "foretold": foretold,
-        "foretold_error": error,
+        "foretold": foretold.value,
+        "foretold_error": foretold.standard_error,
         "beyond": gathered.beyond,
         "deviation": deviation,
     }

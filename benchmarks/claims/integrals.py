@@ -139,7 +139,7 @@ def predicted(sets: Sets) -> Iterator[Row]:
             raise TypeError("sums of Gaussians have a series")
         told = foretold_variance(series, drawn.x)
         found = variance(sets, SMOOTH, FAST, n, 2)
-        joint = math.hypot(found.standard_error, float(told.std(ddof=1)) / math.sqrt(len(told)))
+        joint = crossed_mean(estimate_errors(some, drawn.x) ** 2 - told).standard_error
         yield reported(
             f"foretold-{n}",
             f"measured variance over that foretold by the spectra, n = {n}",
