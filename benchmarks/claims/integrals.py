@@ -12,7 +12,7 @@ from gbnbench.analysis.estimator import estimate_errors, foretold_variance, seri
 from gbnbench.analysis.integrands.gaussians import Gaussians
 from gbnbench.analysis.integrands.half_space import HalfSpaces
 from gbnbench.analysis.integrands.integrand import Integrand
-from gbnbench.analysis.variance import Slope, Variance, slope_of, variance_of
+from gbnbench.analysis.variance import Slope, Variance, crossed_mean, slope_of, variance_of
 from gbnbench.benchmarks.claims.claim import BESIDE, NO, PARTLY, Row, holds, reported
 from gbnbench.benchmarks.claims.sets import FAST, SEED, Drawn, Sets
 from gbnbench.torus import FloatArray
