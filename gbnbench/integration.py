@@ -224,8 +224,6 @@ def integrate(
         if keeper.whole:
             study = read_integration(keeper.path)
             return Outcome(study, keeper.path, len(pieces), len(pieces), time.monotonic() - began)
-        for line in skipped:
-            progress.say(f"skipped: {line}")
         keeper.begin()
         reused = carry_out(keeper, pieces, jobs or os.cpu_count() or 1, progress)
         errors = {
@@ -261,6 +259,12 @@ class StudyFolder(PieceFolder):
         """Write ``variance.csv`` and ``slopes.csv``."""
         for name in TABLES:
             disk.write_whole(self.path / f"{name}.csv", archive.to_csv(getattr(study, name)))
+
+
+def is_study(folder: str | Path) -> bool:
+    """Whether a folder is a study of integration, finished or not."""
+    settings = Path(folder) / SETTINGS
+    return settings.is_file() and "integrands" in read_json(settings)
 
 
 def read_integration(folder: str | Path) -> Integration:

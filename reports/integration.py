@@ -10,18 +10,24 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullLocator
+from matplotlib.ticker import FixedLocator, FuncFormatter, LogFormatterSciNotation, LogLocator, NullLocator
 
 from gbnbench.integration import Integration
 from gbnbench.reports import style
 
 CAPTION = (
     "Mean squared error of the mean over n points, over {instances} integrands of each family and {sets} "
-    "sets of each source. Bands: 95%, over integrands and sets. Crosses: what the sets' power spectra "
-    "foretell (the inner product with the integrands' spectra), with a bar for what white noise beyond the "
-    "frequencies summed would add. Grey: the slope of random sampling, 1/n. In "
-    "the key: fitted slopes with standard errors. {shifts}seed {seed} · gbnbench {version}"
+    "sets of each source. {bands}: 95%, over integrands and sets. "
 )
+FORETOLD = (
+    "Crosses: what the sets' power spectra foretell (the inner product with the integrands' spectra), with a "
+    "bar for what white noise beyond the frequencies summed would add. "
+)
+SLOPES = (
+    "Grey: the slope of random sampling, 1/n. In the key: fitted slopes with standard errors, bent where the "
+    "variances lie over 0.3 decades from the line. "
+)
+BENT = 0.3  # decades
 
 
 def strokes(study: Integration) -> dict[str, style.Stroke]:
@@ -58,7 +64,12 @@ def panel(ax: Axes, part: pd.DataFrame, given: dict[str, style.Stroke]) -> None:
             marker="o",
             markersize=2.6,
         )
-        ax.fill_between(line["n"], line["low"], line["high"], color=stroke.colour, alpha=0.18, linewidth=0)
+        if len(line) > 1:
+            ax.fill_between(
+                line["n"], line["low"], line["high"], color=stroke.colour, alpha=0.18, linewidth=0
+            )
+        else:
+            ax.vlines(line["n"], line["low"], line["high"], color=stroke.colour, linewidth=1.2, alpha=0.6)
         told = line[line["foretold"] > 0]
         ax.plot(told["n"], told["foretold"], "x", color=stroke.colour, markersize=5, markeredgewidth=0.9)
         ax.vlines(
@@ -74,7 +85,11 @@ def panel(ax: Axes, part: pd.DataFrame, given: dict[str, style.Stroke]) -> None:
         ax.xaxis.set_major_locator(FixedLocator(_apart(sizes)))
         ax.xaxis.set_minor_locator(NullLocator())
     ax.xaxis.set_major_formatter(FuncFormatter(lambda n, _: f"{n:,.0f}"))
-    ax.yaxis.set_major_locator(LogLocator(numticks=9))
+    low, high = ax.get_ylim()
+    few = math.log10(high / low) < 2  # decades: powers of ten alone would leave one label or none
+    ax.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if few else (1,), numticks=9))
+    if few:
+        ax.yaxis.set_major_formatter(LogFormatterSciNotation(labelOnlyBase=False, minor_thresholds=(9, 9)))
     ax.yaxis.set_minor_locator(NullLocator())
     ax.grid(True)
 
@@ -105,14 +120,19 @@ def figure(study: Integration) -> Figure:
     parts = list(table.groupby(["integrand", "d"], sort=False))
     given = strokes(study)
     shifts = int(table["shifts"].max())
+    several = bool(len(study.slopes))
     caption = CAPTION.format(
-        instances=_span(table["instances"]), sets=_span(table["realizations"]),
-        shifts=f"{shifts} random shifts of each set. " if shifts else "", seed=study.manifest.get("seed"),
-        version=study.manifest.get("version"),
-    )  # fmt: skip
+        instances=_span(table["instances"]),
+        sets=_span(table["realizations"]),
+        bands="Bands" if several else "Bars",
+    )
+    caption += FORETOLD if table["foretold"].notna().any() else ""
+    caption += SLOPES if several else ""
+    caption += f"{shifts} random shifts of each set. " if shifts else ""
+    caption += f"Seed {study.manifest.get('seed')} · gbnbench {study.manifest.get('version')}"
     keys = {key: _key(study, part) for key, part in parts}
     longest = max((len(label) for labels in keys.values() for label in labels), default=0)
-    columns = min(2, len(parts))
+    columns = min(2 if len(parts) <= 4 else 3, len(parts))
     sheet = style.sheet(
         "Variance of integration", caption, len(parts), 3.4, [2.9], columns=columns, left=0.7,
         between=0.85 + style.legend_room(["x" * longest]), under=0.46,
@@ -143,6 +163,7 @@ def _key(study: Integration, part: pd.DataFrame) -> list[str]:
         text = style.shown(label, 22)
         if len(found) and math.isfinite(found["slope"].iloc[0]):
             text += f"  {found['slope'].iloc[0]:.2f} ± {found['standard_error'].iloc[0]:.2f}"
+            text += " bent" if found["scatter"].iloc[0] > BENT else ""
         labels.append(text)
     return labels
 

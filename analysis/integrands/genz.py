@@ -23,6 +23,15 @@ DIFFICULTY = {
     "continuous": 20.4,
     "discontinuous": 4.3,
 }
+# Sums of a within which no value, nor its square, leaves the range of doubles, d = 1 to 20.
+RANGES = {
+    "oscillatory": (1e-6, 1e6),
+    "product-peak": (0.1, 1e6),
+    "corner-peak": (1e-6, 1e6),
+    "gaussian": (1e-6, 1e6),
+    "continuous": (1e-6, 1e6),
+    "discontinuous": (1e-6, 300.0),
+}
 STEP = 1 / 16  # of the corner peak's rule, in ln t
 
 
@@ -59,8 +68,12 @@ class Genz:
     def __post_init__(self) -> None:
         if self.kind not in DIFFICULTY:
             raise InputError(f"kind of genz must be one of {', '.join(DIFFICULTY)}; got {self.kind!r}")
-        if self.difficulty is not None and not (math.isfinite(self.difficulty) and self.difficulty > 0):
-            raise InputError(f"difficulty of genz must be positive; got {self.difficulty}")
+        low, high = RANGES[self.kind]
+        if self.difficulty is not None and not low <= self.difficulty <= high:
+            raise InputError(
+                f"difficulty of genz[kind={self.kind}] must be from {low:g} to {high:g}, where doubles hold "
+                f"its values; got {self.difficulty}"
+            )
 
     def refusal(self, d: int) -> str | None:
         """Say why there are none in d dimensions, else None."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections import defaultdict
 from dataclasses import dataclass
+from decimal import Decimal, localcontext
 from typing import ClassVar, Literal
 
 import numpy as np
@@ -16,7 +17,9 @@ from gbnbench.torus import FloatArray
 
 # B_alpha(t), its sign that of a positive cos 2 pi t, in powers of s = t (1 - t): it is even about 1/2.
 BERNOULLI = {2: (1 / 6, -1.0), 4: (1 / 30, 0.0, -1.0), 6: (1 / 42, 0.0, -0.5, -1.0)}
-ZETA = {4: math.pi**4 / 90, 8: math.pi**8 / 9450, 12: 691 * math.pi**12 / 638512875}
+DIGITS = 60  # in which energies are summed
+PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494459")
+ZETA = {4: (1, 90), 8: (1, 9450), 12: (691, 638512875)}  # over pi^4, pi^8 and pi^12
 
 
 @dataclass(frozen=True)
@@ -70,28 +73,35 @@ class Korobov:
         Notes
         -----
         Frequencies are ranked by energy, weight^(2 j) N^(-2 smoothness) for j components that are not 0 and
-        the product N of their sizes; a recursion over axes counts them, and the total is a closed form. Where
-        too many are needed RefusalError tells how many.
+        the product N of their sizes; a recursion over axes counts them, and the total is a closed form. Both
+        are summed in 60 digits: shares far below the rounding of doubles are told apart. Where too many
+        frequencies are needed RefusalError tells how many.
         """
         check_share(share, self.refusal(d))
-        total = math.expm1(d * math.log1p(2 * self.weight**2 * ZETA[2 * self.smoothness]))
-        largest = 1
-        while True:
-            classes = _classes(d, largest)
-            ranked = sorted(classes, key=self._class_energy, reverse=True)
-            ranked.remove((0, 1))
-            energy = np.array([classes[key] * self._class_energy(key) for key in ranked])
-            kept = np.cumsum(energy)
-            number = int(np.searchsorted(kept, (1 - share) * total, side="right")) + 1
-            if number <= len(ranked):
-                break
-            check_count(
-                f"even a hyperbolic cross that leaves out more than {share:g} of the energy",
-                d,
-                sum(classes.values()) / 2,
-                most=most,
-            )
-            largest *= 2
+        with localcontext() as context:
+            context.prec = DIGITS
+            total = (1 + 2 * Decimal(self.weight) ** 2 * _zeta(2 * self.smoothness)) ** d - 1
+            limit = Decimal(share) * total
+            largest = 1
+            while True:
+                classes = _classes(d, largest)
+                ranked = sorted(classes, key=self._class_energy, reverse=True)
+                ranked.remove((0, 1))
+                left, number = total, 0
+                for key in ranked:
+                    left -= classes[key] * self._exact_energy(key)
+                    number += 1
+                    if left < limit:
+                        break
+                if left < limit:
+                    break
+                check_count(
+                    f"even a hyperbolic cross that leaves out more than {share:g} of the energy",
+                    d,
+                    sum(classes.values()) / 2,
+                    most=most,
+                )
+                largest *= 2
         chosen = ranked[:number]
         check_count(
             f"the hyperbolic cross that leaves out {share:g} of the energy",
@@ -100,6 +110,9 @@ class Korobov:
             most=most,
         )
         return _cross(d, chosen)
+
+    def _exact_energy(self, key: tuple[int, int]) -> Decimal:
+        return Decimal(self.weight) ** (2 * key[0]) / Decimal(key[1]) ** (2 * self.smoothness)
 
     def _class_energy(self, key: tuple[int, int]) -> float:
         return float(self.weight ** (2 * key[0]) * float(key[1]) ** (-2 * self.smoothness))
@@ -153,6 +166,12 @@ def korobov_energy(frequencies: NDArray[np.int64], smoothness: int, weight: floa
     for h in np.abs(frequencies.T).astype(np.float64):
         energy *= np.where(h == 0, 1.0, weight**2 * np.maximum(h, 1.0) ** (-2 * smoothness))
     return energy
+
+
+def _zeta(s: int) -> Decimal:
+    """Riemann's zeta at 4, 8 and 12, in the digits of the context."""
+    over, under = ZETA[s]
+    return over * PI**s / under
 
 
 def _classes(d: int, most: int) -> dict[tuple[int, int], int]:

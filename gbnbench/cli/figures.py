@@ -55,11 +55,15 @@ def figures(
     from gbnbench import progress
     from gbnbench.reports.paper.catalogue import LATER, find
     from gbnbench.reports.paper.figure import Ask
+    from gbnbench.reports.paper.given import check_sets
     from gbnbench.reports.paper.make import make
 
-    wanted = find(names)
+    wanted = find([] if names == ("all",) else names)
     ask = Ask("tiny" if tiny else "quick" if quick else "full", _given(sets), seed)
+    check_sets(wanted, ask)
     with progress.choose(quiet) as teller:
+        if ask.scale == "full":
+            teller.say("the paper's counts: hours for all; --quick is minutes. Stop it at will, it goes on.")
         made = make(wanted, out, ask, jobs or os.cpu_count() or 1, teller, not no_captions)
     for one in made:
         click.echo(f"{out / one.stem}.png  {one.figure.title}")

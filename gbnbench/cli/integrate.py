@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import shlex
 import sys
 from collections.abc import Iterator
@@ -16,14 +17,20 @@ from gbnbench.cli.columns import aligned, number
 if TYPE_CHECKING:
     import pandas as pd
 
+    from gbnbench.analysis.integrands.integrand import Family
     from gbnbench.integration import Integration
 
+BENT = 0.3  # decades from the fitted line beyond which a slope is no law
+UNTOLD = " (nothing foretold: not periodic, or its spectrum not known or too long here)"
 EPILOG = """\b
 Examples:
   gbnbench integrate                                    random, jittered, sobol, gbn in 2D
   gbnbench integrate gbn sobol -d 8 -n 64,256,1024
   gbnbench integrate gbn mine.txt --integrand ball --integrand 'genz[kind=continuous]'
-  gbnbench integrate --list                             every family of integrands
+  gbnbench integrate --list                             every family of integrands, with its settings
+
+\b
+Generators are those of gbnbench compare; files and folders bring their own n, d and sets.
 """
 
 
@@ -31,17 +38,23 @@ def _list(context: click.Context, _: click.Parameter, asked: bool) -> None:
     if not asked:
         return
     from gbnbench.analysis.integrands.registry import FAMILIES
-    from gbnbench.settings import specification
 
     for line in aligned(
         ("family", "periodic", "what"),
         [
-            (specification(family()), "yes" if family.periodic else "no", family.summary)
+            (_settings(family()), "yes" if family.periodic else "no", family.summary)
             for family in FAMILIES.values()
         ],
     ):
         click.echo(line)
     context.exit()
+
+
+def _settings(family: Family) -> str:
+    """Write a family with all of its settings."""
+    values = dataclasses.asdict(family)  # type: ignore[call-overload]
+    inside = ",".join(f"{name}={'auto' if value is None else value}" for name, value in values.items())
+    return f"{family.name}[{inside}]" if inside else family.name
 
 
 @click.command(epilog=EPILOG)
@@ -114,6 +127,8 @@ def integrate(
             progress=teller,
             draw=draw,
         )
+    for line in outcome.study.manifest["skipped"]:
+        click.echo(f"gbnbench: skipped: {line}", err=True)
     for line in report(outcome.study):
         click.echo(line)
     kept = f", {outcome.reused} of {outcome.pieces} pieces reused" if outcome.reused else ""
@@ -136,7 +151,7 @@ def report(study: Integration) -> Iterator[str]:
     for _, part in study.variance.groupby(["integrand", "d"], sort=False):
         family, d = str(part["integrand"].iloc[0]), int(part["d"].iloc[0])
         sizes = sorted(part["n"].unique())
-        told = ", [what the points' spectrum foretells]" if part["foretold"].notna().any() else ""
+        told = ", [what the points' spectrum foretells]" if part["foretold"].notna().any() else UNTOLD
         yield f"\n{family}, d={d}: variance, its standard error{told}"
         yield from aligned(
             ("source", *(f"n={n}" for n in sizes), "slope"),
@@ -172,4 +187,5 @@ def _slope(slopes: pd.DataFrame, label: str, d: int, family: str) -> str:
     if found.empty:
         return "-"
     row = found.iloc[0]
-    return f"{row['slope']:.2f} ± {row['standard_error']:.2f}"
+    bent = " bent" if row["scatter"] > BENT else ""
+    return f"{row['slope']:.2f} ± {row['standard_error']:.2f}{bent}"

@@ -14,9 +14,16 @@ if TYPE_CHECKING:
 @click.command()
 @click.argument("run", type=click.Path(path_type=Path))
 def report(run: Path) -> None:
-    """Remake the figures and report.html of the finished run folder RUN from its saved data."""
+    """Remake the pictures of the finished folder RUN, of a comparison or a study of integration."""
+    from gbnbench.integration import is_study, read_integration
     from gbnbench.store import read_run
 
+    if is_study(run):
+        from gbnbench.cli.integrate import draw as draw_study
+
+        draw_study(read_integration(run), run)
+        click.echo(f"picture: {run / 'integration.png'}")
+        return
     draw(read_run(run), run)
     click.echo(f"report: {run / 'report.html'}")
 

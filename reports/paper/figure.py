@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import textwrap
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -85,6 +86,21 @@ class PaperFigure:
     draw: Callable[[Mapping[str, Any], Ask], Drawing]
 
 
+SIGNS = {"sigma": "σ", "nu": "ν", "pi": "π", "epsilon": "ε", "psi6": "ψ6"}
+
+
+def signs(text: str) -> str:
+    """Set the words for Greek letters, and squares, as signs; not those within a generator's settings.
+
+    Examples
+    --------
+    >>> signs("gbn[sigma=0.5] at sigma = 0.5: epsilon exp(4 pi^2 nu^2)")
+    'gbn[sigma=0.5] at σ = 0.5: ε exp(4 π² ν²)'
+    """
+    words = re.sub(r"(?<![\w\[,-])(sigma|nu|pi|epsilon|psi6)(?![\w=])", lambda m: SIGNS[m[1]], text)
+    return words.replace("^2", "²")
+
+
 def compose(drawing: Drawing, heading: str, foot: str, captions: bool = True) -> Figure:
     """Put a drawing and its caption on one page; call it under ``style.styled``.
 
@@ -103,8 +119,9 @@ def compose(drawing: Drawing, heading: str, foot: str, captions: bool = True) ->
         figure = Figure(figsize=(drawing.width, drawing.height), layout="constrained")
         drawing.paint(figure.subfigures(1, 1, squeeze=False)[0, 0])
         return figure
+    text = signs(f"{heading} {drawing.caption} {foot}")
     width = max(24, int((drawing.width - 0.16) / 0.0455))
-    lines = textwrap.wrap(style.shown(f"{heading} {drawing.caption} {foot}", 10_000), width)
+    lines = textwrap.wrap(style.shown(text, 10_000), width)
     room = 0.1 + 0.122 * len(lines)
     figure = Figure(figsize=(drawing.width, drawing.height + room), layout="constrained")
     top, bottom = figure.subfigures(2, 1, squeeze=False, height_ratios=[drawing.height, room])[:, 0]

@@ -193,16 +193,21 @@ def _caption(
     deepest = int(np.argmin(power))
     ridge = int(np.argmax(descent["variance"][-1]))
     at, same = counts["descent"], counts["nesterov"]
+    first = (
+        f"Energy is dug out of the middle first (after {at[row]} steps power is least, "
+        f"{number(float(power[deepest]))}, at nu = {nu[deepest]:.2f}, beside {number(float(power[0]))} at "
+        f"|f| = 1; the kernel's transform is {1 / (2 * math.pi):.2f} wide), then from both sides. "
+        if deepest > 0
+        else ""
+    )
     fitted = [float(one["c"][-1]) / (4 * math.pi**2) for one in (descent, ours)]
     return (
         f"Radial power over exact shells while the energy is lowered, mean of {block * blocks} sets, n = "
         f"{n}, d = 2, sigma = 1, from random points; grey line: white noise. (a, b) The paper's descent; "
         "(c, d) Nesterov's method with restart from the same points, at three times the square root of as "
         "many gradients, in the same colours. (b, d) Times exp(-4 pi^2 nu^2), the square of the transform "
-        "of the energy's kernel. Energy is dug out of the middle first (after 30 steps power is least, "
-        f"{number(float(power[deepest]))}, at nu = {nu[deepest]:.2f}, beside {number(float(power[0]))} at "
-        f"|f| = 1; the kernel's transform is {1 / (2 * math.pi):.2f} wide), then from both sides. The last "
-        f"spectra have a fitted c of {fitted[0]:.2f} and {fitted[1]:.2f} times 4 pi^2: filtered by the "
+        f"of the energy's kernel. {first}The last spectra "
+        f"have a fitted c of {fitted[0]:.2f} and {fitted[1]:.2f} times 4 pi^2: filtered by the "
         "kernel they are flat. By Eq. 14 the filter whose variance falls is narrower in space, sigma / "
         "sqrt 2 (orange: the last spectrum so filtered), and leaves a ridge of "
         f"{number(float(descent['variance'][-1][ridge]))} at nu = {nu[ridge]:.2f}: what stays is inverse to "

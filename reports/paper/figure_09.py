@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import SubFigure
 from matplotlib.lines import Line2D
@@ -16,7 +16,7 @@ from gbnbench.estimates import instances_of
 from gbnbench.material import Request, Study, Tables
 from gbnbench.pieces import Arrays
 from gbnbench.reports import integration
-from gbnbench.reports.paper.common import NAMES, stroke
+from gbnbench.reports.paper.common import stroke, title_of
 from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
 
 FAMILIES = ("gaussians", "half-space")
@@ -57,18 +57,19 @@ def needs(ask: Ask) -> Mapping[str, Request]:
     instances = ask.pick(4, 50, 100)
     requests: dict[str, Request] = {"integrands": Tables(pictures, {"plane": (ask.seed, 96)})}
     for d in DIMENSIONS:
-        sources = SOURCES + (("fpo", *ask.sets.values()) if d == 2 else ())
+        sources = SOURCES + (("fpo",) if d == 2 else ())
         sets = ask.pick(2, 8, 1000 if d == 2 else 100)
         requests[f"d{d}"] = Study(sources, SIZES[ask.scale][d], (d,), sets, FAMILIES, instances)
+    for name, path in ask.sets.items():
+        requests[_given(name)] = Study((path,), (1,), (1,), 1, FAMILIES, instances)
     return requests
 
 
 def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
     """Draw a row a family, a column a dimension."""
-    tables = {d: material[f"d{d}"].variance for d in DIMENSIONS}
+    tables = {d: _table(material, ask, d) for d in DIMENSIONS}
     labels = list(dict.fromkeys(label for table in tables.values() for label in table["source"]))
-    methods = {label: _method(label, ask) for label in labels}
-    given = {label: stroke(method) for label, method in methods.items()}
+    given = {label: stroke(label) for label in labels}
 
     def paint(panel: SubFigure) -> None:
         axes = panel.subplots(len(FAMILIES), len(DIMENSIONS), squeeze=False)
@@ -90,7 +91,7 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
             Line2D([], [], color=given[label].colour, linestyle=given[label].dash, marker="o", markersize=2.6)
             for label in labels
         ]
-        names = [NAMES.get(method, method) for method in methods.values()]
+        names = [title_of(label) for label in labels]
         handles.append(Line2D([], [], color="#9aa3af", linewidth=2.2, alpha=0.7))
         names.append("1/n")
         panel.legend(handles, names, loc="outside lower center", ncols=len(names), columnspacing=1.2)
@@ -98,11 +99,19 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
     return Drawing(PAGE, 4.4, paint, _caption(material, ask))
 
 
-def _method(label: str, ask: Ask) -> str:
-    """Name the method of a source: a generator, or whose sets the user gave."""
-    stems = {Path(path).resolve().name if Path(path).is_dir() else Path(path).stem: name
-             for name, path in ask.sets.items()}  # fmt: skip
-    return stems.get(label, label)
+def _given(name: str) -> str:
+    """Key of the study of a method that the user has sets of."""
+    return f"sets of {name}"
+
+
+def _table(material: Mapping[str, Any], ask: Ask, d: int) -> pd.DataFrame:
+    """All variances in one dimension, the user's sets under their method's name."""
+    parts = [material[f"d{d}"].variance]
+    for name in ask.sets:
+        theirs = material[_given(name)].variance
+        parts.append(theirs[theirs["d"] == d].assign(source=name))
+    table: pd.DataFrame = pd.concat(parts, ignore_index=True)
+    return table
 
 
 def _inset(ax: Axes, picture: Any) -> None:

@@ -11,12 +11,13 @@ from typing import Any
 
 from gbnbench import __version__, archive
 from gbnbench.disk import write_whole
-from gbnbench.errors import GbnbenchError, UnfinishedError
+from gbnbench.errors import DeviceError, GbnbenchError, UnfinishedError
+from gbnbench.kept import KeptFolder, said_where
 from gbnbench.material import Filled, fill, folder_name
 from gbnbench.progress import Progress
 from gbnbench.reports import style
 from gbnbench.reports.figures import pdf, png
-from gbnbench.reports.paper.figure import Ask, PaperFigure, compose
+from gbnbench.reports.paper.figure import Ask, PaperFigure, compose, signs
 
 DPI = 220
 PAGE_STYLE = (
@@ -77,17 +78,54 @@ def make(
 
     Raises
     ------
+    InputError
+        If the folder holds something else.
     UnfinishedError
         If some could not be made, when the others are.
     """
+    foot = f"Seed {ask.seed}; {_device()}; gbnbench {__version__}."
+    keeper = FigureFolder(folder, {"holds": "figures"})
+    with keeper.lock(), said_where(folder):
+        keeper.begin()
+        made, failures = _make_all(figures, folder, ask, jobs, progress, captions, foot)
+        _write_pages(folder, made, captions)
+    if failures:
+        raise UnfinishedError(
+            f"{len(failures)} of {len(figures)} figures could not be made; what is finished is kept in "
+            f"{folder}; the first: {failures[0]}"
+        )
+    return made
+
+
+class FigureFolder(KeptFolder):
+    """Where figures and what they are drawn from are kept; figures of several calls stand side by side."""
+
+    kind = "folder of figures"
+
+
+def _device() -> str:
+    """Name the device, or say that there is none: some figures are of closed forms alone."""
     from gbnbench.opencl import choose
 
-    device = choose().describe()
-    foot = f"Seed {ask.seed}; {device.get('name', device)}; gbnbench {__version__}."
+    try:
+        return str(choose().describe().get("name", "an OpenCL device"))
+    except DeviceError:
+        return "no OpenCL device"
+
+
+def _make_all(
+    figures: Sequence[PaperFigure],
+    folder: Path,
+    ask: Ask,
+    jobs: int,
+    progress: Progress,
+    captions: bool,
+    foot: str,
+) -> tuple[list[Made], list[str]]:
+    """Make what can be made; return it, and what could not be."""
     known: dict[str, Filled] = {}
     made: list[Made] = []
     failures: list[str] = []
-    folder.mkdir(parents=True, exist_ok=True)
     for figure in figures:
         progress.say(f"{_heading(figure)} {figure.title}")
         try:
@@ -101,13 +139,7 @@ def make(
         except GbnbenchError as error:
             failures.append(f"{_heading(figure)} {error}")
             progress.say(failures[-1])
-    _write_pages(folder, made)
-    if failures:
-        raise UnfinishedError(
-            f"{len(failures)} of {len(figures)} figures could not be made; what is finished is kept in "
-            f"{folder}; the first: {failures[0]}"
-        )
-    return made
+    return made, failures
 
 
 @style.styled
@@ -119,14 +151,14 @@ def _draw(
     stem = f"figure-{int(figure.name):02d}" if figure.name.isdigit() else f"figure-{figure.name}"
     write_whole(folder / f"{stem}.png", png(page, DPI))
     write_whole(folder / f"{stem}.pdf", pdf(page))
-    return Made(figure, f"{drawing.caption} {foot}", stem)
+    return Made(figure, signs(f"{drawing.caption} {foot}"), stem)
 
 
 def _heading(figure: PaperFigure) -> str:
     return f"Figure {figure.name}." if figure.name.isdigit() else f"Figure, ours: {figure.name}."
 
 
-def _write_pages(folder: Path, made: Sequence[Made]) -> None:
+def _write_pages(folder: Path, made: Sequence[Made], captions: bool) -> None:
     """Write captions as text, and one page, of these figures and of those that earlier calls left there."""
     index = folder / "captions.json"
     known: dict[str, dict[str, str]] = json.loads(index.read_bytes()) if index.exists() else {}
@@ -143,7 +175,7 @@ def _write_pages(folder: Path, made: Sequence[Made]) -> None:
         parts.append(
             f'<figure id="{stem}"><h2>{title}</h2>{said}'
             f'<a href="{stem}.pdf"><img src="{stem}.png" alt="{title}"></a>'
-            f"<figcaption>{caption}</figcaption></figure>"
+            f"{'' if captions else f'<figcaption>{caption}</figcaption>'}</figure>"
         )
     write_whole(folder / "captions.md", "\n".join(texts).encode())
     page = (

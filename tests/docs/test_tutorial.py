@@ -60,7 +60,7 @@ def test_it_runs_and_shows_what_it_says(tmp_path: Path, monkeypatch: pytest.Monk
     assert shown["rounding"] < 1e-26
     assert shown["variance"]["deep"] < shown["variance"]["gbn"] < 1e-5 * shown["variance"]["sobol"]
     assert shown["slope"]["gbn"] < -4 < shown["slope"]["sobol"] < shown["slope"]["random"] < -0.7
-    assert shown["deviation"] < 4
+    assert shown["deviation"] < 8  # the largest of 16 that have few degrees of freedom: 4 sets
     assert shown["files"] == ["cut.txt", "deep.csv", "deep.npz", "mine.txt", "study"]
     pictures = [
         output

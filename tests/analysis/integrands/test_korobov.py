@@ -85,3 +85,20 @@ def test_settings_out_of_range_are_told() -> None:
         Korobov(weight=0)
     with pytest.raises(RefusalError, match="Korobov's functions are for d = 1 to 20; got d=0"):
         Korobov().draw(0, np.random.default_rng(0))
+
+
+@pytest.mark.parametrize(
+    ("smoothness", "weight", "d", "share"),
+    [(6, 1.0, 1, 1e-27), (6, 1.0, 2, 1e-27), (4, 1.0, 2, 1e-20), (6, 50.0, 3, 1e-15), (2, 0.01, 1, 1e-12)],
+)
+def test_shares_far_below_rounding_are_kept_to(smoothness, weight, d, share):
+    """1 - 1e-27 is 1 in doubles: what is left out is summed here in 60 digits, frequency by frequency."""
+    with mpmath.workdps(60):
+        total = (1 + 2 * mpmath.mpf(weight) ** 2 * mpmath.zeta(2 * smoothness)) ** d - 1
+        found = Korobov(smoothness, weight).frequencies(d, share)
+        kept = mpmath.mpf(0)
+        for row in found:
+            sizes = [int(abs(h)) for h in row if h]
+            energy = mpmath.mpf(weight) ** (2 * len(sizes)) / mpmath.mpf(math.prod(sizes)) ** (2 * smoothness)
+            kept += 2 * energy
+        assert 0 < (total - kept) / total < share
