@@ -219,9 +219,9 @@ def half_spaces(sets: Sets) -> Iterator[Row]:
         )  # fmt: skip
 
 
-def redrawn(sets: Sets, generator: str, d: int) -> list[float]:
+def redrawn(sets: Sets, generator: str, d: int, further: int = AGAIN) -> list[float]:
     """Exponents of the half space's variance from further draws, 64 sets and 60 half spaces each."""
-    further, many = sets.few(AGAIN), 64
+    many = 64
     drawn = [sets.draw(generator, n=n, d=d, sets=(further + 1) * many).x for n in SIZES[d]]
     return [
         slope_of(
