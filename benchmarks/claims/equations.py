@@ -114,32 +114,44 @@ def adaptive(_: Sets) -> Iterator[Row]:
 
 
 def balance(_: Sets) -> Iterator[Row]:
-    """Pull of the domain against the push of a continuum of points, at half a spacing from a face."""
+    """Pull of the domain against the push of a continuum of points, near a face."""
     side, sigma, fine = 12.0, 1.0, 1200
     axis = (np.arange(fine) + 0.5) * side / fine
-    at = np.array([0.5, 3.0])
-    along = np.exp(-((axis - at[1]) ** 2) / (2 * sigma**2)).sum() * side / fine
-    push = float(
-        np.sum((axis - at[0]) * np.exp(-((axis - at[0]) ** 2) / (2 * sigma**2)))
-        * side
-        / fine
-        * along
-        / sigma**2
-    )
-    for row, width, title in (
-        ("printed", math.sqrt(2) * sigma, "4 sigma^2"),
-        ("standard", sigma, "2 sigma^2"),
+
+    def push(x: float) -> float:
+        """Eq. (18) of the continuum, without its factor."""
+        near = np.exp(-((axis - x) ** 2) / (2 * sigma**2))
+        along = np.exp(-((axis - 3.0) ** 2) / (2 * sigma**2))
+        return float(np.sum((axis - x) * near) * np.sum(along)) * (side / fine) ** 2
+
+    def pull(x: float, width: float) -> float:
+        """Eq. (24), without a factor as it is printed, 2 width^2 in its exponent."""
+        return float(domain_pull(np.array([x, 3.0]), side, width)[1][0]) * width**2
+
+    wide = math.sqrt(2) * sigma
+    for row, width, factor, title in (
+        ("printed", wide, 1.0, "4 sigma^2 and no factor, as printed,"),
+        ("gradient", wide, 0.5, "4 sigma^2 and a factor of 1/2 (both gradients of Gaussians of height 1)"),
+        ("standard", sigma, 1.0, "2 sigma^2"),
     ):
-        pull = domain_pull(at, side, width)[1][0]
-        away = abs(pull / push - 1)
+        away = abs(factor * pull(0.5, width) / push(0.5) - 1)
         yield reported(
             row,
             f"relative imbalance of the domain's pull with {title} and the points' push of Eq. 18",
             "0",
-            float(away),
+            away,
             d=2,
-            holds=holds(bool(away < 1e-4)) if row == "printed" else BESIDE,
+            holds=holds(away < 1e-4) if row == "printed" else BESIDE,
         )
+    change = pull(1.5, wide) / push(1.5) / (pull(0.5, wide) / push(0.5))
+    yield reported(
+        "constant",
+        "pull over push 1.5 sigma from a face over that 0.5 sigma from it, 4 sigma^2",
+        "1 (a constant factor would balance them)",
+        change,
+        d=2,
+        holds=holds(abs(change - 1) < 1e-4),
+    )
     pulls = [domain_pull(np.array([x, 3.0]), side, math.sqrt(2) * sigma)[1][0] for x in (0.5, 1.5)]
     found = [
         dblquad(

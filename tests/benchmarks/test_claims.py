@@ -11,7 +11,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from gbnbench.benchmarks.claims import complexity, convergence, equations, profile
+from gbnbench.benchmarks.claims import complexity, convergence, equations, integrals, kernels, profile
 from gbnbench.benchmarks.claims.catalogue import CLAIMS, MEASURES
 from gbnbench.benchmarks.claims.claim import BESIDE, COLUMNS, VERDICTS, verdict
 from gbnbench.benchmarks.claims.page import filled, number, page
@@ -101,6 +101,31 @@ def test_the_outermost_points_of_a_box():
     expected = [0.3, 0.2, 1.5, 0.5, 0.1, 1.2, 1.1, 0.4]  # the strips of x's faces, then of y's
     expected[1:4] = [1.5, 1.5, 0.2]
     np.testing.assert_allclose(np.sort(equations.outermost(u, 2.0)), np.sort(expected))
+
+
+def test_the_domains_pull_and_the_points_push_in_closed_form():
+    rows = {row.row: row.measured for row in equations.balance(Sets())}
+    # Far from the other faces; 0.5 from a face along x, 3 along y, with 4 sigma^2 over 2 sigma^2, sigma = 1.
+    along = math.sqrt(2) * (1 + math.erf(3 / 2)) / (1 + math.erf(3 / math.sqrt(2)))
+    ratio = 2 * math.exp(0.25 / 2 - 0.25 / 4) * along
+    assert rows["printed"] == pytest.approx(ratio - 1, abs=1e-4)
+    assert rows["gradient"] == pytest.approx(ratio / 2 - 1, abs=1e-4)
+    assert rows["constant"] == pytest.approx(math.exp(0.5), rel=1e-4)
+
+
+def test_the_images_left_out_are_known_far_below_rounding():
+    rows = {row.row: row.measured for row in kernels.images(Sets())}
+    for side in (12, 18):  # half a side away the next image is the only one that counts
+        assert rows[f"side-{side}"] == pytest.approx(math.exp(-((side / 2) ** 2) / 2), rel=1e-9)
+
+
+def test_further_draws_are_others():
+    first = [integrals.integrands(integrals.STEP, 2, k)[0].point[0] for k in range(3)]
+    assert first[0] == integrals.integrands(integrals.STEP, 2)[0].point[0]
+    assert len(set(first)) == 3
+    exponents = integrals.redrawn(Sets(), "jittered", 2, further=2)
+    assert len(exponents) == len(set(exponents)) == 2
+    np.testing.assert_allclose(exponents, -1.5, atol=0.1)
 
 
 def test_exponents_of_times():
