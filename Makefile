@@ -9,7 +9,7 @@ compare: $(VENV)/.installed
 	$(BIN)/gbnbench compare $(ARGS)
 
 test: $(VENV)/.installed
-	$(BIN)/python -m pytest -n auto $(ARGS)
+	$(BIN)/python -m pytest -n auto --dist loadfile $(ARGS)
 
 # Every cross reference must resolve, and any warning fails.
 docs: $(VENV)/.installed
