@@ -13,13 +13,13 @@ import numpy as np
 
 from gbnbench import __version__, store
 from gbnbench.baseline import Change, judge
-from gbnbench.errors import DeviceError, InputError, UnfinishedError
+from gbnbench.errors import InputError, UnfinishedError
 from gbnbench.kept import said_where
 from gbnbench.progress import Progress
 from gbnbench.provenance import versions
 from gbnbench.run import Run, SourceResult
 from gbnbench.sources import Source
-from gbnbench.tasks import analyse_sets, check_device, draw_set
+from gbnbench.tasks import analyse_sets, draw_set, prove_device
 from gbnbench.torus import FloatArray
 from gbnbench.workers import Finished, Pool
 
@@ -213,9 +213,7 @@ def _work(
         progress.say(f"resuming {keeper.path}: {total - steps} of {total} pieces are there")
     failures: list[str] = []
     with Pool(min(jobs, steps)) as pool:
-        pool.submit(None, check_device)  # in a child too: what a bad driver kills is not the command
-        if checked := pool.next().failure:
-            raise DeviceError(f"the OpenCL device cannot be used: {checked}")
+        prove_device(pool)
         progress.start(total, total - steps, "making sets")  # what the check took says nothing of the rest
         for key, lacking in missing.items():
             source = by_key[key]

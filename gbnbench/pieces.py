@@ -12,7 +12,7 @@ from gbnbench import archive, disk
 from gbnbench.errors import DeviceError, FormatError, UnfinishedError
 from gbnbench.kept import KeptFolder
 from gbnbench.progress import Progress
-from gbnbench.tasks import check_device
+from gbnbench.tasks import prove_device
 from gbnbench.workers import Pool
 
 FOLDER = "pieces"
@@ -114,7 +114,7 @@ def carry_out(folder: PieceFolder, pieces: Sequence[Piece], jobs: int, progress:
 
 
 def _prove_device(pool: Pool, progress: Progress, total: int, there: int) -> None:
-    """Let a worker prove the device, if there is one: what a bad driver kills is then not the command."""
+    """Have the device proven, if there is one."""
     from gbnbench.opencl import choose
 
     try:
@@ -122,6 +122,4 @@ def _prove_device(pool: Pool, progress: Progress, total: int, there: int) -> Non
     except DeviceError:
         return
     progress.start(total, there, "checking the device (kernels of a new one are compiled, once)")
-    pool.submit(None, check_device)
-    if failure := pool.next().failure:
-        raise DeviceError(f"the OpenCL device cannot be used: {failure}")
+    prove_device(pool)

@@ -5,8 +5,10 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING
 
+from gbnbench.errors import DeviceError
 from gbnbench.generators.protocol import Generator, checked_draw, realization_rng
 from gbnbench.torus import FloatArray
+from gbnbench.workers import Pool
 
 if TYPE_CHECKING:
     from gbnbench.analysis.measures import Analysis
@@ -56,6 +58,19 @@ def check_device() -> None:
     from gbnbench.doctor import ensure_trusted
 
     ensure_trusted()
+
+
+def prove_device(pool: Pool) -> None:
+    """Let a worker prove the device before there is other work: what a bad driver kills is not the command.
+
+    Raises
+    ------
+    DeviceError
+        If it cannot be used.
+    """
+    pool.submit(None, check_device)
+    if failure := pool.next().failure:
+        raise DeviceError(f"the OpenCL device cannot be used: {failure}")
 
 
 def analyse_sets(points: FloatArray) -> Analysis:
