@@ -13,6 +13,7 @@ from scipy.stats import t
 from gbnbench.errors import InputError
 from gbnbench.torus import FloatArray
 
+BENT = 0.3  # decades from the fitted line beyond which a slope is no law
 BAND = 0.975  # quantile at the upper end of a 95% band
 
 

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogFormatterSciNotation, LogLocator, NullLocator
 
+from gbnbench.analysis.variance import BENT
 from gbnbench.integration import Integration
 from gbnbench.reports import style
 
@@ -27,7 +28,6 @@ SLOPES = (
     "Grey: the slope of random sampling, 1/n. In the key: fitted slopes with standard errors, bent where the "
     "variances lie over 0.3 decades from the line. "
 )
-BENT = 0.3  # decades
 
 
 def strokes(study: Integration) -> dict[str, style.Stroke]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar, Literal
@@ -93,7 +94,7 @@ class Genz:
 
 
 @dataclass(frozen=True, eq=False)
-class GenzIntegrand:
+class GenzIntegrand(ABC):
     """One of them; each kind has its values and its integral.
 
     Attributes
@@ -108,13 +109,13 @@ class GenzIntegrand:
     u: FloatArray
 
     @property
+    @abstractmethod
     def integral(self) -> float:
         """Over the unit box, to some roundings of itself."""
-        raise NotImplementedError
 
+    @abstractmethod
     def __call__(self, x: FloatArray) -> FloatArray:
         """Values: (..., d) -> (...)."""
-        raise NotImplementedError
 
     def _dot(self, x: FloatArray) -> FloatArray:
         total = np.zeros(x.shape[:-1])

@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from gbnbench.analysis.integrands.integrand import Family
     from gbnbench.integration import Integration
 
-BENT = 0.3  # decades from the fitted line beyond which a slope is no law
 UNTOLD = " (nothing foretold: not periodic, or its spectrum not known or too long here)"
 EPILOG = """\b
 Examples:
@@ -186,6 +185,8 @@ def _slope(slopes: pd.DataFrame, label: str, d: int, family: str) -> str:
     found = slopes[(slopes["source"] == label) & (slopes["d"] == d) & (slopes["integrand"] == family)]
     if found.empty:
         return "-"
+    from gbnbench.analysis.variance import BENT
+
     row = found.iloc[0]
     bent = " bent" if row["scatter"] > BENT else ""
     return f"{row['slope']:.2f} ± {row['standard_error']:.2f}{bent}"
