@@ -10,15 +10,9 @@ from typing import TYPE_CHECKING, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gbnbench.analysis.anisotropy import anisotropy, anisotropy_db
-from gbnbench.analysis.bond_order import bond_order, psi6
 from gbnbench.analysis.catalogue import CATALOGUE
-from gbnbench.analysis.delaunay import Neighbours, neighbours, valence, valence6
-from gbnbench.analysis.discrepancy import discrepancies
-from gbnbench.analysis.distances import mean_distance, min_distance
-from gbnbench.analysis.limits import check_fmax, default_fmax
-from gbnbench.analysis.periodogram import each_power
-from gbnbench.analysis.profile import (
+from gbnbench.analysis.radial.anisotropy import anisotropy, anisotropy_db
+from gbnbench.analysis.radial.profile import (
     ROUNDING,
     evacuated_energy,
     exponential_fit,
@@ -27,14 +21,20 @@ from gbnbench.analysis.profile import (
     power_at_1,
     powerlaw_fit,
 )
-from gbnbench.analysis.psa import spectral_statistics
-from gbnbench.analysis.radial import radial_power
-from gbnbench.analysis.rdf import rdf
-from gbnbench.analysis.shells import Shells, exact_shells
-from gbnbench.analysis.zone_plate import zone_plate
-from gbnbench.errors import RefusalError
-from gbnbench.results import Measures, RadialPower, Spectrum
-from gbnbench.torus import FloatArray, as_realizations
+from gbnbench.analysis.radial.psa import spectral_statistics
+from gbnbench.analysis.radial.radial_power import radial_power
+from gbnbench.analysis.spatial.bond_order import bond_order, psi6
+from gbnbench.analysis.spatial.delaunay import Neighbours, neighbours, valence, valence6
+from gbnbench.analysis.spatial.discrepancy import discrepancies
+from gbnbench.analysis.spatial.distances import mean_distance, min_distance
+from gbnbench.analysis.spatial.rdf import rdf
+from gbnbench.analysis.spatial.zone_plate import zone_plate
+from gbnbench.analysis.spectrum.limits import check_fmax, default_fmax
+from gbnbench.analysis.spectrum.periodogram import each_power
+from gbnbench.analysis.spectrum.shells import Shells, exact_shells
+from gbnbench.core.errors import RefusalError
+from gbnbench.core.results import Measures, RadialPower, Spectrum
+from gbnbench.core.torus import FloatArray, as_realizations
 
 if TYPE_CHECKING:
     import pandas as pd

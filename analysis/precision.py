@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.errors import DeviceError, InputError
+from gbnbench.core.errors import DeviceError, InputError
+from gbnbench.core.torus import FloatArray, fixed_point
 from gbnbench.opencl import Program, Runtime, runtime
-from gbnbench.torus import FloatArray, fixed_point
 
 SUM_POINTS = 128  # points a lane sums in registers before the sum goes on in double
 PACKAGE = "gbnbench.analysis"

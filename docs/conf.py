@@ -56,17 +56,17 @@ numpydoc_xref_param_type = True
 numpydoc_xref_ignore = "all"
 xref.DEFAULT_LINKS.clear()  # these lead to other projects' sites
 numpydoc_xref_aliases = {
-    "DeviceError": "gbnbench.errors.DeviceError",
-    "FormatError": "gbnbench.errors.FormatError",
+    "DeviceError": "gbnbench.core.errors.DeviceError",
+    "FormatError": "gbnbench.core.errors.FormatError",
     "GbnbenchError": "gbnbench.GbnbenchError",
-    "InputError": "gbnbench.errors.InputError",
-    "Measures": "gbnbench.results.Measures",
+    "InputError": "gbnbench.core.errors.InputError",
+    "Measures": "gbnbench.core.results.Measures",
     "Plan": "gbnbench.Plan",
-    "RadialPower": "gbnbench.results.RadialPower",
-    "RefusalError": "gbnbench.errors.RefusalError",
+    "RadialPower": "gbnbench.core.results.RadialPower",
+    "RefusalError": "gbnbench.core.errors.RefusalError",
     "ShellSpectrum": "gbnbench.ShellSpectrum",
     "Spectrum": "gbnbench.Spectrum",
-    "Watch": "gbnbench.generators.watch.Watch",
+    "Watch": "gbnbench.generators.monitor.Watch",
 }
 nitpicky = True
 toc_object_entries_show_parents = "hide"

@@ -17,30 +17,30 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from gbnbench.analysis.measures import measures
-    from gbnbench.analysis.periodogram import periodogram
-    from gbnbench.analysis.plan import Plan, plan
-    from gbnbench.analysis.radial import radial
-    from gbnbench.analysis.shell_spectrum import shells
-    from gbnbench.errors import GbnbenchError
+    from gbnbench.analysis.radial.radial_power import radial
+    from gbnbench.analysis.spectrum.periodogram import periodogram
+    from gbnbench.analysis.spectrum.plan import Plan, plan
+    from gbnbench.analysis.spectrum.shell_spectrum import shells
+    from gbnbench.core.errors import GbnbenchError
+    from gbnbench.core.results import ShellSpectrum, Spectrum
     from gbnbench.generators.registry import generate
-    from gbnbench.points import load, save
-    from gbnbench.results import ShellSpectrum, Spectrum
+    from gbnbench.io.points import load, save
 
 __version__ = "0.1.0"
 
 _HOMES = {
-    "GbnbenchError": "gbnbench.errors",
+    "GbnbenchError": "gbnbench.core.errors",
     "generate": "gbnbench.generators.registry",
-    "Plan": "gbnbench.analysis.plan",
-    "ShellSpectrum": "gbnbench.results",
-    "Spectrum": "gbnbench.results",
-    "load": "gbnbench.points",
+    "Plan": "gbnbench.analysis.spectrum.plan",
+    "ShellSpectrum": "gbnbench.core.results",
+    "Spectrum": "gbnbench.core.results",
+    "load": "gbnbench.io.points",
     "measures": "gbnbench.analysis.measures",
-    "periodogram": "gbnbench.analysis.periodogram",
-    "plan": "gbnbench.analysis.plan",
-    "radial": "gbnbench.analysis.radial",
-    "save": "gbnbench.points",
-    "shells": "gbnbench.analysis.shell_spectrum",
+    "periodogram": "gbnbench.analysis.spectrum.periodogram",
+    "plan": "gbnbench.analysis.spectrum.plan",
+    "radial": "gbnbench.analysis.radial.radial_power",
+    "save": "gbnbench.io.points",
+    "shells": "gbnbench.analysis.spectrum.shell_spectrum",
 }
 
 __all__ = [

@@ -6,8 +6,8 @@ from typing import ClassVar, Protocol, runtime_checkable
 
 import numpy as np
 
-from gbnbench.errors import InputError
-from gbnbench.torus import FloatArray, check_points
+from gbnbench.core.errors import InputError
+from gbnbench.core.torus import FloatArray, check_points
 
 
 @runtime_checkable

@@ -8,24 +8,24 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from gbnbench.errors import InputError, RefusalError
-from gbnbench.generators.deep import Deep
-from gbnbench.generators.fpo import FarthestPoint
+from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.memory import too_large
+from gbnbench.core.settings import configure, nearest, parse
+from gbnbench.core.torus import FloatArray
+from gbnbench.generators.direct.halton import Halton
+from gbnbench.generators.direct.jittered import Jittered
+from gbnbench.generators.direct.latin_hypercube import LatinHypercube
+from gbnbench.generators.direct.sobol import Sobol
+from gbnbench.generators.direct.uniform import Uniform
+from gbnbench.generators.fpo.generator import FarthestPoint
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
-from gbnbench.generators.grid import Grid
-from gbnbench.generators.halton import Halton
-from gbnbench.generators.hexagonal import Hexagonal
-from gbnbench.generators.jittered import Jittered
-from gbnbench.generators.latin import LatinHypercube
-from gbnbench.generators.lloyd import Lloyd
-from gbnbench.generators.memory import too_large
+from gbnbench.generators.lattices.hexagonal import Hexagonal
+from gbnbench.generators.lattices.regular_grid import Grid
+from gbnbench.generators.monitor import Watch, Watchable, only_progress
 from gbnbench.generators.protocol import Generator, checked_draw, realization_rng
-from gbnbench.generators.sobol import Sobol
-from gbnbench.generators.stealthy import Stealthy
-from gbnbench.generators.uniform import Uniform
-from gbnbench.generators.watch import Watch, Watchable, only_progress
-from gbnbench.settings import configure, nearest, parse
-from gbnbench.torus import FloatArray
+from gbnbench.generators.spectral_control.deep import Deep
+from gbnbench.generators.spectral_control.stealthy import Stealthy
+from gbnbench.generators.voronoi.lloyd import Lloyd
 
 GENERATORS: dict[str, type[Generator]] = {
     "random": Uniform,

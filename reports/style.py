@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.font_manager import findfont, get_font
 
-from gbnbench.run import Run, SourceResult
+from gbnbench.runs.comparison_result import Run, SourceResult
 
 # Okabe & Ito (2008), told apart with any colour vision; their yellow is darkened to be read on white.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#222222", "#9A8B00")

@@ -9,9 +9,9 @@ import numpy as np
 
 from gbnbench.benchmarks.claims.claim import UNTRIED, Row, holds, reported
 from gbnbench.benchmarks.claims.sets import SEED, Sets
-from gbnbench.benchmarks.interleave import Call, interleave
+from gbnbench.benchmarks.timing.interleaved import Call, interleave
 from gbnbench.generators.gbn.energy import field
-from gbnbench.generators.gbn.field import Field
+from gbnbench.generators.gbn.protocol import Field
 
 SAME = 0.2  # departure of an exponent from a whole one, and of times from a line, that counts as none
 RUNS = 5  # of the timings by dimension: of each the least, since single runs scatter

@@ -11,8 +11,8 @@ import numpy as np
 from gbnbench.benchmarks.claims.claim import BESIDE, Row, holds, reported
 from gbnbench.benchmarks.claims.profile import STEEPNESS
 from gbnbench.benchmarks.claims.sets import FAST, MILLION, PAPER, Drawn, Sets
+from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn.energy import field
-from gbnbench.torus import FloatArray
 
 STOPS = (3, 10, 15, 30, 100, 300, 500, 1000, 3000, 10_000)
 LARGER = (100, 300, 500, 1000)  # of them, those that 4,096 points take, too

@@ -10,11 +10,11 @@ from scipy.integrate import dblquad
 
 from gbnbench.benchmarks.claims.claim import BESIDE, Row, holds, reported
 from gbnbench.benchmarks.claims.sets import FAST, SEED, Sets
-from gbnbench.benchmarks.interleave import interleave
+from gbnbench.benchmarks.timing.interleaved import interleave
+from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn.box import BoxField, domain_pull
 from gbnbench.generators.gbn.energy import field
-from gbnbench.generators.gbn.energy_profile import theta
-from gbnbench.torus import FloatArray
+from gbnbench.generators.gbn.kernel_profile import theta
 
 SIDE, N = 8.0, 64  # a torus of unit density
 GRID = 96  # samples a side: the squares of Gaussians are exact to rounding

@@ -8,14 +8,14 @@ from functools import lru_cache
 
 import numpy as np
 
-from gbnbench.analysis.estimator import estimate_errors, foretold_variance, series_of
-from gbnbench.analysis.integrands.gaussians import Gaussians
-from gbnbench.analysis.integrands.half_space import HalfSpaces
-from gbnbench.analysis.integrands.integrand import Integrand
-from gbnbench.analysis.variance import Slope, Variance, crossed_mean, slope_of, variance_of
+from gbnbench.analysis.integration.estimator import estimate_errors, foretold_variance, series_of
+from gbnbench.analysis.integration.integrands.gaussians import Gaussians
+from gbnbench.analysis.integration.integrands.half_space import HalfSpaces
+from gbnbench.analysis.integration.integrands.protocol import Integrand
+from gbnbench.analysis.integration.variance import Slope, Variance, crossed_mean, slope_of, variance_of
 from gbnbench.benchmarks.claims.claim import BESIDE, NO, PARTLY, Row, holds, reported
 from gbnbench.benchmarks.claims.sets import FAST, SEED, Drawn, Sets
-from gbnbench.torus import FloatArray
+from gbnbench.core.torus import FloatArray
 
 SMOOTH, STEP = Gaussians(), HalfSpaces()
 INSTANCES = 60

@@ -7,15 +7,15 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from gbnbench.analysis.profile import noise_floor
+from gbnbench.analysis.radial.profile import noise_floor
 from gbnbench.benchmarks.claims.claim import BESIDE, PARTLY, Row, holds, reported
 from gbnbench.benchmarks.claims.sets import FAST, SEED, Drawn, Sets
+from gbnbench.core.torus import wrap
 from gbnbench.generators.gbn import kernel
 from gbnbench.generators.gbn.energy import field
-from gbnbench.generators.gbn.energy_profile import energy_profile, truncated_transform
+from gbnbench.generators.gbn.kernel_profile import energy_profile, truncated_transform
 from gbnbench.generators.gbn.optimiser import Descent, step_size
 from gbnbench.generators.protocol import realization_rng
-from gbnbench.torus import wrap
 
 SIGMAS = (0.5, 0.7, 0.85, 1.0, 1.2, 1.5)
 

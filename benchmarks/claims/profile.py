@@ -7,11 +7,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from gbnbench.analysis.profile import exponential_fit
+from gbnbench.analysis.radial.profile import exponential_fit
 from gbnbench.benchmarks.claims.claim import BESIDE, NO, PARTLY, UNTRIED, Row, holds, reported
 from gbnbench.benchmarks.claims.sets import FAST, MILLION, PAPER, Drawn, Sets
 from gbnbench.generators.gbn import kernel
-from gbnbench.generators.gbn.energy_profile import theta
+from gbnbench.generators.gbn.kernel_profile import theta
 
 STEEPNESS = 4 * math.pi**2  # of Eq. (19), omega being 2 pi nu
 NEAR = 0.05  # relative departure of a fitted c that still counts as the formula's

@@ -18,13 +18,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 
-from gbnbench.benchmarks.claims.catalogue import CLAIMS
 from gbnbench.benchmarks.claims.claim import COLUMNS, Claim
+from gbnbench.benchmarks.claims.registry import CLAIMS
 from gbnbench.benchmarks.claims.sets import MissingError, Sets
-from gbnbench.benchmarks.machine import describe
-from gbnbench.disk import write_whole
-from gbnbench.errors import InputError
-from gbnbench.workers import ONE_THREAD
+from gbnbench.benchmarks.timing.machine import describe
+from gbnbench.core.errors import InputError
+from gbnbench.execution.worker_pool import ONE_THREAD
+from gbnbench.io.atomic import write_whole
 
 Table = dict[str, list[dict[str, str]]]
 

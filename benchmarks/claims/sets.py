@@ -10,14 +10,14 @@ from pathlib import Path
 import numpy as np
 
 from gbnbench.analysis.measures import measures
-from gbnbench.analysis.periodogram import periodogram
-from gbnbench.analysis.radial import radial
-from gbnbench.errors import GbnbenchError, InputError
+from gbnbench.analysis.radial.radial_power import radial
+from gbnbench.analysis.spectrum.periodogram import periodogram
+from gbnbench.core.errors import GbnbenchError, InputError
+from gbnbench.core.results import Measures, RadialPower, Spectrum, gaussian_response
+from gbnbench.core.torus import FloatArray, as_realizations
+from gbnbench.generators.monitor import Trace, Watch
 from gbnbench.generators.registry import find, generate
-from gbnbench.generators.watch import Trace, Watch
-from gbnbench.points import load
-from gbnbench.results import Measures, RadialPower, Spectrum, gaussian_response
-from gbnbench.torus import FloatArray, as_realizations
+from gbnbench.io.points import load
 
 SEED = 2022
 PAPER = "gbn[iterations=10000]"  # the paper's own descent at the length that it recommends

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from gbnbench.analysis.radial import radial
-from gbnbench.analysis.shells import digit_classes, exact_shells
+from gbnbench.analysis.radial.radial_power import radial
+from gbnbench.analysis.spectrum.shells import digit_classes, exact_shells
 from gbnbench.benchmarks.claims.claim import Row, holds, reported
 from gbnbench.benchmarks.claims.sets import Sets
 

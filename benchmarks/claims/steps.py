@@ -7,13 +7,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from gbnbench.analysis.delaunay import neighbours
-from gbnbench.analysis.periodogram import periodogram
+from gbnbench.analysis.spatial.delaunay import neighbours
+from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.benchmarks.claims.claim import BESIDE, UNTRIED, Row, holds, reported
 from gbnbench.benchmarks.claims.sets import FAST, PAPER, Sets
-from gbnbench.generators.newton.modes import bound, edge_of
-from gbnbench.generators.stealthy import band_power
-from gbnbench.torus import FloatArray
+from gbnbench.core.torus import FloatArray
+from gbnbench.generators.gauss_newton.modes import bound, edge_of
+from gbnbench.generators.spectral_control.stealthy import band_power
 
 
 def counted(_: Sets) -> Iterator[Row]:

@@ -1,7 +1,7 @@
 """The directive ``modules``: a section for each module whose name matches, written from its docstrings.
 
-``.. modules:: gbnbench.generators.* gbnbench.compare`` finds modules by name, in the order given, so that a
-new one is in the reference as soon as its file is there.
+``.. modules:: gbnbench.generators.* gbnbench.studies.comparison`` finds modules by name, in the order
+given, so that a new one is in the reference as soon as its file is there.
 """
 
 from __future__ import annotations

@@ -13,13 +13,13 @@ from gbnbench.cli.analyze import analyze
 from gbnbench.cli.bench import bench
 from gbnbench.cli.check import check
 from gbnbench.cli.compare import compare
+from gbnbench.cli.devices import devices, doctor
 from gbnbench.cli.figures import figures
 from gbnbench.cli.generate import generate
 from gbnbench.cli.integrate import integrate
-from gbnbench.cli.machine import devices, doctor
 from gbnbench.cli.report import report
 from gbnbench.cli.spectrum import spectrum
-from gbnbench.errors import GbnbenchError
+from gbnbench.core.errors import GbnbenchError
 
 BAD, STOPPED, PIPE = 2, 130, 141  # exit codes; 0 is done, 1 is worse than a baseline or a failed check
 

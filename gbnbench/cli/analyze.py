@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING
 import click
 
 from gbnbench.cli import options
-from gbnbench.errors import GbnbenchError
+from gbnbench.core.errors import GbnbenchError
 
 if TYPE_CHECKING:
     import pandas as pd
 
-    from gbnbench.results import Measures
-    from gbnbench.torus import FloatArray
+    from gbnbench.core.results import Measures
+    from gbnbench.core.torus import FloatArray
 
 
 LOW, BAND = 0.5, 0.05  # nu to which a box's own spectrum is shown, and of each of its bands
@@ -42,7 +42,7 @@ def analyze(
         _explain(files)
         return
     from gbnbench.analysis.measures import measures
-    from gbnbench.points import read
+    from gbnbench.io.points import read
 
     rows: list[tuple[Path, int, int, int, Measures]] = []
     more: list[dict[str, pd.DataFrame]] = []
@@ -84,7 +84,7 @@ def _tables(x: FloatArray, projections: str | None, box: bool) -> dict[str, pd.D
     n, d = x.shape
     tables: dict[str, pd.DataFrame] = {}
     if projections is not None:
-        from gbnbench.analysis import projections as projected
+        from gbnbench.analysis.spectrum import projections as projected
         from gbnbench.generators.gbn.projective import subsets
 
         found = projected.frame(projected.projections(x, subsets(projections, d)))
@@ -92,9 +92,9 @@ def _tables(x: FloatArray, projections: str | None, box: bool) -> dict[str, pd.D
     if box:
         import numpy as np
 
-        from gbnbench.analysis.cosine_power import cosine_power, cosine_radial
-        from gbnbench.analysis.edge_density import edge_density
-        from gbnbench.analysis.limits import default_fmax
+        from gbnbench.analysis.spatial.edge_density import edge_density
+        from gbnbench.analysis.spectrum.cosine_power import cosine_power, cosine_radial
+        from gbnbench.analysis.spectrum.limits import default_fmax
 
         tables["edge density"] = edge_density(x).to_frame().dropna(axis=1, how="all")
         shells = cosine_radial(cosine_power(x, default_fmax(n, d)), n).to_frame()
@@ -107,8 +107,8 @@ def _tables(x: FloatArray, projections: str | None, box: bool) -> dict[str, pd.D
 
 def _explain(files: tuple[Path, ...]) -> None:
     """Print, for each file, the plan of its sets' spectra."""
-    from gbnbench.asked import Asked
-    from gbnbench.points import read
+    from gbnbench.analysis.spectrum.spectrum_request import Asked
+    from gbnbench.io.points import read
 
     failed = False
     for path in files:

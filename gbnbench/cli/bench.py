@@ -10,12 +10,12 @@ import click
 
 from gbnbench.cli import options
 from gbnbench.cli.bench_gbn import gbn
-from gbnbench.cli.columns import aligned, number
+from gbnbench.cli.text_table import aligned, number
 
 if TYPE_CHECKING:
     import pandas as pd
 
-    from gbnbench.benchmarks.periodogram import Outcome
+    from gbnbench.benchmarks.spectra.speed_error import Outcome
 
 
 SPEED_HEAD = (
@@ -46,9 +46,9 @@ def periodogram(quick: bool, out: Path, quiet: bool, tiny: bool) -> None:
     All methods run in one process, in turn; times are CPU time over all threads, and ratios are taken round
     by round. Tables are kept as they come, so a run that is stopped leaves what it has measured.
     """
-    from gbnbench import progress
-    from gbnbench.benchmarks import cases
-    from gbnbench.benchmarks.periodogram import run
+    from gbnbench.benchmarks.spectra import cases
+    from gbnbench.benchmarks.spectra.speed_error import run
+    from gbnbench.execution import progress
 
     plan = cases.tiny() if tiny else cases.quick() if quick else cases.full()
     try:
@@ -67,9 +67,9 @@ def periodogram(quick: bool, out: Path, quiet: bool, tiny: bool) -> None:
 
 def _draw(outcome: Outcome, out: Path) -> None:
     """Write the two pictures as PNG and PDF."""
-    from gbnbench.disk import write_whole
-    from gbnbench.reports import scaling, speed_error
-    from gbnbench.reports.figures import pdf, png
+    from gbnbench.io.atomic import write_whole
+    from gbnbench.reports.benchmarks import scaling, speed_error
+    from gbnbench.reports.comparison.figure_files import pdf, png
 
     figures = {
         "speed_error": speed_error.figure(outcome.speed, outcome.machine),
@@ -82,8 +82,8 @@ def _draw(outcome: Outcome, out: Path) -> None:
 
 def _report(outcome: Outcome) -> Iterator[str]:
     """Say what was found, a table a case."""
-    from gbnbench.benchmarks.hard_table import resolvable
-    from gbnbench.benchmarks.periodogram import slopes
+    from gbnbench.benchmarks.spectra.hard_table import resolvable
+    from gbnbench.benchmarks.spectra.speed_error import slopes
 
     machine = outcome.machine
     yield f"{machine['processor']}, {machine['cores']} cores; {machine['device']}"
@@ -125,7 +125,7 @@ def _report(outcome: Outcome) -> Iterator[str]:
 
 
 def _hard(hard: pd.DataFrame, least: pd.DataFrame) -> Iterator[str]:
-    from gbnbench.benchmarks.hard_table import SLACK, TYPICAL
+    from gbnbench.benchmarks.spectra.hard_table import SLACK, TYPICAL
 
     held, passed = int(hard.held.sum()), int(hard.passed.sum())
     yield f"\nhard cases: in {held} of {len(hard)} the error met is within the stated worst case;"

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 import click
 
 from gbnbench.cli import options
-from gbnbench.cli.columns import aligned, number
+from gbnbench.cli.text_table import aligned, number
 
 if TYPE_CHECKING:
-    from gbnbench.benchmarks.floor_time import Outcome
+    from gbnbench.benchmarks.gbn.floor_time import Outcome
 
 END_HEAD = (
     "case", "method", "precision", "gradients", "CPU s a set", "ms a gradient", "noise floor", "P(1)",
@@ -44,13 +44,13 @@ def gbn(quick: bool, out: Path, quiet: bool, tiny: bool) -> None:
     and its points are measured in double beside the clock. Forces are timed and checked at every cut-off
     from 3 to 9 sigma. Tables are kept as they come, so a run that is stopped leaves what it has measured.
     """
-    from gbnbench.workers import ONE_THREAD
+    from gbnbench.execution.worker_pool import ONE_THREAD
 
     for variable in ("POCL_MAX_PTHREAD_COUNT", "POCL_CPU_MAX_CU_COUNT"):  # read when the device is opened
         os.environ.setdefault(variable, ONE_THREAD[variable])
-    from gbnbench import progress
-    from gbnbench.benchmarks import floor_cases
-    from gbnbench.benchmarks.floor_time import run
+    from gbnbench.benchmarks.gbn import floor_cases
+    from gbnbench.benchmarks.gbn.floor_time import run
+    from gbnbench.execution import progress
 
     plan = floor_cases.tiny() if tiny else floor_cases.quick() if quick else floor_cases.full()
     try:
@@ -66,9 +66,9 @@ def gbn(quick: bool, out: Path, quiet: bool, tiny: bool) -> None:
 
 def draw(outcome: Outcome, out: Path) -> None:
     """Write the picture as PNG and PDF."""
-    from gbnbench.disk import write_whole
-    from gbnbench.reports import floor_time
-    from gbnbench.reports.figures import pdf, png
+    from gbnbench.io.atomic import write_whole
+    from gbnbench.reports.benchmarks import floor_time
+    from gbnbench.reports.comparison.figure_files import pdf, png
 
     figure = floor_time.figure(outcome.floors, outcome.forces, outcome.machine)
     write_whole(out / "floor_time.png", png(figure))
@@ -77,7 +77,7 @@ def draw(outcome: Outcome, out: Path) -> None:
 
 def report(outcome: Outcome) -> Iterator[str]:
     """Say what was found."""
-    from gbnbench.benchmarks.floor_time import AUTHORS_FLOOR, MEASURES
+    from gbnbench.benchmarks.gbn.floor_time import AUTHORS_FLOOR, MEASURES
 
     machine = outcome.machine
     yield f"{machine['processor']}, {machine['cores']} cores; {machine['device']}"

@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from gbnbench.cli import options
-from gbnbench.cli.columns import aligned
+from gbnbench.cli.text_table import aligned
 
 if TYPE_CHECKING:
-    from gbnbench.check.cases import Case
-    from gbnbench.check.run import Change
-    from gbnbench.check.verdict import Verdict
-    from gbnbench.progress import Progress
+    from gbnbench.execution.progress import Progress
+    from gbnbench.regression.cases import Case
+    from gbnbench.regression.runner import Change
+    from gbnbench.regression.verdict import Verdict
 
 MARKS = {"ok": "ok", "better": "▲ better", "worse": "▼ worse", "skipped": "skipped"}
 HEAD = ("", "case", "measure", "found", "expected", "allowed")
@@ -62,8 +62,8 @@ def check(
     over seeds, and exact values: the energy's field at fixed points and the spectra of lattices, in double
     and float.
     """
-    from gbnbench import progress
-    from gbnbench.check.casefile import default_path, read_cases, select
+    from gbnbench.execution import progress
+    from gbnbench.regression.case_file import default_path, read_cases, select
 
     if spread is not None and not update:
         raise click.UsageError("--spread goes with --update")
@@ -82,7 +82,7 @@ def check(
 
 def _check(chosen: Sequence[Case], jobs: int, as_json: bool, quiet: bool, teller: Progress) -> bool:
     """Measure, print the table and the sentences; whether anything is worse."""
-    from gbnbench.check.run import check as measure
+    from gbnbench.regression.runner import check as measure
 
     verdicts = measure(chosen, jobs=jobs, progress=teller)
     if as_json:
@@ -103,9 +103,9 @@ def _update(
     teller: Progress,
 ) -> bool:
     """Rewrite the file, unless what is known exactly comes out wrong; whether it did."""
-    from gbnbench.check.casefile import write_cases
-    from gbnbench.check.run import check as measure
-    from gbnbench.check.run import update as renew
+    from gbnbench.regression.case_file import write_cases
+    from gbnbench.regression.runner import check as measure
+    from gbnbench.regression.runner import update as renew
 
     known = [case for case in every if case.exact and not case.full]
     verdicts = measure(known, jobs=jobs, progress=teller)
@@ -144,7 +144,7 @@ def _tell(verdicts: Sequence[Verdict]) -> bool:
 
 
 def _table(verdicts: Sequence[Verdict], quiet: bool) -> Iterator[str]:
-    from gbnbench.check.verdict import allowed, shown, title
+    from gbnbench.regression.verdict import allowed, shown, title
 
     rows = [
         (
@@ -164,7 +164,7 @@ def _table(verdicts: Sequence[Verdict], quiet: bool) -> Iterator[str]:
 
 def _changes(changes: Sequence[Change]) -> Iterator[str]:
     """Lay out old -> new of every value."""
-    from gbnbench.check.verdict import allowed, shown, title
+    from gbnbench.regression.verdict import allowed, shown, title
 
     yield from aligned(
         ("case", "measure", "expected", "was", "change", "allowed", "was"),

@@ -13,7 +13,7 @@ from gbnbench.cli import options
 from gbnbench.cli.report import draw
 
 if TYPE_CHECKING:
-    from gbnbench.compare import Outcome
+    from gbnbench.studies.comparison import Outcome
 
 EPILOG = """\b
 Examples:
@@ -58,9 +58,9 @@ def compare(
 
     A folder is one source for each (n, d) in it. Stopped in any way, the same command goes on where it was.
     """
-    from gbnbench import progress
-    from gbnbench.compare import compare as run_comparison
-    from gbnbench.sources import DEFAULT_SOURCES, resolve
+    from gbnbench.execution import progress
+    from gbnbench.runs.sources import DEFAULT_SOURCES, resolve
+    from gbnbench.studies.comparison import compare as run_comparison
 
     found, skipped = resolve(sources or DEFAULT_SOURCES, n, d, realizations)
     for line in skipped:
@@ -84,7 +84,7 @@ def compare(
 
 def _tell(outcome: Outcome) -> None:
     """Print the table, what to beware of, the verdicts, and where everything is."""
-    from gbnbench.reports.table import terminal_text
+    from gbnbench.reports.comparison.table import terminal_text
 
     click.echo(terminal_text(outcome.run, colour=sys.stdout.isatty()))
     for source in outcome.run.sources:

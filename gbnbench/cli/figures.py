@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from gbnbench.cli import options
-from gbnbench.errors import InputError
+from gbnbench.core.errors import InputError
 
 EPILOG = """\b
 Examples:
@@ -52,11 +52,11 @@ def figures(
     OUT/data: stopped in any way, the same command goes on where it was. Figures 10, 11 and 15 to 17 show
     adaptive sampling, which comes later.
     """
-    from gbnbench import progress
-    from gbnbench.reports.paper.catalogue import LATER, find
+    from gbnbench.execution import progress
     from gbnbench.reports.paper.figure import Ask
-    from gbnbench.reports.paper.given import check_sets
-    from gbnbench.reports.paper.make import make
+    from gbnbench.reports.paper.maker import make
+    from gbnbench.reports.paper.registry import LATER, find
+    from gbnbench.reports.paper.user_sets import check_sets
 
     wanted = find([] if names == ("all",) else names)
     ask = Ask("tiny" if tiny else "quick" if quick else "full", _given(sets), seed)

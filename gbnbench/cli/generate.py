@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING
 import click
 
 from gbnbench.cli import options
-from gbnbench.errors import InputError
+from gbnbench.core.errors import InputError
 
 if TYPE_CHECKING:
     import pandas as pd
 
-    from gbnbench.generators.watch import Trace, Watch
+    from gbnbench.generators.monitor import Trace, Watch
 
 PATIENCE = 1.0  # seconds before progress is shown
 
@@ -52,11 +52,11 @@ def generate(
     trace: Path | None, spectra_at: tuple[int, ...], explain: bool, quiet: bool,
 ) -> None:  # fmt: skip
     """Write sets of the generator NAME, such as gbn or 'gbn[iterations=1000]'."""
+    from gbnbench.generators.monitor import Trace
     from gbnbench.generators.registry import find
     from gbnbench.generators.registry import generate as draw
-    from gbnbench.generators.watch import Trace
-    from gbnbench.points import save
-    from gbnbench.points.write import encode, write_atomically
+    from gbnbench.io.points import save
+    from gbnbench.io.points.writer import encode, write_atomically
 
     encode(out, [[0.0]])  # a suffix that cannot be written is refused before the work
     if spectra_at and trace is None:
@@ -109,8 +109,8 @@ def _check_folder(path: Path | None) -> None:
 @contextlib.contextmanager
 def _watched(trace: Trace | None, checkpoint: Path | None, quiet: bool) -> Iterator[Watch]:
     """Progress once a draw has taken a second; on being stopped, say how to go on."""
-    from gbnbench import progress
-    from gbnbench.generators.watch import Watch
+    from gbnbench.execution import progress
+    from gbnbench.generators.monitor import Watch
 
     began = time.monotonic()
     with contextlib.ExitStack() as stack:
@@ -143,9 +143,9 @@ def _spectra(trace: Trace) -> pd.DataFrame:
     """Columns gradients, frequency, nu, power, filtered, count: shells of the mean spectrum (Figure 7)."""
     import pandas as pd
 
-    from gbnbench.analysis.limits import default_fmax
-    from gbnbench.analysis.periodogram import periodogram
-    from gbnbench.analysis.radial import radial
+    from gbnbench.analysis.radial.radial_power import radial
+    from gbnbench.analysis.spectrum.limits import default_fmax
+    from gbnbench.analysis.spectrum.periodogram import periodogram
 
     frames = []
     for at in sorted(trace.kept):

@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING
 import click
 
 from gbnbench.cli import options
-from gbnbench.cli.columns import aligned, number
+from gbnbench.cli.text_table import aligned, number
 
 if TYPE_CHECKING:
     import pandas as pd
 
-    from gbnbench.analysis.integrands.integrand import Family
-    from gbnbench.integration import Integration
+    from gbnbench.analysis.integration.integrands.protocol import Family
+    from gbnbench.studies.integration.study import Integration
 
 UNTOLD = " (nothing foretold: not periodic, or its spectrum not known or too long here)"
 EPILOG = """\b
@@ -36,7 +36,7 @@ Generators are those of gbnbench compare; files and folders bring their own n, d
 def _list(context: click.Context, _: click.Parameter, asked: bool) -> None:
     if not asked:
         return
-    from gbnbench.analysis.integrands.registry import FAMILIES
+    from gbnbench.analysis.integration.integrands.registry import FAMILIES
 
     for line in aligned(
         ("family", "periodic", "what"),
@@ -106,9 +106,9 @@ def integrate(
     with every set. Beside each variance stands what the power spectrum of the points foretells, where the
     family is periodic. Stopped in any way, the same command goes on where it was.
     """
-    from gbnbench import progress
-    from gbnbench.integration import DEFAULT_INTEGRANDS, DEFAULT_SOURCES
-    from gbnbench.integration import integrate as run
+    from gbnbench.execution import progress
+    from gbnbench.studies.integration.study import DEFAULT_INTEGRANDS, DEFAULT_SOURCES
+    from gbnbench.studies.integration.study import integrate as run
 
     with progress.choose(quiet) as teller:
         outcome = run(
@@ -136,9 +136,9 @@ def integrate(
 
 def draw(study: Integration, folder: Path) -> None:
     """Write the picture as PNG and PDF."""
-    from gbnbench.disk import write_whole
-    from gbnbench.reports.figures import pdf, png
-    from gbnbench.reports.integration import figure
+    from gbnbench.io.atomic import write_whole
+    from gbnbench.reports.comparison.figure_files import pdf, png
+    from gbnbench.reports.integration.variance import figure
 
     drawn = figure(study)
     write_whole(folder / "integration.png", png(drawn))
@@ -185,7 +185,7 @@ def _slope(slopes: pd.DataFrame, label: str, d: int, family: str) -> str:
     found = slopes[(slopes["source"] == label) & (slopes["d"] == d) & (slopes["integrand"] == family)]
     if found.empty:
         return "-"
-    from gbnbench.analysis.variance import BENT
+    from gbnbench.analysis.integration.variance import BENT
 
     row = found.iloc[0]
     bent = " bent" if row["scatter"] > BENT else ""

@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING
 import click
 
 if TYPE_CHECKING:
-    from gbnbench.run import Run
+    from gbnbench.runs.comparison_result import Run
 
 
 @click.command()
 @click.argument("run", type=click.Path(path_type=Path))
 def report(run: Path) -> None:
     """Remake the pictures of the finished folder RUN, of a comparison or a study of integration."""
-    from gbnbench.integration import is_study, read_integration
-    from gbnbench.store import read_run
+    from gbnbench.runs.comparison_folder import read_run
+    from gbnbench.studies.integration.study import is_study, read_integration
 
     if is_study(run):
         from gbnbench.cli.integrate import draw as draw_study
@@ -30,8 +30,8 @@ def report(run: Path) -> None:
 
 def draw(run: Run, folder: Path) -> None:
     """Write the figures and report.html of a run into its folder."""
-    from gbnbench.reports.figures import write_figures
-    from gbnbench.reports.html import write_report
+    from gbnbench.reports.comparison.figure_files import write_figures
+    from gbnbench.reports.html.page import write_report
 
     write_figures(run, folder / "figures")
     write_report(run, folder / "report.html")

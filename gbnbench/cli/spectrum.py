@@ -107,9 +107,9 @@ def spectrum(
         _refuse_both("FILE", files, **sizes)
     elif not explain:
         raise click.UsageError("name a FILE of points; or plan without one: --explain -n 1024 -d 2")
-    from gbnbench.asked import Asked
-    from gbnbench.cli import spectrum_work as work
-    from gbnbench.inputs import read_frequencies, read_weights
+    from gbnbench.analysis.spectrum.spectrum_request import Asked
+    from gbnbench.cli import spectrum_run as work
+    from gbnbench.io.lists import read_frequencies, read_weights
 
     if out is not None and not explain:
         work.check_place(out)

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.analysis.anisotropy import shells_of
-from gbnbench.analysis.profile import noise_floor, peak, power_at_1
-from gbnbench.errors import RefusalError
-from gbnbench.results import ShellSpectrum, Spectrum, resolvable_power
-from gbnbench.spectra import columns
+from gbnbench.analysis.radial.anisotropy import shells_of
+from gbnbench.analysis.radial.profile import noise_floor, peak, power_at_1
+from gbnbench.core.errors import RefusalError
+from gbnbench.core.results import ShellSpectrum, Spectrum, resolvable_power
+from gbnbench.runs.spectrum_files import columns
 
 ROWS = 16  # printed
 

@@ -10,8 +10,8 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gbnbench.cache import cache_folder, is_writable
-from gbnbench.errors import DeviceError
+from gbnbench.core.cache_folder import cache_folder, is_writable
+from gbnbench.core.errors import DeviceError
 
 if TYPE_CHECKING:
     import pyopencl as cl

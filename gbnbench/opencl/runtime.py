@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.cache import cache_folder
-from gbnbench.errors import DeviceError
+from gbnbench.core.cache_folder import cache_folder
+from gbnbench.core.errors import DeviceError
 from gbnbench.opencl.device import Device, choose, handle, import_pyopencl
-from gbnbench.opencl.probe import VectorWidths, vector_widths
+from gbnbench.opencl.width_probe import VectorWidths, vector_widths
 
 # Safe everywhere it was tried; -cl-fast-relaxed-math and -cl-unsafe-math-optimizations give wrong gradients.
 OPTIONS = ("-cl-std=CL1.2", "-cl-mad-enable", "-cl-finite-math-only")
@@ -180,7 +180,7 @@ class Runtime:
 def _source(package: str, files: tuple[str, ...]) -> str:
     parts = []
     for name in files:
-        home = "gbnbench" if name.startswith("/") else package
+        home = "gbnbench.opencl" if name.startswith("/") else package
         text = (resources.files(home) / "kernels" / name.lstrip("/")).read_text()
         parts.append(f'#line 1 "{name.lstrip("/")}"\n{text}')
     return "\n".join(parts)

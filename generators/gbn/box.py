@@ -16,13 +16,13 @@ import math
 import numpy as np
 from scipy.special import erf
 
-from gbnbench.generators.gbn import cost
-from gbnbench.generators.gbn.field import Gradient
+from gbnbench.core.torus import FloatArray
+from gbnbench.generators.gbn import operation_counts
 from gbnbench.generators.gbn.images import Images
 from gbnbench.generators.gbn.optimiser import largest_curvature
+from gbnbench.generators.gbn.protocol import Gradient
 from gbnbench.generators.gbn.strips import Strips
 from gbnbench.opencl import runtime
-from gbnbench.torus import FloatArray
 
 LARGEST = 1 - 2.0**-53  # the last double below 1
 WIDE = 8.0  # sigmas a side from which the faces do not change the largest curvature
@@ -138,10 +138,10 @@ class BoxField:
         self._least = domain_energy(self.side, d, sigma)
         # On a torus with an empty margin as wide as the cut-off no point meets the image of another; twice
         # as wide as the box, and no nearest image is ever across its border.
-        reach = cost.CUTOFF[name] * sigma
-        margin = (max(self.side, reach) + reach) * cost.MARGIN
-        twice = 2 * max(self.side, reach) * cost.MARGIN
-        strips, images = cost.strips, cost.images(n, d, sigma, name, twice)
+        reach = operation_counts.CUTOFF[name] * sigma
+        margin = (max(self.side, reach) + reach) * operation_counts.MARGIN
+        twice = 2 * max(self.side, reach) * operation_counts.MARGIN
+        strips, images = operation_counts.strips, operation_counts.images(n, d, sigma, name, twice)
         self._torus: Strips | Images
         if d <= 3 and strips(n, d, sigma, name, side=margin).effort < images.effort:
             self._torus = Strips(chosen, n, d, sigma, name, side=margin)

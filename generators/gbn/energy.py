@@ -6,10 +6,10 @@ periods, and u = x n^(1/d) counted in spacings.
 
 from __future__ import annotations
 
-from gbnbench.generators.gbn.field import Field
 from gbnbench.generators.gbn.harmonics import Harmonics
 from gbnbench.generators.gbn.images import Images
 from gbnbench.generators.gbn.plan import plan
+from gbnbench.generators.gbn.protocol import Field
 from gbnbench.generators.gbn.strips import Strips
 from gbnbench.generators.gbn.theta import Theta
 from gbnbench.opencl import runtime

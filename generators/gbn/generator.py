@@ -9,22 +9,22 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from gbnbench.errors import InputError, RefusalError
+from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.memory import too_large
+from gbnbench.core.settings import specification
+from gbnbench.core.torus import FloatArray, wrap
+from gbnbench.generators.gauss_newton.modes import bound
+from gbnbench.generators.gbn.batches import optimise
 from gbnbench.generators.gbn.box import BoxField, box_curvature, fold
-from gbnbench.generators.gbn.cost import theta_at_0
 from gbnbench.generators.gbn.energy import default_precision, field
-from gbnbench.generators.gbn.field import Field
 from gbnbench.generators.gbn.kernel import energy_error, uniform_energy
+from gbnbench.generators.gbn.operation_counts import theta_at_0
 from gbnbench.generators.gbn.optimiser import Descent, Nesterov, authors_step, stable_step, step_size
 from gbnbench.generators.gbn.plan import plan
 from gbnbench.generators.gbn.polish import polished
 from gbnbench.generators.gbn.projective import ProjectiveField, subsets
-from gbnbench.generators.gbn.run import optimise
-from gbnbench.generators.memory import too_large
-from gbnbench.generators.newton.modes import bound
-from gbnbench.generators.watch import Watch
-from gbnbench.settings import specification
-from gbnbench.torus import FloatArray, wrap
+from gbnbench.generators.gbn.protocol import Field
+from gbnbench.generators.monitor import Watch
 
 PAPER_ITERATIONS = 10_000  # what the paper recommends
 LEAST_CUTOFF = 0.5  # sigmas

@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from gbnbench.generators.gbn import cost, kernel
-from gbnbench.generators.gbn.field import Gradient
-from gbnbench.generators.gbn.modes import TILE, ball, ball_square
-from gbnbench.generators.gbn.pairs import CHUNK, Evaluation
+from gbnbench.core.torus import FloatArray
+from gbnbench.generators.gbn import kernel, operation_counts
+from gbnbench.generators.gbn.evaluation import CHUNK, Evaluation
+from gbnbench.generators.gbn.protocol import Gradient
+from gbnbench.generators.gbn.wave_tables import TILE, ball, ball_square
 from gbnbench.opencl import Runtime
-from gbnbench.torus import FloatArray
 
 FILES = ("/turns.cl", "gbn_harmonics.cl")
 LINE = 64  # bytes
@@ -44,7 +44,7 @@ class Harmonics(Evaluation):
     ) -> None:
         super().__init__(runtime, n, d, sigma, precision)
         self.edge = edge
-        self.error = cost.harmonics(n, d, self.sigma, precision, edge).error
+        self.error = operation_counts.harmonics(n, d, self.sigma, precision, edge).error
         # An odd number of cache lines: rows a power of two apart would drive each other out of the cache.
         line = 2 * self.lanes if self.lanes > 1 else LINE // self.bytes
         self.stride = (-(-n // line) | 1) * line

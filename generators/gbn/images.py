@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from gbnbench.generators.gbn import cost, kernel
-from gbnbench.generators.gbn.field import Gradient
-from gbnbench.generators.gbn.pairs import AllPairs, means
+from gbnbench.core.torus import FloatArray
+from gbnbench.generators.gbn import kernel, operation_counts
+from gbnbench.generators.gbn.evaluation import AllPairs, means
+from gbnbench.generators.gbn.protocol import Gradient
 from gbnbench.opencl import Runtime
-from gbnbench.torus import FloatArray
 
 
 class Images(AllPairs):
@@ -29,10 +29,10 @@ class Images(AllPairs):
         super().__init__(runtime, n, d, sigma, precision)
         self.side = side or self.side
         ratio = self.side / self.sigma
-        self.error = cost.images(n, d, self.sigma, precision, side).error
+        self.error = operation_counts.images(n, d, self.sigma, precision, side).error
         # What another torus would hold at a constant density has no meaning for these points.
         self._uniform = 0.0 if side else kernel.uniform_energy(d, self.sigma)
-        self.images = cost.images_needed(ratio, precision)
+        self.images = operation_counts.images_needed(ratio, precision)
         self._program = self.program("/exp2.cl", "gbn_images.cl", IMAGES=self.images)
         self._turn = 1.0 if self.double else 2.0**-32  # box sides that a unit of a position stands for
 

@@ -13,7 +13,7 @@ from decimal import Decimal, localcontext
 
 import numpy as np
 
-from gbnbench.torus import FloatArray
+from gbnbench.core.torus import FloatArray
 
 EPS = {"double": 2.0**-53, "float": 2.0**-24}  # largest relative error of one rounding
 PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494459230781640628620899862803")

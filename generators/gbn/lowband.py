@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft, sparse
 
-from gbnbench.torus import FloatArray
+from gbnbench.core.torus import FloatArray
 
 EDGE = 0.15  # in nu
 STEP = 0.75  # of the grid, in spacings: the cubic spline's aliases are 3e-4 of the band

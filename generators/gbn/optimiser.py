@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.generators.gbn.field import Field
+from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn.lowband import LowBand
-from gbnbench.torus import FloatArray
+from gbnbench.generators.gbn.protocol import Field
 
 PATIENCE = 20  # steps over which a rise of the excess energy halves the step
 PRECONDITION_ABOVE = 45  # spacings a side; below, 300 gradients bring the lowest modes down by themselves

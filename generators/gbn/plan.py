@@ -6,9 +6,9 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from gbnbench.errors import InputError, RefusalError
-from gbnbench.generators.gbn import cost, kernel
-from gbnbench.generators.gbn.cost import Cost
+from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.generators.gbn import kernel, operation_counts
+from gbnbench.generators.gbn.operation_counts import Cost
 
 TOLERATED = 5.0  # times the least error: image sums lose digits where images overlap
 METHODS = ("strips", "images", "theta", "harmonics")
@@ -73,10 +73,10 @@ class Plan:
         DeviceError
             If there is no device.
         """
-        from gbnbench.opencl.speed import peak
+        from gbnbench.opencl.peak_rate import peak
 
         found = which or self.chosen
-        launches = cost.LAUNCH * cost.LAUNCHES[found.method]
+        launches = operation_counts.LAUNCH * operation_counts.LAUNCHES[found.method]
         return (self.sets * (found.effort - launches) + launches) * 2 / peak(self.precision)
 
     def __str__(self) -> str:
@@ -130,10 +130,10 @@ def plan(
     """
     _check(n, d, sigma, precision, sets, cutoff, edge, method)
     makers: dict[str, Callable[[], Cost]] = {
-        "strips": lambda: cost.strips(n, d, sigma, precision, cutoff),
-        "images": lambda: cost.images(n, d, sigma, precision),
-        "theta": lambda: cost.theta(n, d, sigma, precision),
-        "harmonics": lambda: cost.harmonics(n, d, sigma, precision, edge),
+        "strips": lambda: operation_counts.strips(n, d, sigma, precision, cutoff),
+        "images": lambda: operation_counts.images(n, d, sigma, precision),
+        "theta": lambda: operation_counts.theta(n, d, sigma, precision),
+        "harmonics": lambda: operation_counts.harmonics(n, d, sigma, precision, edge),
     }
     only = "strips" if cutoff is not None else "harmonics" if edge is not None else None
     if only:

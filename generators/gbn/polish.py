@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from gbnbench.errors import RefusalError
-from gbnbench.generators.newton.reach import reach
-from gbnbench.torus import FloatArray
+from gbnbench.core.errors import RefusalError
+from gbnbench.core.torus import FloatArray
+from gbnbench.generators.gauss_newton.solver import reach
 
 WITH_ITS_END = 1e-9  # of the edge: shells that lie on it belong to the band
 

@@ -14,12 +14,12 @@ from itertools import combinations
 
 import numpy as np
 
-from gbnbench.errors import InputError
+from gbnbench.core.errors import InputError
+from gbnbench.core.torus import FloatArray
+from gbnbench.generators.gauss_newton.modes import bound
 from gbnbench.generators.gbn.energy import field
-from gbnbench.generators.gbn.field import Gradient
 from gbnbench.generators.gbn.optimiser import step_size
-from gbnbench.generators.newton.modes import bound
-from gbnbench.torus import FloatArray
+from gbnbench.generators.gbn.protocol import Gradient
 
 Subset = tuple[int, ...]
 EVACUATED = 0.72  # nu below which a set of the whole energy has next to no power

@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import chi2
 
-from gbnbench.generators.gbn import cost
-from gbnbench.generators.gbn.field import Gradient
+from gbnbench.core.torus import FloatArray
+from gbnbench.generators.gbn import operation_counts
+from gbnbench.generators.gbn.protocol import Gradient
 from gbnbench.opencl import Runtime
-from gbnbench.torus import FloatArray
 
 WIDTH = {"double": 1.8, "float": 2.5}  # of a strip, in spacings
 CELL = 0.5  # length, in spacings
@@ -43,7 +43,7 @@ class Strips:
     Raises
     ------
     RefusalError
-        If d is beyond 3 or the box too narrow, as ``cost.strips`` says.
+        If d is beyond 3 or the box too narrow, as ``operation_counts.strips`` says.
 
     Notes
     -----
@@ -64,9 +64,9 @@ class Strips:
         side: float | None = None,
     ) -> None:
         self.side = side or n ** (1 / d)
-        reach = (cutoff or cost.CUTOFF[precision]) * sigma
+        reach = (cutoff or operation_counts.CUTOFF[precision]) * sigma
         self.n, self.d, self.sigma = n, d, sigma
-        self.error = cost.strips(n, d, sigma, precision, cutoff, side).error
+        self.error = operation_counts.strips(n, d, sigma, precision, cutoff, side).error
         self._runtime = runtime
         self._double = precision == "double"
         self._real: type[np.floating[Any]] = np.float64 if self._double else np.float32

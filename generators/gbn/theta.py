@@ -6,11 +6,11 @@ import math
 
 import numpy as np
 
-from gbnbench.generators.gbn import cost, kernel
-from gbnbench.generators.gbn.field import Gradient
-from gbnbench.generators.gbn.pairs import AllPairs, means
+from gbnbench.core.torus import FloatArray
+from gbnbench.generators.gbn import kernel, operation_counts
+from gbnbench.generators.gbn.evaluation import AllPairs, means
+from gbnbench.generators.gbn.protocol import Gradient
 from gbnbench.opencl import Runtime
-from gbnbench.torus import FloatArray
 
 
 class Theta(AllPairs):
@@ -26,7 +26,7 @@ class Theta(AllPairs):
 
     def __init__(self, runtime: Runtime, n: int, d: int, sigma: float, precision: str) -> None:
         super().__init__(runtime, n, d, sigma, precision)
-        self.error = cost.theta(n, d, self.sigma, precision).error
+        self.error = operation_counts.theta(n, d, self.sigma, precision).error
         self.degree = kernel.degree(self.side, sigma, precision)
         self._unit = kernel.unit(self.side, sigma, d, precision)
         flat = self._unit != 1

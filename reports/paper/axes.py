@@ -10,9 +10,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import ArrayLike
 
+from gbnbench.core.torus import FloatArray
 from gbnbench.reports import style
-from gbnbench.reports.paper import common
-from gbnbench.torus import FloatArray
+from gbnbench.reports.paper import shared
 
 DOTTED: dict[str, Any] = {"color": style.FAINT, "linestyle": (0, (1, 1.6)), "linewidth": 0.9, "zorder": 1.5}
 
@@ -24,9 +24,9 @@ def family(count: int) -> list[str]:
 
 def loglog(ax: Axes, low: float, nu: tuple[float, float], high: float = 30.0) -> None:
     """Make log-log axes of radial power against nu, with white noise's line."""
-    common.white(ax)
-    common.log_nu(ax, *nu)
-    common.log_power(ax, low, high)
+    shared.white(ax)
+    shared.log_nu(ax, *nu)
+    shared.log_power(ax, low, high)
     ax.set_xlabel(r"$\nu=|f|\,n^{-1/d}$")
 
 

@@ -11,13 +11,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import SubFigure
 from matplotlib.ticker import LogLocator, NullLocator
 
-from gbnbench.generators.deep import Deep
-from gbnbench.material import Comparison, Request, Study
-from gbnbench.reports import integration, style
+from gbnbench.generators.spectral_control.deep import Deep
+from gbnbench.reports import style
+from gbnbench.reports.integration import variance
 from gbnbench.reports.numbers import number
-from gbnbench.reports.paper import axes, common
-from gbnbench.reports.paper.common import Column
+from gbnbench.reports.paper import axes, shared
+from gbnbench.reports.paper.data import Comparison, Request, Study
 from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
+from gbnbench.reports.paper.shared import Column
 
 GRADIENTS = (100, 320, 1000, 3000)  # of Gaussian Blue Noise; 320 are the default
 STEEPNESS = (39.5, 59.2, 79.0)  # of the deep profile: 4, 6 and 8 pi^2; 10 pi^2 is the default
@@ -43,7 +44,7 @@ def _deep(ask: Ask) -> list[str]:
 
 def needs(ask: Ask) -> Mapping[str, Request]:
     """Ask for sets along both paths to depth, and for a study of integration."""
-    n, gradients = common.size(ask), _gradients(ask)
+    n, gradients = shared.size(ask), _gradients(ask)
     longest, others = gradients[-1], gradients[:-1]
     sources = (*map(_gbn, others), *_deep(ask))
     few = ask.pick(2, 8, 1000)  # the longest runs are those of figure 1
@@ -55,19 +56,19 @@ def needs(ask: Ask) -> Mapping[str, Request]:
             (BESIDE, _gbn(gradients[1]), "deep"), sizes, (2,), ask.pick(2, 8, 100), (FAMILY,),
             ask.pick(2, 20, 100),
         ),
-        **common.given(ask, ask.sets),
+        **shared.given(ask, ask.sets),
     }  # fmt: skip
 
 
 def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
     """Draw spectra and integration above, order against the noise floor below."""
-    n, gradients = common.size(ask), _gradients(ask)
+    n, gradients = shared.size(ask), _gradients(ask)
     gbn = [
-        common.made(material["long" if k == gradients[-1] else "sets"], _gbn(k), n, f"GBN, {k:,}")
+        shared.made(material["long" if k == gradients[-1] else "sets"], _gbn(k), n, f"GBN, {k:,}")
         for k in gradients
     ]
-    deep = [common.made(material["sets"], text, n) for text in _deep(ask)]
-    theirs = common.yours(material, ask.sets, n)
+    deep = [shared.made(material["sets"], text, n) for text in _deep(ask)]
+    theirs = shared.yours(material, ask.sets, n)
     table = material["study"].variance
 
     def paint(panel: SubFigure) -> None:
@@ -77,46 +78,46 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
         _integration(variance, table)
         for ax, letter, name in zip(bottom.subplots(1, 3), "cde", ORDER, strict=True):
             _order(ax, name, gbn, deep, theirs)
-            common.heading(ax, letter, f"{ORDER[name]} against depth")
+            shared.heading(ax, letter, f"{ORDER[name]} against depth")
 
     return Drawing(PAGE, 4.6, paint, _caption(gbn, deep, theirs, table, ask))
 
 
 def _spectra(ax: Axes, gbn: Mapping[int, Column], deep: Column, theirs: Sequence[Column]) -> None:
-    colour = common.stroke("gbn").colour
+    colour = shared.stroke("gbn").colour
     radials = [deep.source.radial]
     for gradients, one in gbn.items():
         if len(gbn) > 3 and gradients not in SHOWN:
             continue
         dash = SHOWN.get(gradients, style.DASHES[0])
-        common.curve(ax, one.source.radial, style.Stroke(colour, dash), one.title, linewidth=0.8)
+        shared.curve(ax, one.source.radial, style.Stroke(colour, dash), one.title, linewidth=0.8)
         radials.append(one.source.radial)
-    common.curve(ax, deep.source.radial, deep.stroke, deep.title, linewidth=0.9)
+    shared.curve(ax, deep.source.radial, deep.stroke, deep.title, linewidth=0.9)
     for one in theirs:
-        common.curve(ax, one.source.radial, one.stroke, one.title, linewidth=0.8)
+        shared.curve(ax, one.source.radial, one.stroke, one.title, linewidth=0.8)
         radials.append(one.source.radial)
     target, edge = Deep().profile(2)
     nu = np.geomspace(deep.source.radial.nu[0], edge, 200)
     ax.plot(nu, target(nu), color=deep.stroke.colour, linewidth=2.6, alpha=0.22, zorder=1.5)
-    axes.loglog(ax, common.lowest(radials) / 3, (float(nu[0]) * 0.95, 2.05))
+    axes.loglog(ax, shared.lowest(radials) / 3, (float(nu[0]) * 0.95, 2.05))
     ax.set_ylabel("radial power")
     ax.legend(loc="lower right", fontsize=6.5, handlelength=2.4, borderaxespad=0.2, labelspacing=0.3)
-    common.heading(ax, "a", "radial power")
+    shared.heading(ax, "a", "radial power")
 
 
 def _integration(ax: Axes, table: Any) -> None:
-    given = {label: common.stroke(label.partition("[")[0]) for label in table["source"].unique()}
-    integration.panel(ax, table, given)
+    given = {label: shared.stroke(label.partition("[")[0]) for label in table["source"].unique()}
+    variance.panel(ax, table, given)
     ax.set_xlabel("points n")
     ax.set_ylabel("variance of the integral")
     for label, line in given.items():
         rows = table[table["source"] == label].sort_values("n")
         ax.annotate(
-            common.title_of(label), (float(rows["n"].iloc[-1]), float(rows["variance"].iloc[-1])),
+            shared.title_of(label), (float(rows["n"].iloc[-1]), float(rows["variance"].iloc[-1])),
             xytext=(-6, -3) if label == "deep" else (-4, 6), textcoords="offset points", ha="right",
             size=6.5, color=line.colour,
         )  # fmt: skip
-    common.heading(ax, "b", "integration, 64 Gaussians")
+    shared.heading(ax, "b", "integration, 64 Gaussians")
 
 
 def _order(
@@ -124,7 +125,7 @@ def _order(
 ) -> None:
     """One measure of order against the noise floor, deeper to the right."""
     paths = [
-        (gbn, common.stroke("gbn"), "o"), (deep, common.stroke("deep"), "D"),
+        (gbn, shared.stroke("gbn"), "o"), (deep, shared.stroke("deep"), "D"),
         *(([one], one.stroke, "s") for one in theirs),
     ]  # fmt: skip
     for path, line, marker in paths:
@@ -178,7 +179,7 @@ def _caption(
         if steep
         else ""
     )
-    given = f" Also {common.listed([one.title for one in theirs])}, of given files." if theirs else ""
+    given = f" Also {shared.listed([one.title for one in theirs])}, of given files." if theirs else ""
     return (
         "Depth against order. Gaussian Blue Noise (GBN) becomes deeper by longer optimisation (gradients "
         "of Nesterov's method in the labels; 320 do the work of the paper's 10,000 steps) and more ordered "
@@ -193,7 +194,7 @@ def _caption(
         f"{longest.title.partition(', ')[2]} gradients GBN's floor goes from {of(usual, 'noise_floor')} to "
         f"{of(longest, 'noise_floor')}, its v6 from {of(usual, 'valence6')} to {of(longest, 'valence6')}; "
         f"deep has {of(last, 'noise_floor')} and {of(last, 'valence6')}. "
-        f"{common.counted([*gbn, *deep])[0].upper()}{common.counted([*gbn, *deep])[1:]}; d = 2.{given}"
+        f"{shared.counted([*gbn, *deep])[0].upper()}{shared.counted([*gbn, *deep])[1:]}; d = 2.{given}"
     )
 
 

@@ -10,8 +10,8 @@ from typing import Any, Literal
 
 from matplotlib.figure import Figure, SubFigure
 
-from gbnbench.material import Request
 from gbnbench.reports import style
+from gbnbench.reports.paper.data import Request
 
 Scale = Literal["tiny", "quick", "full"]  # tiny is for tests
 COLUMN, PAGE = 3.33, 7.0  # inches: one column of the journal, and both

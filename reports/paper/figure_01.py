@@ -10,13 +10,14 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import SubFigure
 
-from gbnbench.analysis.profile import exponential_fit, powerlaw_fit
-from gbnbench.material import Comparison, Request
-from gbnbench.reports import spectrum, style
-from gbnbench.reports.paper import common
-from gbnbench.reports.paper.common import Column
+from gbnbench.analysis.radial.profile import exponential_fit, powerlaw_fit
+from gbnbench.core.results import RadialPower
+from gbnbench.reports import style
+from gbnbench.reports.comparison import spectrum
+from gbnbench.reports.paper import shared
+from gbnbench.reports.paper.data import Comparison, Request
 from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
-from gbnbench.results import RadialPower
+from gbnbench.reports.paper.shared import Column
 
 PAPER = ("bnot", "kdm", "vnc", "bluenets")
 BEFORE_FPO = ("bnot", "kdm", "vnc")
@@ -36,45 +37,45 @@ def _large(ask: Ask) -> int:
 
 def _long_n(ask: Ask) -> int:
     """Points of the long runs in the plot: as many as in the gallery unless the paper's counts are asked."""
-    n: int = _large(ask) if ask.scale == "full" else common.size(ask)
+    n: int = _large(ask) if ask.scale == "full" else shared.size(ask)
     return n
 
 
 def needs(ask: Ask) -> Mapping[str, Request]:
     """Ask for sets for the gallery and larger ones for the plot."""
     return {
-        "classic": common.classic(ask),
-        "long": Comparison((_long(ask)[0],), (common.size(ask),), (2,), ask.pick(2, 8, 1000)),
+        "classic": shared.classic(ask),
+        "long": Comparison((_long(ask)[0],), (shared.size(ask),), (2,), ask.pick(2, 8, 1000)),
         "large": Comparison(("jittered", "sobol", "fpo", "gbn"), (_large(ask),), (2,), ask.pick(2, 8, 1000)),
         **(
             {"large-long": Comparison((_long(ask)[0],), (_long_n(ask),), (2,), 1000)}
-            if _long_n(ask) != common.size(ask)
+            if _long_n(ask) != shared.size(ask)
             else {}
         ),
-        **common.given(ask, common.shown_methods(ask, PAPER)),
+        **shared.given(ask, shared.shown_methods(ask, PAPER)),
     }
 
 
 def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
     """Points, spectrum and its middle, a column a method; beside or below them the radial power."""
-    n, text, long_n = common.size(ask), _long(ask)[0], _long_n(ask)
-    methods = common.shown_methods(ask, PAPER)
+    n, text, long_n = shared.size(ask), _long(ask)[0], _long_n(ask)
+    methods = shared.shown_methods(ask, PAPER)
     early, late = (
-        common.yours(material, [m for m in methods if (m in BEFORE_FPO) is first], n)
+        shared.yours(material, [m for m in methods if (m in BEFORE_FPO) is first], n)
         for first in (True, False)
     )
-    long = common.made(material["long"], text, n, "GBN, 1M")
+    long = shared.made(material["long"], text, n, "GBN, 1M")
     gallery = [
         *early,
-        common.made(material["classic"], "fpo", n),
+        shared.made(material["classic"], "fpo", n),
         *late,
-        common.made(material["classic"], "gbn", n),
+        shared.made(material["classic"], "gbn", n),
         long,
     ]
     strata, sobol, fpo, gbn = (
-        common.made(material["large"], name, _large(ask)) for name in ("jittered", "sobol", "fpo", "gbn")
+        shared.made(material["large"], name, _large(ask)) for name in ("jittered", "sobol", "fpo", "gbn")
     )
-    longest = common.made(material.get("large-long", material["long"]), text, long_n, "GBN, 1M")
+    longest = shared.made(material.get("large-long", material["long"]), text, long_n, "GBN, 1M")
     lines = [sobol, strata, *early, fpo, *late, gbn, longest]
     beside = len(gallery) <= NARROW
     wide = 1.12 if beside else min(1.5, (PAGE - 0.5) / len(gallery) - 0.04)
@@ -96,33 +97,33 @@ def _pictures(panel: SubFigure, gallery: Sequence[Column], wide: float) -> None:
     axes = panel.subplots(3, len(gallery), squeeze=False)
     for k, one in enumerate(gallery):
         points, grey, close = axes[:, k]
-        common.scatter(points, one.source, wide)
-        common.heading(points, "abcdefghijklmnop"[k], one.title)
+        shared.scatter(points, one.source, wide)
+        shared.heading(points, "abcdefghijklmnop"[k], one.title)
         spectrum.panel(grey, one.source, None, ticks=False)
-        common.power_map(close, one.source, CLOSE)
-    common.power_bar(list(axes[2]), location="bottom", shrink=0.9)
+        shared.power_map(close, one.source, CLOSE)
+    shared.power_bar(list(axes[2]), location="bottom", shrink=0.9)
 
 
 def _plot(ax: Axes, lines: Sequence[Column], letter: str) -> None:
     low = min(one.source.radial.nu[0] for one in lines)
-    common.white(ax)
+    shared.white(ax)
     for k, one in enumerate(lines):
         many = len(one.source.radial.nu) > 2000
         thin = {"linewidth": 0.4, "alpha": 0.7} if one is lines[0] else {"linewidth": 0.7 if many else 0.9}
-        common.curve(ax, one.source.radial, one.stroke, one.title, zorder=2 + 0.1 * k, **thin)
+        shared.curve(ax, one.source.radial, one.stroke, one.title, zorder=2 + 0.1 * k, **thin)
     named = {one.source.label: one for one in lines}
-    if theirs := [one for one in lines if one.title == common.NAMES["bnot"]]:
+    if theirs := [one for one in lines if one.title == shared.NAMES["bnot"]]:
         _between(ax, theirs[0].source.radial, named["gbn"].source.radial)
     nu = np.geomspace(low, 0.35, 50)
     ax.plot(nu, math.pi**2 / 3 * nu**2, ":", color=style.INK, linewidth=0.9, zorder=4)
     epsilon = named["gbn"].source.measures["profile_epsilon"]
     nu = np.geomspace(low, 0.72, 200)
     ax.plot(nu, epsilon * np.exp(4 * math.pi**2 * nu**2), ":", color=style.INK, linewidth=0.9, zorder=4)
-    common.log_nu(ax, 0.95 * low)
-    common.log_power(ax, common.lowest(one.source.radial for one in lines), 30, ticks=9)
+    shared.log_nu(ax, 0.95 * low)
+    shared.log_power(ax, shared.lowest(one.source.radial for one in lines), 30, ticks=9)
     ax.set_ylabel("radial power")
     ax.legend(loc="lower right", fontsize=6.8, handlelength=2.0, borderaxespad=0.2, labelspacing=0.3)
-    common.heading(ax, letter, "radial power")
+    shared.heading(ax, letter, "radial power")
 
 
 def _between(ax: Axes, above: RadialPower, below: RadialPower) -> None:
@@ -143,14 +144,14 @@ def _between(ax: Axes, above: RadialPower, below: RadialPower) -> None:
 
 def _caption(gallery: Sequence[Column], lines: Sequence[Column], ask: Ask) -> str:
     gradients = _long(ask)[1]
-    bnot = any(one.title == common.NAMES["bnot"] for one in lines)
+    bnot = any(one.title == shared.NAMES["bnot"] for one in lines)
     shaded = " Shaded: what GBN gains over BNOT." if bnot else ""
     fits = ", ".join(
         f"{exponential_fit(one.source.radial).residual_db:.1f} and "
         f"{powerlaw_fit(one.source.radial).residual_db:.1f} ({one.title})"
         for one in lines
     )
-    floors = ", ".join(f"{common.rounded(one.source.measures['noise_floor'])} ({one.title})" for one in lines)
+    floors = ", ".join(f"{shared.rounded(one.source.measures['noise_floor'])} ({one.title})" for one in lines)
     return (
         "Blue noise of different methods. Top: a set; middle: the mean spectrum in PSA's grey, white from a "
         f"power of 16; below: log10 of its middle, up to a nu of {CLOSE:g}: in grey all are dark there, and "
@@ -160,7 +161,7 @@ def _caption(gallery: Sequence[Column], lines: Sequence[Column], ask: Ask) -> st
         f"Residuals in dB of the exponential and of the power law fitted to each: {fits}. GBN took 320 "
         "gradients of Nesterov's method, the work of the paper's 10,000 steps of descent; GBN, 1M, takes "
         f"{gradients:,} in place of its million steps (k gradients do the work of about k^2/9). Pictures: "
-        f"{common.counted(gallery)}; plot: {common.counted(lines)}; d = 2. {common.absent(ask, PAPER)}"
+        f"{shared.counted(gallery)}; plot: {shared.counted(lines)}; d = 2. {shared.absent(ask, PAPER)}"
     ).rstrip()
 
 

@@ -7,9 +7,10 @@ from typing import Any
 
 from matplotlib.figure import SubFigure
 
-from gbnbench.material import Comparison, Request
-from gbnbench.reports import spectrum, style
-from gbnbench.reports.paper import common
+from gbnbench.reports import style
+from gbnbench.reports.comparison import spectrum
+from gbnbench.reports.paper import shared
+from gbnbench.reports.paper.data import Comparison, Request
 from gbnbench.reports.paper.figure import COLUMN, Ask, Drawing, PaperFigure
 
 NARROW = "gbn[sigma=0.5,iterations=30]"
@@ -23,38 +24,38 @@ def _wide(ask: Ask) -> tuple[str, int]:
 def needs(ask: Ask) -> Mapping[str, Request]:
     """Both settings, many sets each."""
     count = ask.pick(2, 32, 1000)
-    return {"sets": Comparison((NARROW, _wide(ask)[0]), (common.size(ask),), (2,), count)}
+    return {"sets": Comparison((NARROW, _wide(ask)[0]), (shared.size(ask),), (2,), count)}
 
 
 def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
     """Points over spectra, and both radial powers in one plot."""
     text, gradients = _wide(ask)
-    run, n = material["sets"], common.size(ask)
-    narrow = common.made(run, NARROW, n, "σ = 0.5, 30 steps")
-    wide = common.made(run, text, n, f"σ = 1.1, {gradients:,} gradients")
+    run, n = material["sets"], shared.size(ask)
+    narrow = shared.made(run, NARROW, n, "σ = 0.5, 30 steps")
+    wide = shared.made(run, text, n, f"σ = 1.1, {gradients:,} gradients")
     both = (narrow, wide)
-    strokes = (style.Stroke(style.FAINT, "-"), common.stroke("gbn"))
-    low = common.lowest(one.source.radial for one in both)
+    strokes = (style.Stroke(style.FAINT, "-"), shared.stroke("gbn"))
+    low = shared.lowest(one.source.radial for one in both)
 
     def paint(panel: SubFigure) -> None:
         pictures, plot = panel.subfigures(2, 1, squeeze=False, height_ratios=[2.15, 1])[:, 0]
         for k, (above, below, one) in enumerate(zip(*pictures.subplots(2, 2), both, strict=True)):
-            common.scatter(above, one.source, 1.6)
-            common.heading(above, "ab"[k], one.title)
+            shared.scatter(above, one.source, 1.6)
+            shared.heading(above, "ab"[k], one.title)
             spectrum.panel(below, one.source, None, ticks=False)
         ax = plot.subplots()
-        common.white(ax)
+        shared.white(ax)
         for one, line, lift in zip(both, strokes, (4.0, 12.0), strict=True):
             radial = one.source.radial
-            common.curve(ax, radial, line)
+            shared.curve(ax, radial, line)
             spot = int((radial.nu < 0.12).sum()) - 1 if line is strokes[0] else 0
             ax.text(
                 radial.nu[spot], lift * radial.power[spot], one.title, size=7, color=line.colour, va="bottom"
             )
-        common.log_nu(ax, 0.97 * n**-0.5)
-        common.log_power(ax, low, 30)
+        shared.log_nu(ax, 0.97 * n**-0.5)
+        shared.log_power(ax, low, 30)
         ax.set_ylabel("radial power")
-        common.heading(ax, "c", "radial power")
+        shared.heading(ax, "c", "radial power")
 
     floor = {one.title: one.source.measures["noise_floor"] for one in both}
     near = [one.source.measures["mean_distance"] for one in both]
@@ -64,8 +65,8 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
         "Top: a set; middle: the mean spectrum in PSA's grey, white from a power of 16, both dark in the "
         "middle to the eye; (c) radial power on exact shells with white noise at 1. The mean distance to the "
         f"nearest neighbour is {near[0]:.2f} and {near[1]:.2f} of the densest packing's, but the noise floor "
-        f"(mean power up to a nu of 0.25) {common.rounded(floor[narrow.title])} and "
-        f"{common.rounded(floor[wide.title])}. {common.counted(both)} each, d = 2. The paper's (b) took a "
+        f"(mean power up to a nu of 0.25) {shared.rounded(floor[narrow.title])} and "
+        f"{shared.rounded(floor[wide.title])}. {shared.counted(both)} each, d = 2. The paper's (b) took a "
         f"million steps of descent; k gradients of Nesterov's method do the work of about k^2/9 such steps, "
         f"{gradients:,} of {gradients**2 // 9:,}."
     )

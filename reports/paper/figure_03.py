@@ -11,17 +11,17 @@ from matplotlib.axes import Axes
 from matplotlib.figure import SubFigure
 from numpy.typing import NDArray
 
-from gbnbench.analysis.profile import peak
-from gbnbench.analysis.shell_spectrum import shells
+from gbnbench.analysis.radial.profile import peak
+from gbnbench.analysis.spectrum.shell_spectrum import shells
+from gbnbench.core.results import RadialPower
+from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.generators.registry import find
-from gbnbench.material import Comparison, Request, Tables
 from gbnbench.reports.numbers import number
-from gbnbench.reports.paper import axes, common
+from gbnbench.reports.paper import axes, shared
+from gbnbench.reports.paper.data import Comparison, Request, Tables
 from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
-from gbnbench.results import RadialPower
-from gbnbench.run import Run, SourceResult
-from gbnbench.torus import FloatArray
+from gbnbench.runs.comparison_result import Run, SourceResult
 
 SIGMAS = (0.5, 0.7, 0.85, 1.0, 1.25, 1.5)
 DIMENSIONS = (2, 3, 4, 5, 6, 7, 8)
@@ -114,7 +114,7 @@ def _sigmas(ax: Axes, by_sigma: Mapping[float, SourceResult]) -> None:
         c = 4 * math.pi**2 * sigma**2
         axes.profile(ax, level(nu, power, c), c, nu)
     axes.loglog(ax, lowest / 4, (float(nu[0]) * 0.93, 2.1))
-    common.heading(ax, "a", r"kernel width $\sigma$, $d = 2$")
+    shared.heading(ax, "a", r"kernel width $\sigma$, $d = 2$")
     ax.set_ylabel("radial power")
     ax.legend(title=r"$\sigma$", fontsize=6.5, title_fontsize=7, loc="lower right", handlelength=1.6,
               labelspacing=0.25)  # fmt: skip
@@ -133,7 +133,7 @@ def _dimensions(ax: Axes, by_dimension: Mapping[int, RadialPower]) -> None:
     nu, power = by_dimension[2].nu, by_dimension[2].power
     axes.profile(ax, level(nu, power, 4 * math.pi**2), 4 * math.pi**2, nu)
     axes.loglog(ax, lowest / 4, (float(nu[0]) * 0.93, 2.1))
-    common.heading(ax, "b", r"dimension $d$, $\sigma = 1$")
+    shared.heading(ax, "b", r"dimension $d$, $\sigma = 1$")
     ax.legend(title="$d$", fontsize=6.5, title_fontsize=7, loc="lower right", handlelength=1.6,
               labelspacing=0.25)  # fmt: skip
 

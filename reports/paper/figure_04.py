@@ -11,13 +11,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import SubFigure
 from matplotlib.ticker import LogLocator, NullLocator
 
-from gbnbench.generators.gbn.energy_profile import truncated_transform
-from gbnbench.material import Request, Tables
+from gbnbench.core.torus import FloatArray
+from gbnbench.generators.gbn.kernel_profile import truncated_transform
 from gbnbench.reports import style
 from gbnbench.reports.numbers import number
-from gbnbench.reports.paper import common
+from gbnbench.reports.paper import shared
+from gbnbench.reports.paper.data import Request, Tables
 from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
-from gbnbench.torus import FloatArray
 
 CUTOFFS = {"whole": math.inf, "2": 2.0, "1": 1.0}  # sigmas
 LABELS = {"whole": "whole", "2": r"cut at $2\sigma$", "1": r"cut at $1\sigma$"}
@@ -64,7 +64,7 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:  # noqa: ARG001 - as
         for ax, letter, title in zip(
             axes, "abc", ("kernel", "its transform", "its transform, logarithmic"), strict=True
         ):
-            common.heading(ax, letter, title)
+            shared.heading(ax, letter, title)
             ax.set_xlabel(r"$x/\sigma$" if letter == "a" else r"frequency, cycles per $\sigma$")
         axes[0].set_ylim(0, 1.4)
         axes[0].set_yticks([0, 0.5, 1])

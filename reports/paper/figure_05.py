@@ -9,9 +9,10 @@ from matplotlib import colormaps
 from matplotlib.colors import to_hex
 from matplotlib.figure import SubFigure
 
-from gbnbench.material import Comparison, Request
-from gbnbench.reports import spectrum, style
-from gbnbench.reports.paper import common
+from gbnbench.reports import style
+from gbnbench.reports.comparison import spectrum
+from gbnbench.reports.paper import shared
+from gbnbench.reports.paper.data import Comparison, Request
 from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
 
 CUTOFFS = (1, 2, 3, 4)  # sigmas
@@ -20,7 +21,7 @@ STROKES = (
         style.Stroke(to_hex(colormaps["viridis"](0.85 - 0.2 * k)), style.DASHES[0])
         for k in range(len(CUTOFFS))
     ),
-    common.stroke("gbn"),
+    shared.stroke("gbn"),
 )
 
 
@@ -28,47 +29,47 @@ def needs(ask: Ask) -> Mapping[str, Request]:
     """One setting for each cut-off, the whole kernel, and centroidal tessellations."""
     cut = tuple(f"gbn[cutoff={cutoff}]" for cutoff in CUTOFFS)
     return {
-        "cut": Comparison(cut, (common.size(ask),), (2,), common.sets(ask)),
-        "whole": common.classic(ask),
-        "cvt": common.relaxed(ask),
+        "cut": Comparison(cut, (shared.size(ask),), (2,), shared.sets(ask)),
+        "whole": shared.classic(ask),
+        "cvt": shared.relaxed(ask),
     }
 
 
 def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
     """Points, spectrum and radial power, a column each."""
-    n = common.size(ask)
+    n = shared.size(ask)
     columns = [
-        common.made(material["cvt"], "lloyd", n, "CVT"),
+        shared.made(material["cvt"], "lloyd", n, "CVT"),
         *(
-            common.made(material["cut"], f"gbn[cutoff={cutoff}]", n, f"cut at {cutoff}σ")
+            shared.made(material["cut"], f"gbn[cutoff={cutoff}]", n, f"cut at {cutoff}σ")
             for cutoff in CUTOFFS
         ),
-        common.made(material["whole"], "gbn", n, "whole"),
+        shared.made(material["whole"], "gbn", n, "whole"),
     ]
     strokes = [columns[0].stroke, *STROKES]
-    low = common.lowest(one.source.radial for one in columns)
+    low = shared.lowest(one.source.radial for one in columns)
 
     def paint(panel: SubFigure) -> None:
         axes = panel.subplots(3, len(columns), height_ratios=[1, 1, 1.05])
         for k, (one, line) in enumerate(zip(columns, strokes, strict=True)):
             points, grey, power = axes[:, k]
-            common.scatter(points, one.source, 1.05)
-            common.heading(points, "abcdef"[k], one.title)
+            shared.scatter(points, one.source, 1.05)
+            shared.heading(points, "abcdef"[k], one.title)
             spectrum.panel(grey, one.source, None, ticks=False)
-            common.white(power)
-            common.curve(power, columns[-1].source.radial, style.Stroke("#c4cad3", "-"), linewidth=1.6)
-            common.curve(power, one.source.radial, line)
-            common.log_nu(power, 0.97 * n**-0.5, marks=(0.05, 0.2, 1))
-            common.log_power(power, low, 100)
+            shared.white(power)
+            shared.curve(power, columns[-1].source.radial, style.Stroke("#c4cad3", "-"), linewidth=1.6)
+            shared.curve(power, one.source.radial, line)
+            shared.log_nu(power, 0.97 * n**-0.5, marks=(0.05, 0.2, 1))
+            shared.log_power(power, low, 100)
             power.tick_params(labelleft=k == 0)
         axes[2, 0].set_ylabel("radial power")
 
-    floors = [f"{common.rounded(one.source.measures['noise_floor'])} ({one.title})" for one in columns]
+    floors = [f"{shared.rounded(one.source.measures['noise_floor'])} ({one.title})" for one in columns]
     six = [one.source.measures["valence6"] for one in columns]
     near = [one.source.measures["mean_distance"] for one in columns]
     caption = (
         "What cutting the kernel off in space does: Gaussian Blue Noise of sigma = 1 whose points see each "
-        f"other within {common.listed([str(c) for c in CUTOFFS])} sigma alone, and without end, after the "
+        f"other within {shared.listed([str(c) for c in CUTOFFS])} sigma alone, and without end, after the "
         "same number of gradients; (a) centroidal Voronoi tessellations by Lloyd's method, beside 1 sigma. "
         "Top: a set; middle: the mean spectrum in PSA's grey; bottom: radial power on exact shells, the "
         f"whole kernel's repeated in grey. Noise floors: {', '.join(floors)}. With 1 sigma "
@@ -76,7 +77,7 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
         f"{100 * six[-1]:.0f}% with the whole kernel). With 2 and 3 sigma points pair up and clump, as the "
         "negative lobes of the cut kernel's transform ask: the mean distance to the nearest neighbour is "
         f"{near[2]:.2f} and {near[3]:.2f} of the densest packing's, beside {near[-1]:.2f}. "
-        f"{common.counted(columns)} each, d = 2. The paper took 10,000 steps of descent; 320 gradients of "
+        f"{shared.counted(columns)} each, d = 2. The paper took 10,000 steps of descent; 320 gradients of "
         "Nesterov's method do the work of about as many."
     )
     return Drawing(PAGE, 3.75, paint, caption)

@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import SubFigure
 
-from gbnbench.generators.gbn.energy_profile import energy_profile
-from gbnbench.material import Request, Tables
+from gbnbench.core.torus import FloatArray
+from gbnbench.generators.gbn.kernel_profile import energy_profile
 from gbnbench.reports.numbers import number
 from gbnbench.reports.paper.axes import family
+from gbnbench.reports.paper.data import Request, Tables
 from gbnbench.reports.paper.figure import COLUMN, Ask, Drawing, PaperFigure
-from gbnbench.torus import FloatArray
 
 POINTS = (1, 2, 4, 8, 16, 32, 64)  # an axis
 SIGMA = 1.0

@@ -11,19 +11,19 @@ from matplotlib.axes import Axes
 from matplotlib.figure import SubFigure
 from matplotlib.ticker import LogLocator, NullLocator
 
-from gbnbench.analysis.profile import exponential_fit, noise_floor
-from gbnbench.analysis.shell_spectrum import shells
-from gbnbench.errors import RefusalError
+from gbnbench.analysis.radial.profile import exponential_fit, noise_floor
+from gbnbench.analysis.spectrum.shell_spectrum import shells
+from gbnbench.core.errors import RefusalError
+from gbnbench.core.results import RadialPower
+from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
+from gbnbench.generators.monitor import Trace, Watch
 from gbnbench.generators.protocol import realization_rng
-from gbnbench.generators.watch import Trace, Watch
-from gbnbench.material import Request, Tables
 from gbnbench.reports import style
 from gbnbench.reports.numbers import number
-from gbnbench.reports.paper import axes, common
+from gbnbench.reports.paper import axes, shared
+from gbnbench.reports.paper.data import Request, Tables
 from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
-from gbnbench.results import RadialPower
-from gbnbench.torus import FloatArray
 
 COUNTS = (1, 3, 10, 30, 100, 300, 1000, 3000, 10_000, 30_000, 100_000)
 KERNEL, VARIANCE = 1.0, math.sqrt(0.5)  # filters, in spacings: the energy's kernel, and Eq. 14's
@@ -97,12 +97,12 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
             raw, filtered, _ = grid[row]
             _raw(raw, found[method], counts[method], UNITS[method], colours)
             _filtered(filtered, found[method], colours)
-            common.heading(raw, letters[0], METHODS[method])
-            common.heading(filtered, letters[1], "the same, filtered")
+            shared.heading(raw, letters[0], METHODS[method])
+            shared.heading(filtered, letters[1], "the same, filtered")
         _progress(grid[0, 2], found, counts, colours, "excess")
         _progress(grid[1, 2], found, counts, colours, "floor")
-        common.heading(grid[0, 2], "e", "excess energy a point")
-        common.heading(grid[1, 2], "f", "noise floor")
+        shared.heading(grid[0, 2], "e", "excess energy a point")
+        shared.heading(grid[1, 2], "f", "noise floor")
 
     return Drawing(PAGE, 4.0, paint, _caption(found, counts, ask))
 

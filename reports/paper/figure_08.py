@@ -9,9 +9,9 @@ from matplotlib.figure import SubFigure
 from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, MaxNLocator
 
-from gbnbench.material import Comparison, Request
-from gbnbench.reports import spectrum, valence, zone_plate
-from gbnbench.reports.paper import common
+from gbnbench.reports.comparison import spectrum, valence, zone_plate
+from gbnbench.reports.paper import shared
+from gbnbench.reports.paper.data import Comparison, Request
 from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
 
 PAPER = ("bnot", "kdm", "vnc", "ccvt", "bluenets")
@@ -20,23 +20,23 @@ ROWS = ("points", "spectrum", "radial\npower", "zone plate", "valence")
 
 def needs(ask: Ask) -> Mapping[str, Request]:
     """Ask for generators that are commonly compared, and the user's sets."""
-    strata = Comparison(("jittered",), (common.size(ask),), (2,), common.sets(ask))
-    methods = common.shown_methods(ask, PAPER)
+    strata = Comparison(("jittered",), (shared.size(ask),), (2,), shared.sets(ask))
+    methods = shared.shown_methods(ask, PAPER)
     return {
-        "strata": strata, "relaxed": common.relaxed(ask), "classic": common.classic(ask),
-        **common.given(ask, methods),
+        "strata": strata, "relaxed": shared.relaxed(ask), "classic": shared.classic(ask),
+        **shared.given(ask, methods),
     }  # fmt: skip
 
 
 def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
     """Five rows: points, spectrum, radial power, zone plate and valence."""
-    n = common.size(ask)
+    n = shared.size(ask)
     columns = [
-        common.made(material["strata"], "jittered", n),
-        common.made(material["relaxed"], "lloyd", n),
-        *common.yours(material, common.shown_methods(ask, PAPER), n),
-        common.made(material["classic"], "fpo", n),
-        common.made(material["classic"], "gbn", n),
+        shared.made(material["strata"], "jittered", n),
+        shared.made(material["relaxed"], "lloyd", n),
+        *shared.yours(material, shared.shown_methods(ask, PAPER), n),
+        shared.made(material["classic"], "fpo", n),
+        shared.made(material["classic"], "gbn", n),
     ]
     top = 0.5 + max(float(one.source.radial.power.max()) for one in columns)
     wide = (PAGE - 0.35) / len(columns) - 0.06
@@ -45,11 +45,11 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
         axes = panel.subplots(5, len(columns), height_ratios=[1, 1, 0.62, 1, 1], squeeze=False)
         for k, one in enumerate(columns):
             points, grey, power, plate, cells = axes[:, k]
-            common.scatter(points, one.source, wide)
+            shared.scatter(points, one.source, wide)
             points.set_title(one.title, size=8, pad=3)
             spectrum.panel(grey, one.source, None, ticks=False)
-            common.white(power)
-            common.curve(power, one.source.radial, one.stroke)
+            shared.white(power)
+            shared.curve(power, one.source.radial, one.stroke)
             power.set(xlim=(0, 2), ylim=(0, top))
             power.xaxis.set_major_locator(FixedLocator([0, 1, 2]))
             power.yaxis.set_major_locator(MaxNLocator(4, integer=True))
@@ -73,7 +73,7 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
         )
 
     floors = ", ".join(
-        f"{common.rounded(one.source.measures['noise_floor'])} ({one.title})" for one in columns
+        f"{shared.rounded(one.source.measures['noise_floor'])} ({one.title})" for one in columns
     )
     caption = (
         "The classic measures of blue noise. From top to bottom: a set; the mean spectrum in PSA's grey, "
@@ -81,9 +81,9 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
         "plate sampled at the points; and the Voronoi cells by number of neighbours, the valence of the "
         f"Delaunay triangulation. Highest radial power: {each('peak', form='.1f')}. Points with six "
         f"neighbours, in percent: {each('valence6', 100, '.0f')}. Noise floor, mean power up to a nu of "
-        f"0.25: {floors}. {common.counted(columns)}, d = 2; GBN is at sigma = 1 with 320 gradients of "
+        f"0.25: {floors}. {shared.counted(columns)}, d = 2; GBN is at sigma = 1 with 320 gradients of "
         f"Nesterov's method, the work of the paper's 10,000 steps. "
-        + common.absent(ask, PAPER, "of the state of the art")
+        + shared.absent(ask, PAPER, "of the state of the art")
     ).rstrip()
     height = 0.88 + 4.62 * wide
     return Drawing(PAGE, height, paint, caption)

@@ -11,13 +11,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import SubFigure
 from matplotlib.lines import Line2D
 
-from gbnbench.analysis.integrands.registry import find
-from gbnbench.estimates import instances_of
-from gbnbench.material import Request, Study, Tables
-from gbnbench.pieces import Arrays
-from gbnbench.reports import integration
-from gbnbench.reports.paper.common import stroke, title_of
+from gbnbench.analysis.integration.integrands.registry import find
+from gbnbench.reports.integration import variance
+from gbnbench.reports.paper.data import Request, Study, Tables
 from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
+from gbnbench.reports.paper.shared import stroke, title_of
+from gbnbench.runs.resumable import Arrays
+from gbnbench.studies.integration.blocks import instances_of
 
 FAMILIES = ("gaussians", "half-space")
 TITLES = {"gaussians": "64 Gaussians", "half-space": "half spaces"}
@@ -76,7 +76,7 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
         for row, family in enumerate(FAMILIES):
             for column, d in enumerate(DIMENSIONS):
                 ax, table = axes[row, column], tables[d]
-                integration.panel(ax, table[table["integrand"] == family], given)
+                variance.panel(ax, table[table["integrand"] == family], given)
                 letter = "ab"[row]
                 ax.set_title(f"({letter}) {TITLES[family]}, {d}D", loc="left")
                 if row == len(FAMILIES) - 1:

@@ -9,11 +9,12 @@ from typing import Any
 from matplotlib.figure import SubFigure
 from matplotlib.ticker import FixedLocator, FuncFormatter
 
-from gbnbench.material import Comparison, Request
-from gbnbench.reports import spectrum, style
-from gbnbench.reports.paper import common
+from gbnbench.core.results import RadialPower
+from gbnbench.reports import style
+from gbnbench.reports.comparison import spectrum
+from gbnbench.reports.paper import shared
+from gbnbench.reports.paper.data import Comparison, Request
 from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
-from gbnbench.results import RadialPower
 
 EDGES = (0.5, 0.6, 0.7)  # nu: the paper's, and two wider ones; 320 gradients do not empty the last
 CLAIM = 1e-8  # the paper's low band is below
@@ -24,8 +25,8 @@ LOW, HIGH = 1e-32, 1e2
 def needs(ask: Ask) -> Mapping[str, Request]:
     """Ask for truncated energies, a band emptied by Gauss-Newton, and the user's sets of Heck's step."""
     sources = (*(f"gbn[edge={edge}]" for edge in EDGES), f"stealthy[edge={EDGES[-1]}]")
-    run = Comparison(sources, (common.size(ask),), (2,), common.sets(ask))
-    return {"sets": run, **common.given(ask, PAPER)}
+    run = Comparison(sources, (shared.size(ask),), (2,), shared.sets(ask))
+    return {"sets": run, **shared.given(ask, PAPER)}
 
 
 def band(radial: RadialPower, edge: float) -> float:
@@ -35,10 +36,10 @@ def band(radial: RadialPower, edge: float) -> float:
 
 def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
     """Points, spectrum and radial power in log scale, a column each."""
-    n = common.size(ask)
-    cut = [common.made(material["sets"], f"gbn[edge={e}]", n, f"harmonics to {e}") for e in EDGES]
-    newton = common.made(material["sets"], f"stealthy[edge={EDGES[-1]}]", n, f"stealthy to {EDGES[-1]}")
-    theirs = [replace(one, title="Step") for one in common.yours(material, PAPER, n)]
+    n = shared.size(ask)
+    cut = [shared.made(material["sets"], f"gbn[edge={e}]", n, f"harmonics to {e}") for e in EDGES]
+    newton = shared.made(material["sets"], f"stealthy[edge={EDGES[-1]}]", n, f"stealthy to {EDGES[-1]}")
+    theirs = [replace(one, title="Step") for one in shared.yours(material, PAPER, n)]
     columns, edges = [*cut, newton, *theirs], [*EDGES, EDGES[-1], None]
     wide = (PAGE - 0.4) / len(columns) - 0.1
 
@@ -46,42 +47,42 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
         axes = panel.subplots(3, len(columns), height_ratios=[1, 1, 0.85])
         for k, one in enumerate(columns):
             points, grey, power = axes[:, k]
-            common.scatter(points, one.source, wide)
-            common.heading(points, "abcde"[k], one.title)
+            shared.scatter(points, one.source, wide)
+            shared.heading(points, "abcde"[k], one.title)
             spectrum.panel(grey, one.source, None, ticks=False)
-            common.white(power)
+            shared.white(power)
             power.axhline(CLAIM, color=style.FAINT, linewidth=0.7, linestyle=(0, (3, 2)))
             if edges[k] is not None:
                 power.axvline(edges[k], color=style.FAINT, linewidth=0.7, linestyle=(0, (1, 1.5)))
-            common.curve(power, one.source.radial, common.stroke("gbn") if k < len(cut) else one.stroke)
-            power.set(xlim=(0, 2), xlabel=common.NU)
+            shared.curve(power, one.source.radial, shared.stroke("gbn") if k < len(cut) else one.stroke)
+            power.set(xlim=(0, 2), xlabel=shared.NU)
             power.xaxis.set_major_locator(FixedLocator([0, 0.5, 1, 1.5, 2]))
             power.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-            common.log_power(power, LOW, HIGH, ticks=5)
+            shared.log_power(power, LOW, HIGH, ticks=5)
             power.tick_params(labelleft=k == 0)
         axes[2, 0].set_ylabel("radial power")
 
     most = [
-        common.rounded(band(one.source.radial, edge))
+        shared.rounded(band(one.source.radial, edge))
         for one, edge in zip(columns, edges, strict=False)
         if edge is not None
     ]
     caption = (
         "Step blue noise. (a to c) The energy truncated to the frequencies up to nu = "
-        f"{common.listed([str(edge) for edge in EDGES])} (dotted), the first being the paper's edge, after "
+        f"{shared.listed([str(edge) for edge in EDGES])} (dotted), the first being the paper's edge, after "
         "320 gradients of Nesterov's method: the highest radial power below the edge is "
-        f"{common.listed(most[:3])}; the paper has less than {CLAIM:.0e} (dashed). What is not converged "
+        f"{shared.listed(most[:3])}; the paper has less than {CLAIM:.0e} (dashed). What is not converged "
         "keeps the Gaussian's exponential profile. (d) Minimum-norm Gauss-Newton steps empty the widest of "
         f"these bands down to rounding, {most[3]}. "
     )
     if theirs:
-        low = common.rounded(band(theirs[0].source.radial, EDGES[0]))
+        low = shared.rounded(band(theirs[0].source.radial, EDGES[0]))
         caption += (
             f"(e) The step of Heck et al. 2013, the sets given: the highest below {EDGES[0]} is {low}. "
         )
     caption += (
         "Top: a set; middle: the mean spectrum in PSA's grey; bottom: radial power on exact shells in log "
-        f"scale, with white noise at 1. {common.counted(columns)}, d = 2. The edge bounds |f| here, "
+        f"scale, with white noise at 1. {shared.counted(columns)}, d = 2. The edge bounds |f| here, "
         "in the paper each of its components."
     )
     if not theirs:

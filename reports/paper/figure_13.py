@@ -11,16 +11,16 @@ from matplotlib.figure import SubFigure
 from matplotlib.patches import Circle
 from matplotlib.ticker import LogLocator, NullLocator
 
-from gbnbench.analysis.shell_spectrum import shells
+from gbnbench.analysis.spectrum.shell_spectrum import shells
+from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
+from gbnbench.generators.monitor import Watch
 from gbnbench.generators.protocol import realization_rng
-from gbnbench.generators.watch import Watch
-from gbnbench.material import Request, Tables
 from gbnbench.reports import style
 from gbnbench.reports.numbers import number
-from gbnbench.reports.paper import axes, common
+from gbnbench.reports.paper import axes, shared
+from gbnbench.reports.paper.data import Request, Tables
 from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
-from gbnbench.torus import FloatArray
 
 EDGE = 0.3  # nu up to which the energy is summed
 N, NU = 64, 2.0
@@ -56,10 +56,10 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
         grid = panel.subplots(1, 4, width_ratios=(1, 1, 1.32, 1.32))
         for ax, points, letter in zip(grid, blocks[0]["points"], "ab", strict=False):
             _beads(ax, points)
-            common.heading(ax, letter, "a set")
+            shared.heading(ax, letter, "a set")
         for ax, letter, title in zip(grid[2:], "cd", ("mean power", "logarithmic"), strict=True):
             _power(ax, nu, power)
-            common.heading(ax, letter, title)
+            shared.heading(ax, letter, title)
         grid[3].set_yscale("log")
         grid[3].set_ylim(float(power.min()) / 30, 100)
         grid[3].yaxis.set_major_locator(LogLocator(numticks=5))
@@ -95,9 +95,9 @@ def _beads(ax: Axes, x: FloatArray) -> None:
 
 
 def _power(ax: Axes, nu: FloatArray, power: FloatArray) -> None:
-    common.white(ax)
+    shared.white(ax)
     ax.axvline(EDGE, **axes.DOTTED)
-    ax.plot(nu, power, color=common.stroke("gbn").colour, linewidth=0.9)
+    ax.plot(nu, power, color=shared.stroke("gbn").colour, linewidth=0.9)
     ax.set_xlim(0, NU)
     ax.set_xticks([0, 0.5, 1, 1.5, 2])
     ax.set_xlabel(r"$\nu = |f|/n$")

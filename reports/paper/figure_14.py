@@ -7,9 +7,9 @@ from typing import Any
 
 from matplotlib.figure import SubFigure
 
-from gbnbench.analysis.radial import radial
-from gbnbench.material import Comparison, Request
-from gbnbench.reports.paper import common
+from gbnbench.analysis.radial.radial_power import radial
+from gbnbench.reports.paper import shared
+from gbnbench.reports.paper.data import Comparison, Request
 from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
 
 WIDTH = 2.0  # cycles per unit length: PSA's default
@@ -18,40 +18,40 @@ PAPER = ("bnot",)
 
 def needs(ask: Ask) -> Mapping[str, Request]:
     """Owen-scrambled Sobol sets, many of them, and GBN or the user's BNOT."""
-    many = Comparison(("sobol",), (common.size(ask),), (2,), ask.pick(4, 160, 1000))
-    return {"sobol": many, "classic": common.classic(ask), **common.given(ask, PAPER)}
+    many = Comparison(("sobol",), (shared.size(ask),), (2,), ask.pick(4, 160, 1000))
+    return {"sobol": many, "classic": shared.classic(ask), **shared.given(ask, PAPER)}
 
 
 def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
     """Exact shells over annuli, a column an example."""
-    n = common.size(ask)
+    n = shared.size(ask)
     examples = [
-        *(common.yours(material, PAPER, n) or [common.made(material["classic"], "gbn", n)]),
-        common.made(material["sobol"], "sobol", n),
+        *(shared.yours(material, PAPER, n) or [shared.made(material["classic"], "gbn", n)]),
+        shared.made(material["sobol"], "sobol", n),
     ]
     exact = [one.source.radial for one in examples]
     rings = [radial(one.source.spectrum, by="annuli", width=WIDTH) for one in examples]
-    low = [common.lowest([shells]) / 3 for shells in exact]
+    low = [shared.lowest([shells]) / 3 for shells in exact]
 
     def paint(panel: SubFigure) -> None:
         axes = panel.subplots(2, 2, sharex=True)
         for row, (powers, name) in enumerate([(exact, "exact shells"), (rings, "annuli of width 2")]):
             for k, (power, one) in enumerate(zip(powers, examples, strict=True)):
                 ax = axes[row, k]
-                common.white(ax)
-                common.curve(ax, power, one.stroke, marker="o", markersize=1.6 if row == 0 else 2.6,
+                shared.white(ax)
+                shared.curve(ax, power, one.stroke, marker="o", markersize=1.6 if row == 0 else 2.6,
                              markeredgewidth=0, linewidth=0.45 if row == 0 else 0.9)  # fmt: skip
-                common.log_nu(ax, 0.9 * n**-0.5)
-                common.log_power(ax, low[k], 30)
-                common.heading(ax, "abcd"[2 * row + k], f"{one.title}, {name}")
+                shared.log_nu(ax, 0.9 * n**-0.5)
+                shared.log_power(ax, low[k], 30)
+                shared.heading(ax, "abcd"[2 * row + k], f"{one.title}, {name}")
                 if row == 0:
                     ax.set_xlabel("")
                 if k == 0:
                     ax.set_ylabel("radial power")
 
     first = [
-        f"{common.rounded(float(ring.power[0]))} at a mean |f| of {ring.frequency[0]:.2f} where the exact "
-        f"power at |f| = 1 is {common.rounded(float(shells.power[0]))} ({one.title})"
+        f"{shared.rounded(float(ring.power[0]))} at a mean |f| of {ring.frequency[0]:.2f} where the exact "
+        f"power at |f| = 1 is {shared.rounded(float(shells.power[0]))} ({one.title})"
         for ring, shells, one in zip(rings, exact, examples, strict=True)
     ]
     caption = (
@@ -61,7 +61,7 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
         f"The innermost annulus has {' and '.join(first)}. The dips of Owen-Sobol, which the annuli hide, "
         "are the shells that lie on the axes alone, |f| = 1, 2, 3, 4, 6, 7, 8, 9, 11 and so on: its "
         "projections on either axis are stratified n-fold. "
-        f"{common.counted(examples)}, d = 2."
+        f"{shared.counted(examples)}, d = 2."
     )
     if "bnot" not in ask.sets:
         caption += " The first example here is GBN; sets given as --sets bnot=PATH take its place."

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import gbnbench
 from gbnbench.analysis.catalogue import BY_NAME, CATALOGUE
-from gbnbench.analysis.limits import default_fmax
 from gbnbench.analysis.measures import analyse, measures
-from gbnbench.errors import InputError
+from gbnbench.analysis.spectrum.limits import default_fmax
+from gbnbench.core.errors import InputError
+from tests.paths import ROOT
 
-POINTS = Path(__file__).parents[2].parent / "shared" / "points"
+POINTS = ROOT.parent / "shared" / "points"
 PROMISED = {
     *("noise_floor", "power_at_1", "profile_epsilon", "profile_c", "evacuated_energy", "peak", "peak_nu"),
     *("anisotropy_db", "min_distance", "mean_distance", "bond_order", "psi6", "valence6"),

@@ -6,15 +6,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from exact_sums import gpu_form
 
-from gbnbench.analysis import nufft
 from gbnbench.analysis import precision as module
-from gbnbench.analysis.periodogram import periodogram
-from gbnbench.analysis.plan import plan
 from gbnbench.analysis.precision import Precision, padded, precision_of
-from gbnbench.errors import DeviceError, InputError
+from gbnbench.analysis.spectrum.evaluators import nufft
+from gbnbench.analysis.spectrum.periodogram import periodogram
+from gbnbench.analysis.spectrum.plan import plan
+from gbnbench.core.errors import DeviceError, InputError
 from gbnbench.opencl import Runtime, runtime
+from tests.analysis.spectrum.exact_sums import gpu_form
 
 
 @pytest.fixture

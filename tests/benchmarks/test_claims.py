@@ -5,22 +5,21 @@ from __future__ import annotations
 import csv
 import math
 import tomllib
-from pathlib import Path
 
 import mpmath
 import numpy as np
 import pytest
 
 from gbnbench.benchmarks.claims import complexity, convergence, equations, integrals, kernels, profile
-from gbnbench.benchmarks.claims.catalogue import CLAIMS, MEASURES
 from gbnbench.benchmarks.claims.claim import BESIDE, COLUMNS, VERDICTS, verdict
 from gbnbench.benchmarks.claims.page import filled, number, page
+from gbnbench.benchmarks.claims.registry import CLAIMS, MEASURES
 from gbnbench.benchmarks.claims.run import fill, main, measure, named, read
 from gbnbench.benchmarks.claims.sets import MissingError, Sets
-from gbnbench.errors import InputError
-from gbnbench.generators.gbn.energy_profile import theta
+from gbnbench.core.errors import InputError
+from gbnbench.generators.gbn.kernel_profile import theta
+from tests.paths import ROOT
 
-ROOT = Path(__file__).parents[2]
 TABLE = ROOT / "benchmarks" / "results" / "claims" / "claims.csv"
 # Claims whose numbers need no sets and no clock.
 EXACT = (

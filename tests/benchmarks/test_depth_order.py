@@ -9,12 +9,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from gbnbench.analysis.integrands.korobov import Korobov
-from gbnbench.analysis.periodogram import periodogram
-from gbnbench.analysis.radial import radial
-from gbnbench.benchmarks import depth_integration as integration
-from gbnbench.benchmarks import depth_looks, depth_order
-from gbnbench.reports.depth_order import figure
+from gbnbench.analysis.integration.integrands.korobov import Korobov
+from gbnbench.analysis.radial.radial_power import radial
+from gbnbench.analysis.spectrum.periodogram import periodogram
+from gbnbench.benchmarks.experiments import depth_integration as integration
+from gbnbench.benchmarks.experiments import depth_looks, depth_order
+from gbnbench.reports.benchmarks.depth_order import figure
 
 TINY = depth_order.Map(144, 2, (4, 8), (0.5, 0.6), (20,), (20, 60), 2, 0.6)
 

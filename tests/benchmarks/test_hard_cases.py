@@ -6,11 +6,11 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from gbnbench.analysis.accuracy import RESOLVED
-from gbnbench.analysis.periodogram import periodogram
-from gbnbench.benchmarks.hard_cases import FAR, GRID, MOST, SHALLOW, hard_cases
-from gbnbench.benchmarks.hard_table import SLACK, TYPICAL, evaluate, judged, markdown, resolvable
-from gbnbench.benchmarks.reference import reference_roots
+from gbnbench.analysis.spectrum.error_model import RESOLVED
+from gbnbench.analysis.spectrum.periodogram import periodogram
+from gbnbench.benchmarks.spectra.hard_cases import FAR, GRID, MOST, SHALLOW, hard_cases
+from gbnbench.benchmarks.spectra.hard_table import SLACK, TYPICAL, evaluate, judged, markdown, resolvable
+from gbnbench.benchmarks.spectra.reference import reference_roots
 
 CASES = {f"{c.name}, n={c.n} d={c.d} F={c.reach}": c for c in hard_cases()}
 

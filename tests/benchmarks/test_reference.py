@@ -6,7 +6,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from gbnbench.benchmarks.reference import exact_sum, reference_amplitudes, reference_roots
+from gbnbench.benchmarks.spectra.reference import exact_sum, reference_amplitudes, reference_roots
 
 EXTENDED = np.finfo(np.longdouble).nmant >= 63
 ALLOWED = 4e-19 if EXTENDED else 2e-16  # of an amplitude over sqrt(n)

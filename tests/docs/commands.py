@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 import click
 
-from gbnbench.analysis.integrands.registry import find as find_family
+from gbnbench.analysis.integration.integrands.registry import find as find_family
 from gbnbench.cli import gbnbench
 from gbnbench.generators.registry import find
 

@@ -14,7 +14,8 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-ROOT = Path(__file__).parents[2]
+from tests.paths import ROOT
+
 PAGE = (ROOT / "docs" / "adding.md").read_text(encoding="utf-8")
 PACKAGES = ("gbnbench", "generators", "analysis", "benchmarks", "reports")
 NAMED = re.compile(r"# (\w+\.py)\n")
@@ -83,8 +84,8 @@ def test_the_patches_fit_and_the_commands_then_know_both(place: Path) -> None:
     for patch in blocks("diff"):
         apply(patch, place)
     program = (
-        "from pathlib import Path; from gbnbench.compare import compare;"
-        "from gbnbench.sources import resolve;"
+        "from pathlib import Path; from gbnbench.studies.comparison import compare;"
+        "from gbnbench.runs.sources import resolve;"
         "found, _ = resolve(['antithetic[width=0.5]', 'latin', 'grid'], [128], [2], 2);"
         "compare(found, Path('run'), jobs=1)"
     )

@@ -17,10 +17,10 @@ from sybil.document import Document
 from sybil.parsers.markdown import CodeBlockParser, PythonCodeBlockParser, SkipParser
 
 from gbnbench.cli import run
-from gbnbench.errors import InputError
+from gbnbench.core.errors import InputError
 from tests.docs.commands import check, commands
+from tests.paths import ROOT
 
-ROOT = Path(__file__).parents[2]
 OWN = {"adding.md"}  # whose files are written out and run by a test of their own
 PAGES = sorted(p for p in [*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md")] if p.name not in OWN)
 SHELLS = ("sh", "bash", "console")

@@ -11,7 +11,8 @@ import nbformat
 import pytest
 from nbclient import NotebookClient
 
-ROOT = Path(__file__).parents[2]
+from tests.paths import ROOT
+
 NOTEBOOK = ROOT / "docs" / "tutorial.ipynb"
 RESULTS = """
 import json

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gbnbench.errors import InputError, RefusalError
+from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.settings import specification
 from gbnbench.generators.protocol import Generator, realization_rng
 from gbnbench.generators.registry import GENERATORS, find, generate
-from gbnbench.settings import specification
 
 QUICK: dict[str, dict[str, Any]] = {"lloyd": {"iterations": 4}, "gbn": {"gradients": 20}}
 SIZES = (16, 15, 27)

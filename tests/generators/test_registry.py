@@ -6,10 +6,10 @@ from typing import Any, ClassVar
 import numpy as np
 import pytest
 
-from gbnbench.errors import InputError, RefusalError
-from gbnbench.generators.lloyd import Lloyd
+from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.torus import FloatArray
 from gbnbench.generators.registry import find, generate
-from gbnbench.torus import FloatArray
+from gbnbench.generators.voronoi.lloyd import Lloyd
 
 
 def test_random_is_numpys_stream_of_the_documented_seed() -> None:

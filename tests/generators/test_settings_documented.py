@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import dataclasses
-from pathlib import Path
 
 import pytest
 
 from gbnbench.generators.registry import GENERATORS
+from tests.paths import DOCS
 
-PAGE = (Path(__file__).parents[2] / "docs" / "generators.md").read_text()
+PAGE = (DOCS / "generators.md").read_text()
 
 
 @pytest.mark.parametrize("name", GENERATORS)

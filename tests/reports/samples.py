@@ -5,17 +5,17 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from gbnbench.analysis.catalogue import CATALOGUE
-from gbnbench.results import Measures, RadialPower, Spectrum
-from gbnbench.run import Run, SourceResult
+from gbnbench.core.results import Measures, RadialPower, Spectrum
+from gbnbench.runs.comparison_result import Run, SourceResult
+from tests.paths import ROOT
 
-SHARED = Path(__file__).resolve().parents[3] / "shared" / "points"
+SHARED = ROOT.parent / "shared" / "points"
 
 
 def direct_power(sets: np.ndarray, fmax: int) -> np.ndarray:

@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from gbnbench.analysis.periodogram import periodogram
-from gbnbench.errors import InputError, RefusalError
+from gbnbench.analysis.spectrum.periodogram import periodogram
+from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.generators.gbn import kernel
 from gbnbench.generators.gbn.energy import field
 from gbnbench.generators.gbn.harmonics import Harmonics
@@ -16,7 +16,7 @@ from gbnbench.generators.gbn.images import Images
 from gbnbench.generators.gbn.plan import METHODS, plan
 from gbnbench.generators.gbn.theta import Theta
 from gbnbench.opencl import Runtime, runtime
-from gbnbench.opencl.probe import VectorWidths
+from gbnbench.opencl.width_probe import VectorWidths
 from tests.generators.gbn.energy_oracles import frequency_field, image_field, theta_field
 
 EXCESS = {"double": 1e-14, "float": 1e-6}  # error of Ex, over the uniform energy and theta(0)^d
@@ -110,11 +110,11 @@ def test_a_set_is_bitwise_the_same_in_any_company(n, d, sigma, precision):
 
 
 def test_sets_too_many_for_the_buffers_come_in_turns(monkeypatch):
-    from gbnbench.generators.gbn import cost
+    from gbnbench.generators.gbn import operation_counts
 
     x = np.random.default_rng(1).random((7, 40, 2))
     whole = field(40, 2, 1.0, method="theta")(x)
-    monkeypatch.setattr(cost, "LARGEST", 3 * field(40, 2, 1.0, method="theta").bytes_a_set())
+    monkeypatch.setattr(operation_counts, "LARGEST", 3 * field(40, 2, 1.0, method="theta").bytes_a_set())
     parts = field(40, 2, 1.0, method="theta")(x)
     assert np.array_equal(whole.gradient, parts.gradient)
     assert np.array_equal(whole.excess, parts.excess)

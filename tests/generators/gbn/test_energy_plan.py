@@ -7,11 +7,11 @@ import math
 import numpy as np
 import pytest
 
-from gbnbench.errors import InputError, RefusalError
-from gbnbench.generators.gbn import cost, kernel
+from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.generators.gbn import kernel, operation_counts
 from gbnbench.generators.gbn.energy import field
-from gbnbench.generators.gbn.modes import TILE, ball, needed, shell_counts, volume
 from gbnbench.generators.gbn.plan import plan
+from gbnbench.generators.gbn.wave_tables import TILE, ball, needed, shell_counts, volume
 
 
 @pytest.mark.parametrize(
@@ -113,11 +113,14 @@ def test_costs_are_those_of_the_evaluations():
         for precision in ("double", "float"):
             modes = field(n, d, sigma, precision, method="harmonics").modes
             assert (
-                cost.harmonics(n, d, sigma, precision).detail == f"{volume(d, modes.square):.4g} frequencies"
+                operation_counts.harmonics(n, d, sigma, precision).detail
+                == f"{volume(d, modes.square):.4g} frequencies"
             )
-            assert cost.harmonics(n, d, sigma, precision).work == pytest.approx(n * modes.products, rel=0.35)
+            assert operation_counts.harmonics(n, d, sigma, precision).work == pytest.approx(
+                n * modes.products, rel=0.35
+            )
             degree = field(n, d, sigma, precision, method="theta").degree
-            assert cost.theta(n, d, sigma, precision).instructions == n * n * d * (2 * degree + 9)
+            assert operation_counts.theta(n, d, sigma, precision).instructions == n * n * d * (2 * degree + 9)
 
 
 @pytest.mark.parametrize(("d", "square"), [(1, 20), (2, 30), (3, 14), (4, 9), (6, 3)])

@@ -7,12 +7,12 @@ import math
 import numpy as np
 import pytest
 
-from gbnbench.analysis import profile
-from gbnbench.analysis.delaunay import valence6
-from gbnbench.analysis.distances import min_distance
-from gbnbench.analysis.periodogram import periodogram
-from gbnbench.analysis.radial import radial
-from gbnbench.errors import InputError
+from gbnbench.analysis.radial import profile
+from gbnbench.analysis.radial.radial_power import radial
+from gbnbench.analysis.spatial.delaunay import valence6
+from gbnbench.analysis.spatial.distances import min_distance
+from gbnbench.analysis.spectrum.periodogram import periodogram
+from gbnbench.core.errors import InputError
 from gbnbench.generators.gbn.energy import field
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.gbn.lowband import LowBand

@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gbnbench.analysis.projections import projections
-from gbnbench.errors import InputError
+from gbnbench.analysis.spectrum.projections import projections
+from gbnbench.core.errors import InputError
+from gbnbench.core.torus import wrap
 from gbnbench.generators.gbn.energy import field
 from gbnbench.generators.gbn.optimiser import Nesterov, step_size
 from gbnbench.generators.gbn.projective import ProjectiveField, shares, subsets
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.generators.registry import generate
-from gbnbench.torus import wrap
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.stats import chi2
 
-from gbnbench.errors import RefusalError
+from gbnbench.core.errors import RefusalError
 from gbnbench.generators.gbn.strips import SKIN, Strips
 from gbnbench.opencl import runtime
 from gbnbench.opencl.runtime import Runtime

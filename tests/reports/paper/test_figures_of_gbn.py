@@ -12,15 +12,15 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from gbnbench import generate, periodogram, radial, save, shells
-from gbnbench.analysis.profile import noise_floor
+from gbnbench.analysis.radial.profile import noise_floor
 from gbnbench.cli import gbnbench
-from gbnbench.generators.watch import Trace, Watch
-from gbnbench.material import fill, folder_name
-from gbnbench.progress import Progress
+from gbnbench.execution.progress import Progress
+from gbnbench.generators.monitor import Trace, Watch
 from gbnbench.reports import style
 from gbnbench.reports.paper import axes, figure_07
-from gbnbench.reports.paper.catalogue import find
+from gbnbench.reports.paper.data import fill, folder_name
 from gbnbench.reports.paper.figure import Ask, compose
+from gbnbench.reports.paper.registry import find
 
 NAMES = ("3", "4", "6", "7", "13", "depth")
 

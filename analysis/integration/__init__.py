@@ -1,0 +1,1 @@
+"""Numerical integration with point sets: estimators, variances and integrands."""

@@ -1,0 +1,221 @@
+"""Smooth periodic products of Bernoulli polynomials: Fourier coefficients fall as a power (Korobov 1963)."""
+
+from __future__ import annotations
+
+import math
+from collections import defaultdict
+from dataclasses import dataclass
+from decimal import Decimal, localcontext
+from typing import ClassVar, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gbnbench.analysis.integration.integrands.integer_frequencies import (
+    MOST_FREQUENCIES,
+    beyond_dimensions,
+    check_count,
+    check_share,
+)
+from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.torus import FloatArray
+
+# B_alpha(t), its sign that of a positive cos 2 pi t, in powers of s = t (1 - t): it is even about 1/2.
+BERNOULLI = {2: (1 / 6, -1.0), 4: (1 / 30, 0.0, -1.0), 6: (1 / 42, 0.0, -0.5, -1.0)}
+DIGITS = 60  # in which energies are summed
+PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494459")
+ZETA = {4: (1, 90), 8: (1, 9450), 12: (691, 638512875)}  # over pi^4, pi^8 and pi^12
+
+
+@dataclass(frozen=True)
+class Korobov:
+    """Products over axes of 1 + weight * sum over h != 0 of |h|^-smoothness exp(2 pi i h (x - shift)).
+
+    Attributes
+    ----------
+    smoothness : {2, 4, 6}
+        Decay of the Fourier coefficients.
+    weight : float
+        Of what varies, > 0. At 1 the variance is (1 + 2 zeta(2 smoothness))^d - 1, about 3^d.
+
+    References
+    ----------
+    Korobov, "Number-theoretic methods in approximate analysis", 1963; Sloan & Joe, "Lattice methods for
+    multiple integration", 1994, Section 2.
+    """
+
+    name: ClassVar[str] = "korobov"
+    summary: ClassVar[str] = (
+        "smooth periodic product of Bernoulli polynomials, shifted at random (Korobov 1963)"
+    )
+    periodic: ClassVar[bool] = True
+    smoothness: Literal[2, 4, 6] = 4
+    weight: float = 1.0
+
+    def __post_init__(self) -> None:
+        if self.smoothness not in BERNOULLI:
+            raise InputError(f"smoothness of korobov must be 2, 4 or 6; got {self.smoothness}")
+        if not (math.isfinite(self.weight) and self.weight > 0):
+            raise InputError(f"weight of korobov must be positive; got {self.weight}")
+
+    def refusal(self, d: int) -> str | None:
+        """Say why there are none in d dimensions, else None."""
+        return beyond_dimensions("Korobov's functions", d)
+
+    def draw(self, d: int, rng: np.random.Generator) -> KorobovProduct:
+        """Draw a shift; RefusalError where ``refusal`` has a reason."""
+        if reason := self.refusal(d):
+            raise RefusalError(reason)
+        return KorobovProduct(rng.random(d), self.smoothness, self.weight)
+
+    def mean_energy(self, frequencies: NDArray[np.int64]) -> FloatArray:
+        """``energy``, which no shift changes: (m, d) -> (m,)."""
+        return korobov_energy(frequencies, self.smoothness, self.weight)
+
+    def frequencies(self, d: int, share: float, most: int = MOST_FREQUENCIES) -> NDArray[np.int64]:
+        """Half a hyperbolic cross of frequencies; those outside hold less than this share of the energy.
+
+        Notes
+        -----
+        Frequencies are ranked by energy, weight^(2 j) N^(-2 smoothness) for j components that are not 0 and
+        the product N of their sizes; a recursion over axes counts them, and the total is a closed form. Both
+        are summed in 60 digits: shares far below the rounding of doubles are told apart. Where too many
+        frequencies are needed RefusalError tells how many.
+        """
+        check_share(share, self.refusal(d))
+        with localcontext() as context:
+            context.prec = DIGITS
+            total = (1 + 2 * Decimal(self.weight) ** 2 * _zeta(2 * self.smoothness)) ** d - 1
+            limit = Decimal(share) * total
+            largest = 1
+            while True:
+                classes = _classes(d, largest)
+                ranked = sorted(classes, key=self._class_energy, reverse=True)
+                ranked.remove((0, 1))
+                left, number = total, 0
+                for key in ranked:
+                    left -= classes[key] * self._exact_energy(key)
+                    number += 1
+                    if left < limit:
+                        break
+                if left < limit:
+                    break
+                check_count(
+                    f"even a hyperbolic cross that leaves out more than {share:g} of the energy",
+                    d,
+                    sum(classes.values()) / 2,
+                    most=most,
+                )
+                largest *= 2
+        chosen = ranked[:number]
+        check_count(
+            f"the hyperbolic cross that leaves out {share:g} of the energy",
+            d,
+            sum(classes[k] for k in chosen) / 2,
+            most=most,
+        )
+        return _cross(d, chosen)
+
+    def _exact_energy(self, key: tuple[int, int]) -> Decimal:
+        return Decimal(self.weight) ** (2 * key[0]) / Decimal(key[1]) ** (2 * self.smoothness)
+
+    def _class_energy(self, key: tuple[int, int]) -> float:
+        return float(self.weight ** (2 * key[0]) * float(key[1]) ** (-2 * self.smoothness))
+
+
+@dataclass(frozen=True, eq=False)
+class KorobovProduct:
+    """One of them.
+
+    Attributes
+    ----------
+    shift : (d,) float64
+        On the unit torus.
+    smoothness : {2, 4, 6}
+        Decay of the Fourier coefficients.
+    weight : float
+        Of what varies.
+    """
+
+    shift: FloatArray
+    smoothness: int
+    weight: float
+
+    @property
+    def integral(self) -> float:
+        """Exactly 1, a product of means."""
+        return 1.0
+
+    def __call__(self, x: FloatArray) -> FloatArray:
+        """Values, (..., d) -> (...), to some roundings of the product of largest factors."""
+        factor = self.weight * (2 * math.pi) ** self.smoothness / math.factorial(self.smoothness)
+        values = np.ones(x.shape[:-1])
+        for axis, shift in enumerate(self.shift):
+            t = x[..., axis] - shift
+            t -= np.floor(t)
+            s = t * (1 - t)
+            bernoulli = np.zeros(t.shape)
+            for coefficient in BERNOULLI[self.smoothness][::-1]:
+                bernoulli = bernoulli * s + coefficient
+            values *= 1 + factor * bernoulli
+        return values
+
+    def energy(self, frequencies: NDArray[np.int64]) -> FloatArray:
+        """|transform|^2 at integer frequencies, (m, d) -> (m,)."""
+        return korobov_energy(frequencies, self.smoothness, self.weight)
+
+
+def korobov_energy(frequencies: NDArray[np.int64], smoothness: int, weight: float) -> FloatArray:
+    """Product over axes of weight^2 |h|^(-2 smoothness), 1 where h = 0: (m, d) -> (m,)."""
+    energy = np.ones(len(frequencies))
+    for h in np.abs(frequencies.T).astype(np.float64):
+        energy *= np.where(h == 0, 1.0, weight**2 * np.maximum(h, 1.0) ** (-2 * smoothness))
+    return energy
+
+
+def _zeta(s: int) -> Decimal:
+    """Riemann's zeta at 4, 8 and 12, in the digits of the context."""
+    over, under = ZETA[s]
+    return over * PI**s / under
+
+
+def _classes(d: int, most: int) -> dict[tuple[int, int], int]:
+    """Count integer vectors by (components that are not 0, product of their sizes), products up to most."""
+    classes = {(0, 1): 1}
+    for _ in range(d):
+        longer: defaultdict[tuple[int, int], int] = defaultdict(int)
+        for (j, product), count in classes.items():
+            longer[j, product] += count
+            for h in range(1, most // product + 1):
+                longer[j + 1, product * h] += 2 * count
+        classes = dict(longer)
+    return classes
+
+
+def _cross(d: int, classes: list[tuple[int, int]]) -> NDArray[np.int64]:
+    """Half the integer vectors of these classes, the first component that is not 0 being positive."""
+    most = max(product for _, product in classes)
+    wanted = np.zeros((d + 1, most + 1), dtype=bool)
+    for key in classes:
+        wanted[key] = True
+    # Whether a vector may still become one of a class: by nonzeros and product so far, axes to go.
+    open_to = [wanted]
+    for _ in range(d):
+        after = open_to[-1]
+        before = after.copy()
+        for h in range(1, most + 1):
+            reach = most // h
+            before[:-1, 1 : reach + 1] |= after[1:, h : reach * h + 1 : h]
+        open_to.append(before)
+    rows = np.zeros((1, 0), dtype=np.int64)
+    j, product = np.zeros(1, dtype=np.int64), np.ones(1, dtype=np.int64)
+    side = np.arange(-most, most + 1)
+    size = np.maximum(np.abs(side), 1)
+    for left in range(d - 1, -1, -1):
+        row, column = np.nonzero((product[:, None] * size <= most) & ((j > 0)[:, None] | (side >= 0)))
+        nonzeros, products = j[row] + (side[column] != 0), product[row] * size[column]
+        keep = open_to[left][nonzeros, products]
+        row, column = row[keep], column[keep]
+        rows = np.column_stack([rows[row], side[column]])
+        j, product = nonzeros[keep], products[keep]
+    return rows

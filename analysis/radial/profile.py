@@ -1,0 +1,170 @@
+"""Scalars of the radial profile: noise floor, power at 1, the two fits, evacuated energy and peak.
+
+Ahmed, Ren & Wonka 2022: Sec. 3 (exponential and power-law families), Sec. 4.3 (evacuated energy), Fig. 1(g).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from gbnbench.analysis.spectrum.shells import EDGE, in_band, squared_radius
+from gbnbench.core.errors import RefusalError
+from gbnbench.core.results import RadialPower
+from gbnbench.core.torus import FloatArray
+
+TIE = 1e-9  # relative difference of powers that are equal
+FLOOR_NU = 0.25
+FIT_BAND = (0.05, 0.6)
+FIT_SHELLS = 3
+PEAK_BAND = (0.5, 2.0)
+ROUNDING = 1e-26  # power at or below which only rounding is left, as off a lattice's harmonics
+DECIBELS = 10 / math.log(10)  # of a natural logarithm
+
+
+def reach(radial: RadialPower) -> float:
+    """Return the nu of the last whole shell, |f| = fmax."""
+    return float(radial.nu[-1])
+
+
+def require(radial: RadialPower, nu: float, what: str) -> None:
+    """Refuse where the spectrum ends within the band that a measure is of."""
+    if reach(radial) < nu * (1 - EDGE):
+        needed = math.ceil(nu * float(radial.frequency[0] / radial.nu[0]) * (1 - EDGE))
+        raise RefusalError(
+            f"{what} needs every shell up to nu = {nu:g}, fmax >= {needed}; this spectrum ends at "
+            f"nu = {reach(radial):.3g}"
+        )
+
+
+def noise_floor(radial: RadialPower) -> float:
+    """Mean power over the frequencies with 0 < nu <= 0.25; over the lowest shell where there are none.
+
+    Raises
+    ------
+    RefusalError
+        If the spectrum ends within that band.
+    """
+    band = in_band(radial.nu, 0, FLOOR_NU)
+    if not band.any():
+        return float(radial.power[0])
+    if not (radial.nu > FLOOR_NU * (1 + EDGE)).any():
+        require(radial, FLOOR_NU, "the noise floor")
+    return float(np.average(radial.power[band], weights=radial.count[band]))
+
+
+def power_at_1(radial: RadialPower) -> float:
+    """Mean power at |f| = 1, the lowest shell of any cube."""
+    return float(radial.power[0])
+
+
+@dataclass(frozen=True)
+class Fit:
+    """A straight line through ln P of exact shells.
+
+    Attributes
+    ----------
+    intercept, slope : float
+        ln P = intercept + slope * abscissa.
+    residual_db : float
+        Root mean square departure, dB.
+    """
+
+    intercept: float
+    slope: float
+    residual_db: float
+
+
+def _fit(radial: RadialPower, *, logarithmic: bool) -> Fit:
+    require(radial, FIT_BAND[1], "a profile fit")
+    band = in_band(radial.nu, *FIT_BAND)
+    shells = int(band.sum())
+    if shells < FIT_SHELLS:
+        raise RefusalError(
+            f"a profile fit needs three shells with 0.05 <= nu <= 0.6; this spectrum has {shells}"
+        )
+    power = radial.power[band]
+    if not (power > ROUNDING).all():
+        raise RefusalError("a profile fit needs power beyond rounding on every shell with 0.05 <= nu <= 0.6")
+    abscissa = np.log(radial.nu[band]) if logarithmic else radial.nu[band] ** 2
+    design = np.stack([np.ones(shells), abscissa], axis=1)
+    target = np.log(power)
+    (intercept, slope), *_ = np.linalg.lstsq(design, target, rcond=None)
+    rest = target - design @ (intercept, slope)
+    return Fit(float(intercept), float(slope), float(DECIBELS * np.sqrt(np.mean(rest**2))))
+
+
+def exponential_fit(radial: RadialPower) -> Fit:
+    """Fit ln P = ln epsilon + c nu^2 over 0.05 <= nu <= 0.6 (Eq. 19: c = 4 pi^2 where sigma = 1).
+
+    Raises
+    ------
+    RefusalError
+        Below three shells, where the spectrum ends within the band, or a shell holds only rounding.
+    """
+    return _fit(radial, logarithmic=False)
+
+
+def powerlaw_fit(radial: RadialPower) -> Fit:
+    """Fit ln P = a + b ln nu over the same shells; raises likewise."""
+    return _fit(radial, logarithmic=True)
+
+
+def evacuated_energy(power: FloatArray, n: int, d: int, fmax: int) -> float:
+    """-sum of ln P / n over all frequencies with 0 < nu < 1 and P < 1, of one realization, nats a point.
+
+    Parameters
+    ----------
+    power : (2*fmax+1,)*d float64
+        Of one set.
+    n, d, fmax : int
+        Its points, dimension and largest harmonic.
+
+    Raises
+    ------
+    RefusalError
+        If the cube ends below nu = 1, or a power is 0 to rounding (its logarithm is unknown).
+    """
+    edge = math.pow(n, 1 / d) * (1 - EDGE)
+    if fmax + 1 < edge:
+        raise RefusalError(
+            f"evacuated energy needs every frequency with nu < 1: fmax >= {math.ceil(edge) - 1}, here {fmax}"
+        )
+    r2 = squared_radius(fmax, d)
+    chosen = power.ravel()[(r2 > 0) & (r2 < edge * edge)]
+    if (chosen <= ROUNDING).any():
+        raise RefusalError("evacuated energy is unbounded: the power of some frequency is 0 to rounding")
+    return float(-np.sum(np.log(chosen[chosen < 1])) / n)
+
+
+def peak(radial: RadialPower) -> tuple[float, float]:
+    """Largest mean power over the whole rings round(|f|) = k < fmax with 0.5 <= nu <= 2, and that ring's nu.
+
+    Raises
+    ------
+    RefusalError
+        If the last whole ring lies below nu = 1, where a peak may still be to come.
+    """
+    spacing = float(radial.nu[0] / radial.frequency[0])
+    ring = np.rint(radial.frequency).astype(np.int64)
+    whole = ring < round(radial.frequency[-1])  # the ring of fmax reaches half a unit beyond the cube
+    if not whole.any():
+        raise RefusalError(
+            "the peak needs whole rings of frequencies up to nu = 1 at least; fmax = 1 holds none"
+        )
+    count = np.bincount(ring[whole], radial.count[whole])
+    total = np.bincount(ring[whole], radial.power[whole] * radial.count[whole])
+    nu = (np.arange(len(count)) * spacing).astype(np.float64)
+    if nu[-1] < 1 - EDGE:
+        raise RefusalError(
+            f"the peak needs whole rings of frequencies up to nu = 1 at least; the last here is at "
+            f"{nu[-1]:.2f}"
+        )
+    band = in_band(nu, *PEAK_BAND) & (count > 0)
+    mean = np.where(band, total / np.maximum(count, 1), -np.inf)
+    k = int(
+        np.flatnonzero(mean >= mean.max() * (1 - TIE))[0]
+    )  # the lowest of equals, whatever they rounded to
+    return float(mean[k]), float(nu[k])

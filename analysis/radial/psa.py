@@ -1,0 +1,207 @@
+"""PSA's spectral statistics, effective Nyquist frequency and oscillations (Heck, Schlömer & Deussen 2013)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.special import j0
+
+from gbnbench.analysis.spatial.rdf import pair_density
+from gbnbench.core.errors import RefusalError
+from gbnbench.core.torus import FloatArray, as_realizations
+
+# Rows of the Bessel matrix made at once; with 50 sqrt(n) columns they stay small.
+ROWS = 256
+# Frequencies evaluated first, in units of sqrt(n): the statistics of most sets need no more.
+FIRST_RANGE = 8.0
+# Some minutes of one core.
+MOST_POINTS = 200_000
+
+
+@dataclass(frozen=True)
+class SpectralStatistics:
+    """Effective Nyquist frequency and oscillations.
+
+    Attributes
+    ----------
+    effective_nyquist, oscillations : float
+        Of the power averaged over realizations, as PSA's.
+    effective_nyquist_error, oscillations_error : float
+        Their standard errors by the jackknife over realizations; nan for a single one.
+    effective_nyquist_by_set, oscillations_by_set : (realizations,) float64
+        Of each set's own power, whose noise counts as oscillation too: more than the mean power has.
+    frequency : (k,) float64
+        Left edges of PSA's bins, sqrt(n)/200 apart, as far as they were needed.
+    power : (realizations, k) float64
+        Radial power of each set, derived from its radial distribution function.
+    """
+
+    effective_nyquist: float
+    oscillations: float
+    effective_nyquist_error: float
+    oscillations_error: float
+    effective_nyquist_by_set: FloatArray
+    oscillations_by_set: FloatArray
+    frequency: FloatArray
+    power: FloatArray
+
+
+def spectral_statistics(x: ArrayLike) -> SpectralStatistics:
+    """PSA's effective Nyquist frequency and oscillations of one or several sets.
+
+    Parameters
+    ----------
+    x : (n, 2) or (realizations, n, 2) float64
+        Points on the unit torus, n >= 2.
+
+    Returns
+    -------
+    SpectralStatistics
+        Effective Nyquist 0 where the power never falls low, as for random points.
+
+    Raises
+    ------
+    RefusalError
+        If d is not 2, n < 2, or n > 200,000: a fifth of all pairs is counted.
+
+    Notes
+    -----
+    Power is P(v) = |1 + 2 pi n sum (g - 1) J0(2 pi v r) r w(r) dr|, g the radial distribution function in
+    M = int(100 sqrt(n)) bins over [0, 1/2], v on M left edges of [0, n/2], w(r) = 0.43 + 0.5 cos(pi r/X) +
+    0.08 cos(2 pi r/X) up to X = 0.5 clamp(4 v/sqrt(n), 0.2, 0.5) and zero beyond.
+
+    Effective Nyquist: with C(v) = sum over v' <= v of 2 v' P dv / v^2, from v = sqrt(n)/2 the first C > 0.5,
+    back to the first C < 0.1; v/2 there over sqrt(n)/2. It moves in steps of 0.005.
+
+    Oscillations: 10 sqrt(2 pi Int (P - 1)^2 v dv / (pi (v1^2 - v0^2))) over v0..v1, v0 where P first reaches
+    0.98 (its maximum, where it never does), v1 = min(v0 + 5 sqrt(n), n/2).
+
+    The window ends at r = 1/4 at the latest, so pairs farther apart are not counted. Integrals are the plain
+    trapezoid rule; PSA's drops one sample where their number is odd, and reads coordinates as float32, so its
+    figures may differ by 0.001.
+    """
+    sets = as_realizations(x)
+    n, d = sets.shape[1:]
+    if d != 2:
+        raise RefusalError(f"PSA's spectral statistics are defined in the plane; got d={d}")
+    if n < 2:
+        raise RefusalError("PSA's spectral statistics are made of pairs and need n >= 2; got n=1")
+    if n > MOST_POINTS:
+        raise RefusalError(
+            f"PSA's spectral statistics count n^2/10 pairs; n must be at most {MOST_POINTS}, got n={n}"
+        )
+    total = int(100 * math.sqrt(n))
+    density = _excess_density(sets, total)
+    rows = min(total, math.ceil(FIRST_RANGE * total / (0.5 * math.sqrt(n))))
+    while True:
+        frequency = np.arange(rows) * (0.5 * n / total)
+        power = _power(density, frequency, n, total)
+        curves = [power.mean(axis=0), *power, *_left_out(power)]
+        if rows == total or all(_suffices(curve, frequency, n) for curve in curves):
+            break
+        rows = total
+    nyquist = np.array([_effective_nyquist(curve, frequency, n) for curve in curves])
+    omega = np.array([_oscillations(curve, frequency, n) for curve in curves])
+    last = len(sets) + 1
+    return SpectralStatistics(
+        effective_nyquist=float(nyquist[0]),
+        oscillations=float(omega[0]),
+        effective_nyquist_error=_jackknife(nyquist[last:]),
+        oscillations_error=_jackknife(omega[last:]),
+        effective_nyquist_by_set=nyquist[1:last],
+        oscillations_by_set=omega[1:last],
+        frequency=frequency,
+        power=power,
+    )
+
+
+def effective_nyquist(x: ArrayLike) -> FloatArray:
+    """Effective Nyquist of each set, over sqrt(n)/2: (realizations,); see ``spectral_statistics``."""
+    return spectral_statistics(x).effective_nyquist_by_set
+
+
+def oscillations(x: ArrayLike) -> FloatArray:
+    """PSA's Omega of each set: (realizations,); see ``spectral_statistics``."""
+    return spectral_statistics(x).oscillations_by_set
+
+
+def _excess_density(sets: FloatArray, total: int) -> FloatArray:
+    """2 pi n (g - 1) r dr on the bins the window can reach, trapezoid: (bins, realizations)."""
+    n = sets.shape[1]
+    width = 0.5 / total
+    bins = total // 2 + 1
+    r = np.arange(bins) * width
+    g = pair_density(sets, bins, width)
+    return np.transpose((2 * math.pi * n * width) * (g - 1) * r)
+
+
+def _power(density: FloatArray, frequency: FloatArray, n: int, total: int) -> FloatArray:
+    """Radial power of all sets at once: (realizations, frequencies)."""
+    r = np.arange(len(density)) * (0.5 / total)
+    power = np.empty((density.shape[1], len(frequency)))
+    for start in range(0, len(frequency), ROWS):
+        v = frequency[start : start + ROWS, None]
+        end = 0.5 * np.clip(4 * v / math.sqrt(n), 0.2, 0.5)
+        if end[0, 0] == end[-1, 0]:  # one window for the block, as for all but the lowest frequencies
+            end = end[:1]
+        window = 0.43 + 0.5 * np.cos(math.pi * r / end) + 0.08 * np.cos(2 * math.pi * r / end)
+        window = np.where(r > end, 0.0, window)
+        power[:, start : start + ROWS] = np.abs(1 + (j0(2 * math.pi * v * r) * window) @ density).T
+    return power
+
+
+def _left_out(power: FloatArray) -> FloatArray:
+    """Mean power of all sets but one, for each; nothing for a single set."""
+    sets = len(power)
+    return (power.sum(axis=0) - power) / (sets - 1) if sets > 1 else power[:0]
+
+
+def _jackknife(left_out: FloatArray) -> float:
+    sets = len(left_out)
+    return math.sqrt((sets - 1) * float(np.var(left_out))) if sets > 1 else math.nan
+
+
+def _rise(power: FloatArray) -> int:
+    """Index where the power first reaches 0.98, or of its maximum where it never does."""
+    reached = np.flatnonzero(power >= 0.98)
+    return int(reached[0]) if len(reached) else int(np.argmax(power))
+
+
+def _accumulated(power: FloatArray, frequency: FloatArray) -> FloatArray:
+    running = np.cumsum(2 * frequency * power) * frequency[1]
+    running[1:] /= frequency[1:] ** 2
+    return np.asarray(running)
+
+
+def _first_high(power: FloatArray, frequency: FloatArray, n: int) -> int | None:
+    """Index of the first accumulated power above 0.5 from sqrt(n)/2 on."""
+    start = int(math.sqrt(n) / 2 / frequency[1])
+    high = np.flatnonzero(_accumulated(power, frequency)[start:] > 0.5)
+    return start + int(high[0]) if len(high) else None
+
+
+def _effective_nyquist(power: FloatArray, frequency: FloatArray, n: int) -> float:
+    high = _first_high(power, frequency, n)
+    if high is None:
+        return 0.0
+    low = np.flatnonzero(_accumulated(power, frequency)[1:high] < 0.1)
+    return float(frequency[1 + low[-1]] / math.sqrt(n)) if len(low) else 0.0
+
+
+def _oscillations(power: FloatArray, frequency: FloatArray, n: int) -> float:
+    rise = _rise(power)
+    v0 = frequency[rise]
+    v1 = min(v0 + 5 * math.sqrt(n), n / 2)
+    end = min(int(v1 / frequency[1]) + 1, len(frequency) - 1)
+    samples = ((power - 1) ** 2 * frequency)[rise : end + 1]
+    integral = np.trapezoid(samples, dx=float(frequency[1]))
+    return 10 * math.sqrt(2 * math.pi * float(integral) / (math.pi * (v1**2 - v0**2)))
+
+
+def _suffices(power: FloatArray, frequency: FloatArray, n: int) -> bool:
+    """Whether both statistics are settled by the frequencies evaluated so far."""
+    settled = (power >= 0.98).any() and frequency[_rise(power)] + 5 * math.sqrt(n) < frequency[-2]
+    return bool(settled) and _first_high(power, frequency, n) is not None

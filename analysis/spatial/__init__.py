@@ -1,0 +1,1 @@
+"""Measures of the points themselves: distances, neighbours, correlations, discrepancies, zone plates."""

@@ -1,0 +1,85 @@
+"""Sixfold order of Delaunay neighbours: bond order (Heck et al. 2013; PSA), psi6 (Halperin & Nelson 1978)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gbnbench.analysis.spatial.delaunay import IndexArray, Neighbours, plane_neighbours
+from gbnbench.core.torus import FloatArray
+
+
+def bond_order(x: ArrayLike | Sequence[Neighbours]) -> FloatArray:
+    """Bond-orientational order Q6 of each set, as PSA measures it.
+
+    Parameters
+    ----------
+    x : (n, 2) or (realizations, n, 2) float64, or what ``delaunay.neighbours`` returned
+        Points on the unit torus.
+
+    Returns
+    -------
+    (realizations,) float64
+        In [0, 1]; 1 on the hexagonal lattice, near 0.36 for random points.
+
+    Raises
+    ------
+    RefusalError
+        If d is not 2, or two points of a set coincide.
+
+    Notes
+    -----
+    Sum over points of |sum exp(6 i theta)| over the total number of neighbours, theta being the direction of
+    the edge between consecutive Delaunay neighbours of the point.
+    """
+    values = []
+    for each in plane_neighbours(x, "bond order"):
+        bond = _complex(each.vector)
+        edge = bond[_following(each.indptr)] - bond
+        values.append(np.abs(each.sum_over_points(_sixfold(edge))).sum() / len(bond))
+    return np.array(values)
+
+
+def psi6(x: ArrayLike | Sequence[Neighbours]) -> FloatArray:
+    """Mean over points of |mean over Delaunay neighbours of exp(6 i angle of the bond)| of each set.
+
+    Parameters
+    ----------
+    x : (n, 2) or (realizations, n, 2) float64, or what ``delaunay.neighbours`` returned
+        Points on the unit torus.
+
+    Returns
+    -------
+    (realizations,) float64
+        In [0, 1]; 1 on the hexagonal lattice, 0 on the square one.
+
+    Raises
+    ------
+    RefusalError
+        If d is not 2, or two points of a set coincide.
+    """
+    values = [
+        np.mean(np.abs(each.sum_over_points(_sixfold(_complex(each.vector)))) / each.degree)
+        for each in plane_neighbours(x, "psi6")
+    ]
+    return np.array(values)
+
+
+def _complex(vector: FloatArray) -> NDArray[np.complex128]:
+    return vector[:, 0] + 1j * vector[:, 1]
+
+
+def _sixfold(z: NDArray[np.complex128]) -> NDArray[np.complex128]:
+    """exp(6 i angle of z), without the angle."""
+    unit = z / np.abs(z)
+    cube = unit * unit * unit
+    return cube * cube
+
+
+def _following(indptr: IndexArray) -> IndexArray:
+    """Row of the next neighbour in each point's cycle."""
+    rows = np.arange(1, indptr[-1] + 1, dtype=np.intp)
+    rows[indptr[1:] - 1] = indptr[:-1]
+    return rows

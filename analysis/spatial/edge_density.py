@@ -1,0 +1,125 @@
+"""Density of points of the bounded box against their depth, the distance to the nearest face."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gbnbench.core.errors import InputError
+from gbnbench.core.torus import FloatArray, as_realizations
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+@dataclass(frozen=True)
+class EdgeDensity:
+    """Density profile of one source's sets near the faces of the box.
+
+    Attributes
+    ----------
+    edges : (bins + 1,) float64
+        Depths between which a bin counts, spacings n**(-1/d).
+    density : (bins,) float64
+        Mean over sets of the share of points in the bin over the bin's volume: 1 for uniform points.
+    standard_error : (bins,) float64
+        Of that mean, over sets; nan for a single set.
+    cumulative : (bins,) float64
+        The same within all of the bins so far, whose last is 1 where the bins reach the centre.
+    extreme : float
+        Mean over sets and faces of the depth of the point nearest to a face, spacings.
+    extreme_error : float
+        Standard error of ``extreme`` over sets; nan for a single set.
+    sets : int
+        Realizations.
+    """
+
+    edges: FloatArray
+    density: FloatArray
+    standard_error: FloatArray
+    cumulative: FloatArray
+    extreme: float
+    extreme_error: float
+    sets: int
+
+    def to_frame(self) -> pd.DataFrame:
+        """Columns low, high (depths in spacings), density, standard_error, cumulative: a row a bin."""
+        import pandas as pd
+
+        return pd.DataFrame(
+            {
+                "low": self.edges[:-1],
+                "high": self.edges[1:],
+                "density": self.density,
+                "standard_error": self.standard_error,
+                "cumulative": self.cumulative,
+            }
+        )
+
+
+def edge_density(x: ArrayLike, width: float = 0.25, depth: float = 8.0) -> EdgeDensity:
+    """Profile of the density over the distance to the nearest face.
+
+    Parameters
+    ----------
+    x : (n, d) or (realizations, n, d) array_like
+        Points of the box [0, 1)^d.
+    width : float
+        Of a bin, spacings.
+    depth : float
+        Of the last bin's end, spacings; the centre of the box where that is nearer.
+
+    Returns
+    -------
+    EdgeDensity
+
+    Raises
+    ------
+    InputError
+        If x is not points of the unit box, or width and depth are not 0 < width <= depth.
+
+    Notes
+    -----
+    A bin [a, b) is the shell between two cubes, of volume (1 - 2 a / L)^d - (1 - 2 b / L)^d with
+    L = n^(1/d): so corners, which belong to several faces, are counted once and need no correction.
+
+    Examples
+    --------
+    >>> profile = edge_density(np.random.default_rng(0).random((50, 400, 2)))
+    >>> bool(np.all(abs(profile.density - 1) < 5 * profile.standard_error))
+    True
+    """
+    points = as_realizations(x)
+    if not 0 < width <= depth < math.inf:
+        raise InputError(f"width and depth must be 0 < width <= depth, spacings; got {width} and {depth}")
+    sets, n, d = points.shape
+    side = n ** (1 / d)
+    last = min(depth, side / 2)
+    edges = np.append(np.arange(0, last - width / 1e6, width), last)
+    distance = np.minimum(points, 1 - points).min(axis=2) * side  # (sets, n)
+    volume = -np.diff((1 - np.minimum(2 * edges / side, 1)) ** d)
+    counts = np.stack([np.histogram(each, edges)[0] for each in distance])
+    share = counts / n
+    density = share / volume
+    low, high = points.min(axis=1), 1 - points.max(axis=1)
+    extremes = np.concatenate([low, high], axis=1).mean(axis=1) * side
+    return EdgeDensity(
+        edges,
+        density.mean(axis=0),
+        _error(density),
+        np.cumsum(share.mean(axis=0)) / np.cumsum(volume),
+        float(extremes.mean()),
+        float(_error(extremes)),
+        sets,
+    )
+
+
+def _error(values: FloatArray) -> FloatArray:
+    """Return the standard error of the mean over the first axis; nan for a single value."""
+    if len(values) < 2:
+        return np.full(values.shape[1:], np.nan)
+    return np.asarray(values.std(axis=0, ddof=1) / math.sqrt(len(values)))

@@ -1,0 +1,1 @@
+"""Power spectra of point sets: requests, plans, periodograms and shells."""

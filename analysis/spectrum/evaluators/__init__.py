@@ -1,0 +1,1 @@
+"""Evaluators of power: one module a way to compute it, each with its cost and stated error."""

@@ -1,0 +1,84 @@
+"""Power at listed frequencies: one sine and cosine a point and frequency, any frequency of 64 bits."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gbnbench.analysis.precision import SUM_POINTS, Precision, padded
+from gbnbench.analysis.spectrum.error_model import Coordinates, Errors, coordinates, sum_errors
+from gbnbench.analysis.spectrum.evaluators.cube_product import norms_of
+from gbnbench.core.torus import FloatArray
+
+ITEMS = 16  # work-items a core that a few frequencies are cut into
+GPU_ITEMS = 256  # work-items a multiprocessor
+
+
+def listed_power(
+    p: Precision, x: FloatArray, frequencies: NDArray[np.int64], weights: FloatArray | None = None
+) -> tuple[FloatArray, Errors]:
+    """Power averaged over sets.
+
+    Parameters
+    ----------
+    p : Precision
+        Where and how.
+    x : (sets, n, d) float64
+        Checked points.
+    frequencies : (m, d) int64
+        Cycles per unit length.
+    weights : (sets or 1, n) float64, optional
+        Of the points; power is over the sum of their squares.
+
+    Returns
+    -------
+    power : (m,) float64
+    errors : Errors
+        Of the square root of any of them.
+    """
+    sets, n, d = x.shape
+    m, stride = len(frequencies), padded(n, p.lanes)
+    length = run_length(p, m, n)
+    runs = -(-stride // length)
+    program = p.program("selected.cl")
+    multiples = p.runtime.upload(frequencies.T.astype(np.uint64).astype(p.turn))
+    out = p.runtime.empty(2 * runs * m * np.dtype(p.sum).itemsize)
+    weight = np.zeros((1 if weights is None else len(weights), stride), p.real)
+    weight[:, :n] = 1 if weights is None else weights
+    local = p.runtime.group
+    total = np.zeros(m)
+    for k, (one, norm) in enumerate(zip(x, norms_of(weights, sets, n), strict=True)):
+        program.run(
+            "selected",
+            (padded(m, local), runs),
+            (local, 1),
+            multiples,
+            p.runtime.upload(p.turns(one[None], stride)),
+            p.runtime.upload(weight[k if len(weight) > 1 else 0]),
+            out,
+            np.uint32(m),
+            np.uint32(d),
+            np.uint32(stride),
+            np.uint32(length),
+        )
+        sums = p.runtime.download(out, np.empty((runs, 2, m), p.sum)).astype(np.float64).sum(axis=0)
+        total += (sums[0] ** 2 + sums[1] ** 2) / norm
+    largest = int(np.abs(frequencies.astype(np.float64)).max())
+    return total / sets, listed_errors(p, n, largest, length, coordinates(x, p.name, weights))
+
+
+def run_length(p: Precision, m: int, n: int) -> int:
+    """Points of a work-item, so that a few frequencies keep every core busy: a multiple of the lanes."""
+    device = p.runtime.device
+    items = device.compute_units * (ITEMS if device.is_cpu else GPU_ITEMS)
+    runs = max(1, min(-(-items // m), -(-n // (SUM_POINTS * p.lanes))))
+    return padded(-(-n // runs), p.lanes)
+
+
+def listed_errors(p: Precision, n: int, largest: int, length: int, at: Coordinates) -> Errors:
+    """Errors of sqrt(power): one cosine a term, sums of runs of so many points kept with their rounding."""
+    beyond = p.lanes.bit_length() + 2 + -(-n // length)
+    in_registers = min(SUM_POINTS, -(-length // p.lanes))
+    return sum_errors(
+        p.name, "double" if p.sum is np.float64 else "float", at, largest, 0, in_registers, beyond
+    )

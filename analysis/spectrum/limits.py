@@ -1,0 +1,102 @@
+"""What fits: the largest cube of frequencies for this machine's memory, and what to ask for instead."""
+
+from __future__ import annotations
+
+import math
+import os
+
+import numpy as np
+
+from gbnbench.analysis.radial.profile import FLOOR_NU
+from gbnbench.analysis.spectrum.shells import EDGE
+from gbnbench.core.errors import InputError
+
+MEMORY_SHARE = 0.5  # of the machine's memory that one cube may take
+BYTES = 24  # a frequency: on the device, on the host, and room to work with it
+LARGEST_COUNT = 1 << 63
+LARGEST_NU = 2.0  # what the peak and the pictures need
+MOST_FREQUENCIES = 6_000_000  # of one cube, 48 MB: F = 3 in d = 8
+MOST_TERMS = 1e11  # frequencies times points of one set: about ten seconds of one core
+MOST_KEPT = 1 << 27  # powers of all sets together, 1 GB
+
+
+def memory() -> int:
+    """Bytes of this machine's memory."""
+    return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+
+
+def check_fmax(fmax: object, d: int) -> int:
+    """Return fmax as an int whose cube fits in memory, or say which would.
+
+    Raises
+    ------
+    InputError
+        If fmax is not a positive integer or (2*fmax+1)**d doubles do not fit.
+    """
+    f = check_harmonic(fmax, d)
+    count = (2 * f + 1) ** d
+    room = int(MEMORY_SHARE * memory()) // BYTES
+    if count > room:
+        fitting = largest_fmax(room, d) if room >= 3**d else 0
+        way_out = (
+            f"the largest fmax that fits is {fitting}; gbnbench.shells(x, fmax) or --shells needs no cube"
+            if fitting >= 1
+            else "list the frequencies you need, or take gbnbench.shells(x, fmax): no cube"
+        )
+        raise InputError(
+            f"fmax={f} in d={d} means {float(count):.3g} frequencies, of which {room:.3g} fit in memory; "
+            f"{way_out}"
+        )
+    return f
+
+
+def check_harmonic(fmax: object, d: int) -> int:
+    """Return fmax as an int whose frequencies can be counted in 64 bits.
+
+    Raises
+    ------
+    InputError
+        If fmax is not a positive integer, or (2*fmax+1)**d exceeds 2^63.
+    """
+    if isinstance(fmax, bool) or not isinstance(fmax, (int, np.integer)) or fmax < 1:
+        raise InputError(f"fmax must be an integer of at least 1; got {fmax!r}")
+    f = int(fmax)
+    if (2 * f + 1) ** d > LARGEST_COUNT:
+        fitting = largest_fmax(LARGEST_COUNT, d)
+        way_out = (
+            f"the largest fmax is {fitting}"
+            if (2 * fitting + 1) ** d <= LARGEST_COUNT
+            else "list the frequencies you need"
+        )
+        raise InputError(
+            f"fmax={f} in d={d} means (2*fmax+1)**d frequencies, more than 2^63, which cannot be counted; "
+            f"{way_out}"
+        )
+    return f
+
+
+def largest_fmax(count: int, d: int) -> int:
+    """Largest F with (2F+1)**d <= count, at least 1."""
+    f = max(1, math.floor((math.pow(count, 1 / d) - 1) / 2))
+    while (2 * f + 1) ** d > count and f > 1:  # the root may round up
+        f -= 1
+    while (2 * f + 3) ** d <= count:  # or down
+        f += 1
+    return f
+
+
+def default_fmax(n: int, d: int, realizations: int = 1) -> int:
+    """Harmonics beyond nu = 2, so that its ring is whole; fewer where the cube, its time or memory forbid."""
+    edge = math.pow(n, 1 / d)
+    wanted = math.floor(LARGEST_NU * edge * (1 + EDGE)) + 1
+    most = min(MOST_FREQUENCIES, MOST_TERMS / n, MOST_KEPT / realizations)
+    floor = math.ceil(FLOOR_NU * edge)  # the least that anyone asks for
+    return max(1, min(wanted, max(floor, largest_fmax(int(most), d))))
+
+
+def default_shell_fmax(n: int, d: int) -> int:
+    """Harmonics as far as nu = 2, or to a ball that is affordable: it has fewer than a cube."""
+    wanted = math.floor(LARGEST_NU * math.pow(n, 1 / d) * (1 + EDGE)) + 1
+    most = min(float(MOST_FREQUENCIES), MOST_TERMS / n)
+    ball = math.pi ** (d / 2) / math.gamma(d / 2 + 1)  # of radius 1
+    return max(1, min(wanted, math.floor(math.pow(most / ball, 1 / d))))

@@ -1,0 +1,211 @@
+"""Exact periodograms in any dimension: P(f) = |sum_k exp(-2 pi i f.x_k)|^2 / n at integer frequencies."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gbnbench.analysis.spectrum.error_model import Errors
+from gbnbench.analysis.spectrum.evaluators.evaluation import Evaluation
+from gbnbench.analysis.spectrum.limits import check_fmax
+from gbnbench.analysis.spectrum.plan import choose
+from gbnbench.analysis.spectrum.request import Request
+from gbnbench.core.errors import InputError
+from gbnbench.core.results import Spectrum
+from gbnbench.core.torus import FloatArray, as_realizations
+
+
+def periodogram(
+    x: ArrayLike,
+    fmax: int | None = None,
+    precision: str | None = None,
+    frequencies: ArrayLike | None = None,
+    *,
+    weights: ArrayLike | None = None,
+    half: bool = False,
+    floor: float | None = None,
+    method: str | None = None,
+) -> Spectrum:
+    """Exact power at every integer frequency with |f_a| <= fmax, or at those listed.
+
+    Parameters
+    ----------
+    x : (n, d) or (realizations, n, d) array_like
+        Points on the unit torus; power is averaged over realizations.
+    fmax : int
+        Largest harmonic on each axis, cycles per unit length, at least 1.
+    precision : {"double", "float"}, optional
+        Of the phases, tables and sums of 128 points; those sums are added in double where the device has it.
+        Double unless said.
+    frequencies : (m, d) array_like of int, optional
+        Frequencies instead of a cube; any int64.
+    weights : (n,) or (realizations, n) array_like, optional
+        Of the points: F = sum_k w_k exp(-2 pi i f.x_k) and P = |F|^2 / sum_k w_k^2, so that white noise still
+        has power 1 in expectation.
+    half : bool
+        Only the half of the cube with f_0 >= 0; the other is its mirror image.
+    floor : float, optional
+        Smallest power that must be known to 1%: lets the cheapest evaluation be chosen that resolves it,
+        float or, in up to three dimensions, a non-uniform FFT (``gbnbench.plan`` tells which and why).
+
+    method : str, optional
+        An evaluation by name instead of the cheapest: "two-group product", "gridded product",
+        "non-uniform FFT", "numpy product", or "direct sum" for listed frequencies.
+
+    Returns
+    -------
+    Spectrum
+        ``power`` is (2*fmax+1,)*d float64 with DC at the centre, (fmax+1, 2*fmax+1, ...) for a half with DC
+        at its first row's centre, (m,) for listed frequencies; 1 in expectation for white noise, n at DC.
+        ``error_rms`` and ``error_bound`` tell how far its square root may be off, ``method`` how it was
+        found.
+
+    Raises
+    ------
+    InputError
+        If x is not points of [0, 1)^d, fmax is not a positive integer, both or neither of fmax and
+        frequencies are given, weights do not fit, floor is below what any evaluation resolves, or the cube
+        does not fit in memory (the text says what would).
+    DeviceError
+        If the OpenCL device lacks the precision. Without any device numpy computes.
+
+    Notes
+    -----
+    Eq. (10) of Ahmed, Ren & Wonka (2022), divided by n as in PSA. A coordinate is rounded to a multiple of
+    2**-64 of a turn (2**-32 in float); from there f.x mod 1 is exact at any f, and the error of an amplitude
+    is that of the cosines and their sum: about 3e-16 sqrt(n) rms in double, 2e-7 sqrt(n) in float up to
+    |f| = 512, where rounded coordinates begin to count.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> lattice = np.stack(np.meshgrid(*[np.arange(4) / 4] * 2), axis=-1).reshape(-1, 2)
+    >>> periodogram(lattice, 4).power[4, ::2].round(12).tolist()
+    [16.0, 0.0, 16.0, 0.0, 16.0]
+    """
+    points = as_realizations(x)
+    sets, n, d = points.shape
+    if (fmax is None) == (frequencies is None):
+        raise InputError(
+            "give either fmax or frequencies: periodogram(x, 64) or periodogram(x, frequencies=f)"
+        )
+    w = check_weights(weights, sets, n)
+    if frequencies is not None:
+        if half:
+            raise InputError("half is of a cube; list only the frequencies wanted")
+        return _listed(points, check_frequencies(frequencies, d), precision, w, floor, method)
+    f = check_fmax(fmax, d)
+    request = Request("half cube" if half else "cube", n, d, f, sets, (2 * f + 1) ** d)
+    evaluation = choose(request, precision, floor, method)
+    power, errors = evaluation.cube(points, f, w, half=half, mean=True)
+    errors = errors.averaged(sets, n)
+    return _spectrum(power, request, evaluation, errors, half=half, weighted=w is not None)
+
+
+def each_power(x: FloatArray, fmax: int, precision: str | None = None) -> tuple[FloatArray, Spectrum]:
+    """Power of every realization, and their mean.
+
+    Parameters
+    ----------
+    x : (realizations, n, d) float64
+        Checked points.
+    fmax : int
+        Checked by ``check_fmax``.
+    precision : {"double", "float"}, optional
+        As in ``periodogram``.
+
+    Returns
+    -------
+    powers : (realizations,) + (2*fmax+1,)*d float64
+    spectrum : Spectrum
+    """
+    sets, n, d = x.shape
+    request = Request("cube", n, d, fmax, sets, (2 * fmax + 1) ** d)
+    evaluation = choose(request, precision, None)
+    powers, errors = evaluation.cube(x, fmax, None, half=False, mean=False)
+    return powers, _spectrum(powers.mean(axis=0), request, evaluation, errors.averaged(sets, n))
+
+
+def _listed(
+    x: FloatArray,
+    frequencies: NDArray[np.int64],
+    precision: str | None,
+    weights: FloatArray | None,
+    floor: float | None,
+    method: str | None,
+) -> Spectrum:
+    sets, n, d = x.shape
+    fmax = max(abs(int(frequencies.max())), abs(int(frequencies.min())))
+    request = Request("listed", n, d, fmax, sets, len(frequencies))
+    evaluation = choose(request, precision, floor, method)
+    power, errors = evaluation.listed(x, frequencies, weights)
+    errors = errors.averaged(sets, n)
+    weighted = weights is not None
+    return _spectrum(power, request, evaluation, errors, frequencies=frequencies, weighted=weighted)
+
+
+def _spectrum(
+    power: FloatArray, request: Request, evaluation: Evaluation, errors: Errors, **more: Any
+) -> Spectrum:
+    return Spectrum(
+        power=power,
+        n=request.n,
+        d=request.d,
+        realizations=request.realizations,
+        fmax=request.fmax,
+        precision=evaluation.precision,
+        method=evaluation.method,
+        device=evaluation.device,
+        error_rms=errors.rms,
+        error_bound=errors.bound,
+        **more,
+    )
+
+
+def check_weights(weights: ArrayLike | None, sets: int, n: int) -> FloatArray | None:
+    """Return weights as (sets or 1, n) float64, or say what is wrong with them; None stays None.
+
+    Raises
+    ------
+    InputError
+        If they are not finite numbers, one for each point, or all 0 in some set.
+    """
+    if weights is None:
+        return None
+    try:
+        given = np.asarray(weights)
+        if given.dtype.kind not in "fiub" or isinstance(weights, np.ma.MaskedArray):
+            raise TypeError
+        w = np.ascontiguousarray(given, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise InputError("weights must be real numbers, one for each point, none of them masked") from None
+    if w.shape not in ((n,), (sets, n)):
+        raise InputError(f"weights must be ({n},) or ({sets}, {n}), one for each point; got shape {w.shape}")
+    w = w.reshape(-1, n)
+    if not np.isfinite(w).all():
+        raise InputError(f"weights must be finite; got {float(w[~np.isfinite(w)][0])!r}")
+    largest = np.abs(w).max(axis=1, keepdims=True)
+    if (largest == 0).any():
+        raise InputError("weights are all 0 in a set; at least one point must count")
+    scaled: FloatArray = w / largest  # power does not change, and squares cannot overflow
+    return scaled
+
+
+def check_frequencies(frequencies: ArrayLike, d: int) -> NDArray[np.int64]:
+    """Return frequencies as (m, d) int64, or say what is wrong with them.
+
+    Raises
+    ------
+    InputError
+        If they are not integers of 64 bits, (m, d) with m at least 1.
+    """
+    f = np.asarray(frequencies)
+    if f.ndim != 2 or f.shape[1] != d or len(f) == 0:
+        raise InputError(f"frequencies must be (m, {d}), one row a frequency, m >= 1; got shape {f.shape}")
+    if f.dtype.kind == "f" and np.array_equal(f, np.rint(f)) and np.abs(f).max() < 2.0**63:
+        f = f.astype(np.int64)
+    if f.dtype.kind not in "iu" or (f.dtype.kind == "u" and f.max() >= 2**63):
+        raise InputError(f"frequencies must be integers of 64 bits (cycles per unit length); got {f.dtype}")
+    return f.astype(np.int64)

@@ -1,0 +1,119 @@
+"""What a spectrum may be asked for: a cube of frequencies or its half, shells of |f|, or a list."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from gbnbench.analysis.spectrum import limits
+from gbnbench.analysis.spectrum.evaluators.shell_product import pairs, two_groups
+from gbnbench.analysis.spectrum.limits import check_harmonic
+from gbnbench.core.errors import InputError
+
+SHELL_BYTES = 96  # a shell: on the device, twice on the host, and what they are merged in
+GROUP_BYTES = 64  # a frequency of a group of axes while it is listed and sorted
+
+
+@dataclass(frozen=True)
+class Request:
+    """What is asked for.
+
+    Attributes
+    ----------
+    what : {"cube", "half cube", "shells", "listed"}
+        Which frequencies.
+    n, d, fmax, realizations : int
+        Points a set, dimension, largest harmonic on an axis, sets.
+    frequencies : int
+        How many are wanted, over the whole space.
+    low, high : int
+        Of |f|^2, for shells.
+    """
+
+    what: str
+    n: int
+    d: int
+    fmax: int
+    realizations: int
+    frequencies: int
+    low: int = 0
+    high: int = 0
+
+    def __str__(self) -> str:
+        sets = "" if self.realizations == 1 else f", {self.realizations} sets"
+        noun = "frequency" if self.frequencies == 1 else "frequencies"
+        reach = (
+            f"|f|^2 from {max(self.low, 1)} to {self.high}"
+            if self.what == "shells"
+            else f"|f_a| <= {self.fmax}"
+        )
+        return f"{self.what}: {self.frequencies:,} {noun}, {reach}, of {self.n:,} points, d={self.d}{sets}"
+
+
+def shell_request(
+    n: int, d: int, fmax: int, realizations: int, band: Sequence[float] | None, corners: bool
+) -> Request:
+    """Request for the shells of a ball, a band or, with its corners, of a whole cube.
+
+    Raises
+    ------
+    InputError
+        If fmax or band are not what they must be, or no frequency lies in the band.
+    """
+    f = check_harmonic(fmax, d)
+    low, high = 1, d * f * f if corners else f * f
+    if band is not None:
+        try:
+            least, most = (float(edge) for edge in band)
+        except (TypeError, ValueError):
+            raise InputError(
+                f"band must be two numbers, the least and the largest |f|; got {band!r}"
+            ) from None
+        if not 0 <= least <= most < math.inf:
+            raise InputError(f"band must be 0 <= low <= high, cycles per unit length; got {band!r}")
+        if most > math.sqrt(high) * (1 + 1e-12):
+            raise InputError(
+                f"band ends at |f| = {most:g}, beyond the whole shells of fmax={f}; "
+                f"ask for fmax={math.ceil(most)}"
+            )
+        low = max(low, math.ceil(least * least * (1 - 1e-12)))
+        high = min(high, math.floor(most * most * (1 + 1e-12)))
+    if high >= 1 << 32:
+        raise InputError(
+            f"|f|^2 up to {high} does not fit in 32 bits; the largest fmax here is "
+            f"{math.isqrt(((1 << 32) - 1) // (d if corners else 1))}"
+        )
+    if low > high:
+        raise InputError(f"no integer frequency has |f| in {band!r}")
+    check_room(d, f, low, high)
+    count = _count(d, f, low, high)
+    if count == 0:
+        raise InputError(f"no integer frequency has |f| in {band!r}")
+    return Request("shells", n, d, f, realizations, count, low, high)
+
+
+def check_room(d: int, fmax: int, low: int, high: int) -> None:
+    """Refuse shells or groups of axes that do not fit in memory, before they are listed."""
+    axes = d - d // 2
+    ball = math.pi ** (axes / 2) / math.gamma(axes / 2 + 1) * (math.sqrt(high) + math.sqrt(axes) / 2) ** axes
+    listed = min(ball, float(2 * fmax + 1) ** axes)
+    needed = max(SHELL_BYTES * (high - low + 1), GROUP_BYTES * listed)
+    room = limits.MEMORY_SHARE * limits.memory()
+    if needed > room:
+        raise InputError(
+            f"shells of |f|^2 from {low} to {high} in d={d} take {needed / 1e9:.3g} GB, more than half "
+            "of this machine's memory; ask for a narrower band or a smaller fmax"
+        )
+
+
+def _count(d: int, fmax: int, low: int, high: int) -> int:
+    """Frequencies with low <= |f|^2 <= high, over the whole space."""
+    if d == 1:
+        return 2 * (math.isqrt(high) - math.isqrt(low - 1))
+    a, b = two_groups(d, fmax, high)
+    # A pair stands for (fa, fb), (fa, -fb) and their mirror images, which are two where either is 0.
+    alone = sum(int(np.count_nonzero((g.square >= low) & (g.square <= high))) for g in (a, b))
+    return 4 * pairs(a, b, low, high) - 2 * alone

@@ -1,0 +1,126 @@
+"""Radial power and anisotropy without the cube: only the shells asked for, whatever the dimension."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gbnbench.analysis.precision import precision_of
+from gbnbench.analysis.spectrum.error_model import Errors
+from gbnbench.analysis.spectrum.evaluators.evaluation import PRODUCT, SEPARABLE, Evaluation
+from gbnbench.analysis.spectrum.evaluators.shell_product import Moments, shell_moments
+from gbnbench.analysis.spectrum.limits import default_shell_fmax
+from gbnbench.analysis.spectrum.periodogram import check_weights
+from gbnbench.analysis.spectrum.plan import choose
+from gbnbench.analysis.spectrum.request import Request, shell_request
+from gbnbench.analysis.spectrum.shells import squared_radius
+from gbnbench.core.results import ShellSpectrum
+from gbnbench.core.torus import FloatArray, as_realizations, spacing
+
+
+def shells(
+    x: ArrayLike,
+    fmax: int | None = None,
+    precision: str | None = None,
+    *,
+    band: Sequence[float] | None = None,
+    corners: bool = False,
+    weights: ArrayLike | None = None,
+    floor: float | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> ShellSpectrum:
+    """Mean and spread of power on every exact shell of |f|, and nothing else.
+
+    Parameters
+    ----------
+    x : (n, d) or (realizations, n, d) array_like
+        Points on the unit torus; power is averaged over realizations before it is reduced.
+    fmax : int, optional
+        Shells up to |f| = fmax, all of which the cube |f_a| <= fmax holds whole; by default as far as nu = 2,
+        or as affordable (``default_shell_fmax``).
+    precision : {"double", "float"}, optional
+        As in ``periodogram``.
+    band : (low, high), optional
+        Only shells with low <= |f| <= high, cycles per unit length.
+    corners : bool
+        Every frequency of the cube, up to |f| = sqrt(d) fmax, where shells are cut by its faces.
+    weights : (n,) or (realizations, n) array_like, optional
+        As in ``periodogram``.
+    floor : float, optional
+        Smallest power of a frequency that must be known to 1%; lets float be chosen where it does.
+    progress : callable, optional
+        Called now and then with the share done.
+
+    Returns
+    -------
+    ShellSpectrum
+        ``radial()`` and ``anisotropy()`` make the same tables as a whole cube would.
+
+    Raises
+    ------
+    InputError
+        If x, fmax, band or weights are not what they must be, or (2*fmax+1)**d exceeds 2^63.
+    DeviceError
+        If the OpenCL device lacks the precision.
+
+    Notes
+    -----
+    Evaluates only frequencies inside the ball or band: of the 2.8e8 of d = 10, fmax = 3 the 2e5 with
+    |f| <= 3, unless ``corners`` asks for all of them. Memory does not grow with their number.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> x = np.random.default_rng(0).random((256, 6))
+    >>> shells(x, 2).count.tolist()
+    [12, 60, 160, 252]
+    """
+    points = as_realizations(x)
+    sets, n, d = points.shape
+    w = check_weights(weights, sets, n)
+    if fmax is None:
+        fmax = default_shell_fmax(n, d) if band is None else max(1, math.ceil(band[1]))
+    request = shell_request(n, d, fmax, sets, band, corners)
+    evaluation = choose(request, precision, floor)
+    if d > 1 and evaluation.method != SEPARABLE:
+        p = precision_of(evaluation.precision)
+        moments, errors = shell_moments(p, points, request.fmax, request.low, request.high, w, progress)
+    else:
+        if evaluation.method != SEPARABLE:
+            evaluation = Evaluation(PRODUCT, evaluation.precision)
+        moments, errors = _of_cube(evaluation, points, request, w)
+    errors = errors.averaged(sets, n)
+    return ShellSpectrum(
+        frequency=np.sqrt(moments.square.astype(np.float64)),
+        nu=np.sqrt(moments.square.astype(np.float64)) * spacing(n, d),
+        power=moments.mean,
+        count=2 * moments.count,
+        deviation=moments.deviation,
+        n=n,
+        d=d,
+        realizations=sets,
+        fmax=request.fmax,
+        precision=evaluation.precision,
+        method=evaluation.method,
+        device=evaluation.device,
+        error_rms=errors.rms,
+        error_bound=errors.bound,
+    )
+
+
+def _of_cube(
+    evaluation: Evaluation, x: FloatArray, request: Request, weights: FloatArray | None
+) -> tuple[Moments, Errors]:
+    """Moments from a whole cube: one dimension, where that is as cheap, and plain numpy."""
+    reach = min(request.fmax, math.isqrt(request.high))
+    power, errors = evaluation.cube(x, reach, weights, half=False, mean=True)
+    square, flat = squared_radius(reach, request.d), power.ravel()
+    wanted = (square >= request.low) & (square <= request.high)
+    wanted[: len(wanted) // 2 + 1] = False  # one half space
+    present, label, count = np.unique(square[wanted], return_inverse=True, return_counts=True)
+    mean = np.bincount(label, flat[wanted]) / count
+    deviation = np.bincount(label, (flat[wanted] - mean[label]) ** 2).astype(np.float64, copy=False)
+    return Moments(present, count.astype(np.int64), mean, deviation), errors

@@ -1,0 +1,208 @@
+"""Depth against order of deep sets over c and the edge, from starts of several lengths, with GBN beside them.
+
+python -m gbnbench.benchmarks.experiments.depth_order benchmarks/results/deep/depth_order.csv
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+import sys
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from gbnbench.analysis.radial.anisotropy import anisotropy_db
+from gbnbench.analysis.radial.profile import evacuated_energy, noise_floor, peak, power_at_1
+from gbnbench.analysis.radial.radial_power import radial
+from gbnbench.analysis.spatial.bond_order import psi6
+from gbnbench.analysis.spatial.delaunay import neighbours, valence6
+from gbnbench.analysis.spatial.distances import mean_distance, min_distance
+from gbnbench.analysis.spectrum.periodogram import periodogram
+from gbnbench.analysis.spectrum.shells import exact_shells
+from gbnbench.benchmarks.timing.machine import Rows, describe
+from gbnbench.core.errors import RefusalError
+from gbnbench.core.results import RadialPower
+from gbnbench.core.torus import FloatArray
+from gbnbench.generators.gauss_newton.solver import reach
+from gbnbench.generators.gbn.energy import field
+from gbnbench.generators.gbn.generator import GaussianBlueNoise
+from gbnbench.generators.protocol import realization_rng
+from gbnbench.generators.spectral_control.target_profiles import Exponential
+
+BEYOND = 0.15  # width in nu of the band beyond the edge that is looked at
+KEY = ("generator", "n", "d", "c_pi2", "edge", "gradients", "seed")
+COLUMNS = (
+    *KEY, "chi", "converged", "steps", "products", "cpu_s", "excess", "noise_floor", "power_at_1",
+    "evacuated_energy", "peak", "valence6", "psi6", "min_distance", "mean_distance", "anisotropy_db",
+    "beyond_mean", "beyond_ring",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Map:
+    """What is drawn at one n and d.
+
+    Attributes
+    ----------
+    n, d : int
+        Points and dimension.
+    c : tuple of float
+        Steepnesses, in pi**2.
+    edges : tuple of float
+        In nu.
+    starts : tuple of int
+        Gradients of the starts.
+    gbn : tuple of int
+        Gradients of the Gaussian Blue Noise beside them.
+    seeds : int
+        Sets a point of the map.
+    edge : float
+        Where the band beyond the edge of Gaussian Blue Noise, which has none, is taken to begin.
+    """
+
+    n: int
+    d: int
+    c: tuple[float, ...]
+    edges: tuple[float, ...]
+    starts: tuple[int, ...]
+    gbn: tuple[int, ...]
+    seeds: int
+    edge: float
+
+
+MAPS = (
+    Map(
+        1024, 2, (4, 6, 8, 10, 12, 16), (0.55, 0.6, 0.65, 0.7, 0.72, 0.74, 0.76, 0.78), (25, 50, 100, 200),
+        (100, 320, 1000), 3, 0.72,
+    ),
+    Map(1000, 3, (4, 8, 12), (0.72, 0.76, 0.8, 0.835, 0.86, 0.88), (15, 60, 240), (60, 320, 1000), 2, 0.8),
+    # Few points and starts from none on: where sets fail.
+    Map(64, 2, (8, 12), (0.72, 0.76, 0.78), (0, 25, 100), (), 8, 0.72),
+    Map(256, 2, (8, 12), (0.72, 0.76, 0.78), (0, 25, 100), (), 4, 0.72),
+)  # fmt: skip
+
+
+def chi(d: int, edge: float) -> float:
+    """V_d edge**d / (2 d), V_d being the unit ball's volume: half of the coordinates' share that is bound.
+
+    Examples
+    --------
+    >>> round(chi(2, 0.72), 4), round(chi(3, 0.8), 4)
+    (0.4072, 0.3574)
+    """
+    return float(math.pi ** (d / 2) / math.gamma(d / 2 + 1) * edge**d / (2 * d))
+
+
+def beyond(shells: RadialPower, edge: float) -> tuple[float, float]:
+    """Mean power over edge <= nu <= edge + 0.15, and the largest of its rings round(|f|) = k."""
+    band = (shells.nu >= edge) & (shells.nu <= edge + BEYOND)
+    ring = np.rint(shells.frequency[band]).astype(np.int64)
+    count = np.bincount(ring, shells.count[band])
+    total = np.bincount(ring, shells.count[band] * shells.power[band])
+    return float(total.sum() / count.sum()), float(np.max(total[count > 0] / count[count > 0]))
+
+
+def row(key: tuple[Any, ...], x: FloatArray, edge: float, **told: object) -> dict[str, Any]:
+    """Everything measured of one set; its key is as ``KEY`` says. What it refuses is nan."""
+    n, d = x.shape
+    spectrum = periodogram(x, math.ceil(2 * n ** (1 / d)) + 1)
+    shells = radial(spectrum)
+    mean, ring = beyond(shells, edge)
+    plane = neighbours(x) if d == 2 else None
+    return {
+        **dict(zip(KEY, key, strict=True)),
+        **told,
+        "excess": float(field(n, d, 1.0)(x[None]).excess[0]),
+        "noise_floor": noise_floor(shells),
+        "power_at_1": power_at_1(shells),
+        "evacuated_energy": or_nan(lambda: evacuated_energy(spectrum.power, n, d, spectrum.fmax)),
+        "peak": peak(shells)[0],
+        "valence6": float(valence6(plane)[0]) if plane else math.nan,
+        "psi6": float(psi6(plane)[0]) if plane else math.nan,
+        "min_distance": float(min_distance(x)[0]),
+        "mean_distance": float(mean_distance(x)[0]),
+        "anisotropy_db": or_nan(
+            lambda: anisotropy_db(spectrum.power, exact_shells(spectrum.fmax, d), 1, spectrum.spacing)
+        ),
+        "beyond_mean": mean,
+        "beyond_ring": ring,
+    }
+
+
+def or_nan(compute: Callable[[], float]) -> float:
+    """Return the measure, or nan where it means nothing for this set."""
+    try:
+        return compute()
+    except RefusalError:
+        return math.nan
+
+
+def rows(plan: Map, done: set[tuple[str, ...]]) -> Iterator[dict[str, Any]]:
+    """One row a set, but for those whose keys, as text, are done."""
+    GaussianBlueNoise(gradients=2)(plan.n, plan.d, realization_rng(0, 0))  # builds the kernels
+    for seed in range(plan.seeds):
+        for gradients in sorted({*plan.starts, *plan.gbn}):
+            targets = [(c, edge) for c in plan.c for edge in plan.edges] if gradients in plan.starts else []
+            beside = ("gbn", plan.n, plan.d, math.nan, math.nan, gradients, seed)
+            keys = [beside, *(("deep", plan.n, plan.d, c, edge, gradients, seed) for c, edge in targets)]
+            keys = [key for key in keys if text(key) not in done]
+            if not keys:
+                continue
+            before = time.process_time()
+            x = GaussianBlueNoise(gradients=gradients)(plan.n, plan.d, realization_rng(seed, 0))
+            seconds = time.process_time() - before
+            for key in keys:
+                if key is beside:
+                    yield row(
+                        key, x, plan.edge, chi=math.nan, converged=True, steps=0, products=0, cpu_s=seconds
+                    )
+                else:
+                    yield deepened(key, x, seconds)
+
+
+def deepened(key: tuple[Any, ...], x: FloatArray, seconds: float) -> dict[str, Any]:
+    """Bring one start to one profile; a set that does not converge has no measures."""
+    _, _, d, c, edge, _, _ = key
+    before = time.process_time()
+    outcome = reach(x, Exponential(c * math.pi**2, edge), edge)
+    told: dict[str, Any] = {
+        "chi": chi(d, edge), "converged": outcome.converged, "steps": outcome.steps,
+        "products": outcome.products, "cpu_s": seconds + time.process_time() - before,
+    }  # fmt: skip
+    if outcome.converged:
+        return row(key, outcome.x, edge, **told)
+    return {**dict.fromkeys(COLUMNS, math.nan), **dict(zip(KEY, key, strict=True)), **told}
+
+
+def text(key: tuple[Any, ...]) -> tuple[str, ...]:
+    """Return a key as the file has it."""
+    return tuple(f"{cell:.6g}" if isinstance(cell, float) else str(cell) for cell in key)
+
+
+def main(arguments: list[str], maps: tuple[Map, ...] = MAPS) -> None:
+    """Fill the table in the file named, from where it was left."""
+    path = Path(arguments[0])
+    kept: list[dict[str, str]] = []
+    if path.exists():
+        with path.open(newline="", encoding="utf-8") as file:
+            kept = list(csv.DictReader(file))
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.with_name("machine.json").write_text(json.dumps(describe(), indent=1) + "\n", encoding="utf-8")
+    with Rows(path, COLUMNS) as table:
+        for old in kept:
+            table.add(old)
+        done = {tuple(old[name] for name in KEY) for old in kept}
+        for plan in maps:
+            for new in rows(plan, done):
+                table.add(new)
+                print(*text(tuple(new[name] for name in (*KEY, "converged", "noise_floor"))), flush=True)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -1,0 +1,1 @@
+"""Noise floor against time of the optimisers of Gaussian Blue Noise."""

@@ -1,0 +1,1 @@
+"""Speed against error of power spectra, beside the rivals that a user could take instead."""

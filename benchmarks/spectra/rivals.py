@@ -1,0 +1,171 @@
+"""The ways to a point set's power spectrum that are compared, each in its best form.
+
+Every one is prepared with (realizations, n, d) points and fmax and gives the mean power over realizations:
+ours in one call, the others set by set. Nothing is kept between calls, but where a name says so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gbnbench.analysis.spectrum.evaluators import nufft
+from gbnbench.analysis.spectrum.evaluators.evaluation import DIRECT, PRODUCT, SEPARABLE, Evaluation
+from gbnbench.analysis.spectrum.periodogram import periodogram
+from gbnbench.analysis.spectrum.plan import plan
+from gbnbench.core.torus import FloatArray
+from gbnbench.opencl import runtime
+
+TOLERANCES = (1e-3, 1e-6, 1e-9, 1e-12, 1e-14)
+NAIVE_RATE = 2e8  # sines and cosines a second at least, to leave out what takes too long
+ZGEMM_FROM = 4  # dimensions from which the product alone, its tables ready, is a rival
+Power = Callable[[], FloatArray]
+
+
+@dataclass(frozen=True)
+class Rival:
+    """One method.
+
+    Attributes
+    ----------
+    name : str
+        As tables and pictures say it.
+    family : str
+        What one curve joins.
+    precision : str
+        "double" or "float".
+    prepare : callable
+        (points, fmax) -> call that returns the mean power.
+    evaluation : str
+        Which of gbnbench's it is; empty for the others'.
+    """
+
+    name: str
+    family: str
+    precision: str
+    prepare: Callable[[FloatArray, int], Power]
+    evaluation: str = ""
+
+
+def ours(n: int, d: int, fmax: int, sets: int) -> Iterator[Rival]:
+    """Yield gbnbench's own on this device: as it chooses, and the plain product where it chooses another."""
+    for precision in ("double", "float") if runtime().device.has_double else ("float",):
+        chosen = plan(n, d, fmax, precision, realizations=sets).method
+        call = partial(_chosen, precision=precision)
+        yield Rival(f"gbnbench {precision}", "gbnbench", precision, call, chosen)
+        if chosen != PRODUCT:
+            call = partial(_evaluated, evaluation=Evaluation(PRODUCT, precision))
+            yield Rival(f"two-group product {precision}", "two-group product", precision, call, PRODUCT)
+
+
+def rivals(n: int, d: int, fmax: int, sets: int, longest: float) -> Iterator[Rival]:
+    """Every method for points of this size, ours first; the naive one up to so many seconds a call."""
+    yield from ours(n, d, fmax, sets)
+    call = partial(_evaluated, evaluation=Evaluation(SEPARABLE, "double"))
+    yield Rival("gbnbench without a device", "gbnbench without a device", "double", call, SEPARABLE)
+    work = float((2 * fmax + 1) ** d) * n * sets / 2
+    if runtime().device.has_double and work <= longest * NAIVE_RATE:
+        yield Rival("naive kernel", "naive kernel", "double", _naive, DIRECT)
+    yield Rival("numpy separable", "numpy separable", "double", _set_by_set(separable))
+    if d >= ZGEMM_FROM:
+        yield Rival("zgemm on ready tables", "zgemm on ready tables", "double", _ready)
+    if d <= nufft.DIMENSIONS and nufft.available():
+        for tolerance in TOLERANCES:
+            transform = _set_by_set(partial(finufft, tolerance=tolerance))
+            yield Rival(f"FINUFFT {tolerance:.0e}".replace("e-0", "e-"), "FINUFFT", "double", transform)
+
+
+def half_space(fmax: int, d: int) -> NDArray[np.int64]:
+    """One of each pair f, -f, and 0: (m, d), the second half of the cube."""
+    base = 2 * fmax + 1
+    index = np.arange(base**d // 2, base**d)
+    return np.stack(np.unravel_index(index, (base,) * d), axis=1) - fmax
+
+
+def tables(x: FloatArray, fmax: int) -> list[NDArray[np.complex128]]:
+    """Complex exponentials of two groups of dimensions: (n, (2F+1)**dims) each."""
+    f = np.arange(-fmax, fmax + 1)
+    made = []
+    for group in (x[:, : x.shape[1] // 2], x[:, x.shape[1] // 2 :]):
+        table = np.ones((len(x), 1), complex)
+        for coordinate in group.T:
+            axis = np.exp(-2j * np.pi * coordinate[:, None] * f)
+            table = (table[:, :, None] * axis[:, None]).reshape(len(x), -1)
+        made.append(table)
+    return made
+
+
+def separable(x: FloatArray, fmax: int) -> FloatArray:
+    """Tabulate in numpy and take one complex product (zgemm)."""
+    a, b = tables(x, fmax)
+    return _squared(a.T @ b, len(x)).reshape((2 * fmax + 1,) * x.shape[1])
+
+
+def finufft(x: FloatArray, fmax: int, tolerance: float) -> FloatArray:
+    """FINUFFT's type 1, one thread, one call a set."""
+    import finufft as library
+
+    transform: Any = getattr(library, f"nufft{x.shape[1]}d1")
+    modes: Any = (2 * fmax + 1,) * x.shape[1]
+    turns = [np.multiply(2 * np.pi, coordinate) for coordinate in np.ascontiguousarray(x.T)]
+    ones = np.ones(len(x), complex)
+    amplitude = transform(
+        *turns, ones, modes if len(modes) > 1 else modes[0], eps=tolerance, isign=-1, nthreads=1
+    )
+    return _squared(amplitude, len(x))
+
+
+def _squared(amplitude: NDArray[np.complex128], n: int) -> FloatArray:
+    power: FloatArray = (amplitude.real**2 + amplitude.imag**2) / n
+    return power
+
+
+def _set_by_set(method: Callable[[FloatArray, int], FloatArray]) -> Callable[[FloatArray, int], Power]:
+    def prepare(x: FloatArray, fmax: int) -> Power:
+        def call() -> FloatArray:
+            mean = method(x[0], fmax)
+            for one in x[1:]:
+                mean += method(one, fmax)
+            mean /= len(x)
+            return mean
+
+        return call
+
+    return prepare
+
+
+def _chosen(x: FloatArray, fmax: int, precision: str) -> Power:
+    return lambda: periodogram(x, fmax, precision).power
+
+
+def _evaluated(x: FloatArray, fmax: int, evaluation: Evaluation) -> Power:
+    return lambda: evaluation.cube(x, fmax, None, False, True)[0]
+
+
+def _naive(x: FloatArray, fmax: int) -> Power:
+    """One sine and cosine a point and frequency of the half space, on the same device."""
+    shape = (2 * fmax + 1,) * x.shape[2]
+    frequencies = half_space(fmax, x.shape[2])
+
+    def call() -> FloatArray:
+        half = periodogram(x, frequencies=frequencies).power
+        return np.concatenate([half[:0:-1], half]).reshape(shape)
+
+    return call
+
+
+def _ready(x: FloatArray, fmax: int) -> Power:
+    """Take the product alone; its tables are made beforehand and not counted."""
+    ready = [tables(one, fmax) for one in x]
+    shape = (2 * fmax + 1,) * x.shape[2]
+
+    def call() -> FloatArray:
+        mean = sum(_squared(a.T @ b, x.shape[1]) for a, b in ready) / len(ready)
+        return np.asarray(mean).reshape(shape)
+
+    return call

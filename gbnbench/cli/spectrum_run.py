@@ -1,0 +1,230 @@
+"""What ``gbnbench spectrum`` does once it knows what is asked: reads, plans, finds, writes and tells."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+import numpy as np
+
+from gbnbench.analysis.spectrum.spectrum_request import Asked
+from gbnbench.cli.spectrum_text import exactness, headline, told
+from gbnbench.core.errors import InputError
+from gbnbench.core.results import ShellSpectrum, Spectrum
+from gbnbench.core.torus import FloatArray
+from gbnbench.execution import progress
+from gbnbench.io.lists import read_weights
+from gbnbench.io.points import read
+from gbnbench.io.points.writer import write_atomically
+from gbnbench.runs.spectrum_files import DATA, check_writable, encode
+
+if TYPE_CHECKING:
+    from gbnbench.analysis.spectrum.plan import Plan
+
+PICTURES = (".png", ".pdf")
+SLOW = 3.0  # expected seconds that are said beforehand
+PATIENCE = 1.0  # seconds before progress is shown
+
+
+@dataclass(frozen=True)
+class Sets:
+    """Point sets that give one spectrum.
+
+    Attributes
+    ----------
+    label : str
+        For the user.
+    sources : tuple of str
+        The files, and which of their sets.
+    x : (realizations, n, d) float64
+        Points.
+    """
+
+    label: str
+    sources: tuple[str, ...]
+    x: FloatArray
+
+
+def read_sets(files: Sequence[Path], *, each: bool) -> list[Sets]:
+    """Read every set of the files: one entry a set, or one of all, which then agree in n and d.
+
+    Raises
+    ------
+    FormatError
+        If a file cannot be read.
+    InputError
+        If sets that are to be averaged differ in n or d.
+    """
+    names: list[str] = []
+    sets: list[FloatArray] = []
+    for path in files:
+        found = read(path)
+        names += [f"{path}, set {k}" if len(found) > 1 else str(path) for k in range(len(found))]
+        sets += found
+    if each or not sets:
+        return [Sets(name, (name,), x[None]) for name, x in zip(names, sets, strict=True)]
+    for name, x in zip(names, sets, strict=True):
+        if x.shape != sets[0].shape:
+            raise InputError(
+                f"only sets of one size are averaged: {names[0]} has n={len(sets[0])}, d={sets[0].shape[1]}, "
+                f"{name} has n={len(x)}, d={x.shape[1]}; --each gives a spectrum of each"
+            )
+    more = f" and {len(files) - 1} more" if len(files) > 1 else ""
+    return [Sets(f"{files[0]}{more}", tuple(names), np.stack(sets))]
+
+
+def explain(asked: Asked, sets: Sequence[Sets], weights: Path | None) -> None:
+    """Print the plan of each size of sets, having checked the weights."""
+    _weights(weights, sets)
+    alike: dict[tuple[int, ...], list[Sets]] = {}
+    for one in sets:
+        alike.setdefault(one.x.shape, []).append(one)
+    for (realizations, n, d), same in alike.items():
+        more = f" and {len(same) - 1} more, each" if len(same) > 1 else ""
+        click.echo(f"{same[0].label}{more}:\n{asked.plan(n, d, realizations)}")
+
+
+def find(asked: Asked, sets: Sequence[Sets], weights: Path | None, out: Path | None, *, each: bool) -> None:
+    """Find the spectra, and write or print them.
+
+    Raises
+    ------
+    GbnbenchError
+        If something is wrong with any of it, before the first is found where that can be told.
+    """
+    plans = [asked.plan(one.x.shape[1], one.x.shape[2], len(one.x)) for one in sets]
+    if out is not None:
+        for plan in plans:
+            _check_out(out, plan)
+    weighing = _weights(weights, sets)
+    seconds = sum(plan.seconds for plan in plans)
+    if seconds > SLOW:
+        click.echo(f"gbnbench: about {_duration(seconds)}: {plans[0].chosen.evaluation.label}", err=True)
+    paths = [] if out is None else places(out, len(sets), each=each)
+    written = 0
+    try:
+        for k, (one, plan, w) in enumerate(zip(sets, plans, weighing, strict=True)):
+            if weights is not None:
+                one = replace(one, label=f"{one.label} weighted by {weights}")
+            if asked.sigma is not None:
+                one = replace(one, label=f"{one.label} filtered by a Gaussian of {asked.sigma:g} spacings")
+            with _bar(plan.request.frequencies) as tell:
+                result = asked.find(one.x, w, tell)
+            if paths:
+                _write(paths[k], result, one)
+                written += 1
+            else:
+                click.echo(("\n" if k else "") + told(result, one.label))
+    except KeyboardInterrupt:
+        if not paths:
+            raise
+        are = "is" if written == 1 else "are"
+        raise KeyboardInterrupt(
+            f"{written} of {len(paths)} {'file' if len(paths) == 1 else 'files'} {are} written and kept"
+        ) from None
+
+
+def _weights(path: Path | None, sets: Sequence[Sets]) -> list[FloatArray | None]:
+    """Weights of each entry, read once; several entries of one n may have weights of their own."""
+    if path is None:
+        return [None] * len(sets)
+    if len(sets) == 1:
+        realizations, n, _ = sets[0].x.shape
+        return [read_weights(path, n, realizations)]
+    sizes = {one.x.shape[1] for one in sets}
+    if len(sizes) > 1:
+        raise InputError(f"weights are for sets of one size; these have n = {sorted(sizes)}")
+    found = read_weights(path, sizes.pop(), len(sets))
+    return list(found) if found.ndim == 2 else [found] * len(sets)
+
+
+def places(out: Path, sets: int, *, each: bool) -> list[Path]:
+    """Name every file that will be written: OUT, or with ``each`` OUT with the number of each set."""
+    digits = len(str(sets - 1))
+    return [out.with_name(f"{out.stem}_{k:0{digits}d}{out.suffix}") for k in range(sets)] if each else [out]
+
+
+def check_outs(outs: Sequence[Path], inputs: Sequence[Path], *, each: bool) -> None:
+    """Refuse to write where an input is, by whatever name or link."""
+    read_here = {_identity(path) for path in inputs}
+    for path in outs:
+        if path.exists() and _identity(path) in read_here:
+            how = "--each" if each else "writing"
+            raise InputError(f"{path} is read here, and {how} would replace it; choose another name")
+
+
+def _identity(path: Path) -> tuple[int, int]:
+    """Device and inode, which every link to a file has in common."""
+    status = path.stat()
+    return status.st_dev, status.st_ino
+
+
+def check_place(out: Path) -> None:
+    """Refuse a place or format that cannot be written, before anything is read."""
+    if out.suffix.lower() not in DATA + PICTURES:
+        known = ", ".join(DATA + PICTURES)
+        raise InputError(f"{out}: spectra are written as {known}; got extension {out.suffix!r}")
+    if not out.parent.is_dir():
+        raise InputError(f"cannot write {out}: there is no folder {out.parent}")
+
+
+def _check_out(out: Path, plan: Plan) -> None:
+    """Refuse what the format cannot hold."""
+    suffix, request = out.suffix.lower(), plan.request
+    if suffix in PICTURES and request.what == "listed":
+        raise InputError(f"{out}: listed frequencies make no picture; write .csv, .npz or .npy")
+    rows = request.high if request.what == "shells" else request.frequencies
+    if suffix in DATA:
+        check_writable(suffix, request.what, rows)
+
+
+def _write(path: Path, result: Spectrum | ShellSpectrum, sets: Sets) -> None:
+    suffix = path.suffix.lower()
+    if suffix in DATA:
+        data = encode(suffix, result, sets.sources)
+    else:
+        from gbnbench.reports.comparison import figure_files
+        from gbnbench.reports.comparison.single_spectrum import figure
+
+        drawn = figure(result, sets.label)
+        data = figure_files.png(drawn) if suffix == ".png" else figure_files.pdf(drawn)
+    replaced = ", replacing what was there" if path.exists() else ""
+    write_atomically(path, data)
+    click.echo(f"wrote {path}: {headline(result, sets.label)}{replaced}\n  {exactness(result)}")
+
+
+def _duration(seconds: float) -> str:
+    for size, unit in ((86400, "days"), (3600, "hours"), (60, "minutes")):
+        if seconds >= 1.5 * size:
+            return f"{seconds / size:,.3g} {unit}"
+    return f"{seconds:.0f} s"
+
+
+def _worth_showing(elapsed: float, share: float) -> bool:
+    """Whether work has lasted a while and will last as long again, so that a bar does not just flash."""
+    return elapsed > PATIENCE and elapsed * (1 - share) >= PATIENCE * share
+
+
+@contextmanager
+def _bar(frequencies: int) -> Iterator[Callable[[float], None]]:
+    """Yield what takes the share done and shows it, once the work has lasted a while."""
+    began, shown = time.monotonic(), 0
+    with ExitStack() as stack:
+        bar: progress.Progress | None = None
+
+        def tell(share: float) -> None:
+            nonlocal bar, shown
+            done = int(share * frequencies)
+            if bar is not None:
+                bar.advance("frequencies", done - shown)
+            elif _worth_showing(time.monotonic() - began, share):
+                bar = stack.enter_context(progress.choose(quiet=False))
+                bar.start(frequencies, done, "frequencies")
+            shown = done
+
+        yield tell

@@ -1,0 +1,159 @@
+"""Points on the unit torus [0, 1)^d: validation, wrapping, distances, spacings and exact phases."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gbnbench.core.errors import InputError
+
+FloatArray = NDArray[np.float64]
+
+# Hermite's constant gamma_d of the densest lattice, known for d <= 8 (Conway & Sloane, Table 1.2).
+HERMITE = (1.0, 2 / math.sqrt(3), 2 ** (1 / 3), math.sqrt(2), 8**0.2, (64 / 3) ** (1 / 6), 64 ** (1 / 7), 2.0)
+
+
+def check_points(x: ArrayLike) -> FloatArray:
+    """Return x as float64 points of the unit torus, or say what is wrong with it.
+
+    Parameters
+    ----------
+    x : (n, d) or (realizations, n, d) array_like
+        Coordinates in [0, 1).
+
+    Returns
+    -------
+    (n, d) or (realizations, n, d) float64
+        The same points, C-contiguous.
+
+    Raises
+    ------
+    InputError
+        If x has another shape, is empty, is not finite, or leaves [0, 1).
+
+    Examples
+    --------
+    >>> check_points([[0.25, 0.5]]).shape
+    (1, 2)
+    """
+    try:
+        array = np.asarray(x)
+        if array.dtype.kind not in "fiub" or isinstance(x, np.ma.MaskedArray):
+            raise TypeError
+        points = np.ascontiguousarray(array, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise InputError(
+            "x must be an array of real numbers, none of them masked, (n, d) or (realizations, n, d)"
+        ) from None
+    if points.ndim not in (2, 3) or 0 in points.shape:
+        raise InputError(
+            f"x must be (n, d) or (realizations, n, d) with no empty axis; got shape {points.shape}"
+        )
+    inside = (points >= 0) & (points < 1)
+    if not inside.all():
+        where = tuple(int(i) for i in np.argwhere(~inside)[0])
+        raise InputError(
+            f"points must lie in [0, 1); got {float(points[where])!r} at index {where}. "
+            "On a torus, gbnbench.core.torus.wrap(x) brings them inside"
+        )
+    return points
+
+
+def as_realizations(x: ArrayLike) -> FloatArray:
+    """Return checked points as (realizations, n, d); one set becomes one realization."""
+    points = check_points(x)
+    return points if points.ndim == 3 else points[None]
+
+
+def wrap(x: ArrayLike) -> FloatArray:
+    """Bring coordinates onto [0, 1) by whole turns.
+
+    Notes
+    -----
+    ``-1e-17 % 1.0`` rounds to 1.0; the torus has no 1.0, so it becomes 0.
+
+    Examples
+    --------
+    >>> wrap([1.25, -1e-17])
+    array([0.25, 0.  ])
+    """
+    turned = np.mod(np.asarray(x, dtype=np.float64), 1.0)
+    turned[turned >= 1.0] = 0.0
+    return turned
+
+
+def displacement(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Shortest vector from b to a on the torus, each coordinate in [-1/2, 1/2]; shapes broadcast."""
+    difference: FloatArray = a - b
+    return difference - np.rint(difference)
+
+
+def toroidal_distance(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Length of the shortest vector from b to a; shapes broadcast, the last axis is summed."""
+    distance: FloatArray = np.sqrt(np.sum(displacement(a, b) ** 2, axis=-1))
+    return distance
+
+
+def spacing(n: int, d: int) -> float:
+    """Nominal grid spacing n**(-1/d), the unit of sigma and the inverse unit of nu."""
+    return math.pow(n, -1.0 / d)
+
+
+def densest_spacing(n: int, d: int) -> float:
+    """Minimum distance of the densest known lattice: sqrt(gamma_d) n**(-1/d); nan for d > 8.
+
+    In 2D this is d_hex = sqrt(2 / (sqrt(3) n)), the unit of PSA's distances.
+    """
+    if d > len(HERMITE):
+        return math.nan
+    return math.sqrt(HERMITE[d - 1]) * spacing(n, d)
+
+
+def fixed_point(x: FloatArray, bits: int) -> NDArray[Any]:
+    """Coordinates as unsigned fractions of a turn: uint32 or uint64, so that f.x mod 1 is integer wrap.
+
+    Parameters
+    ----------
+    x : (...) float64
+        Coordinates in [0, 1).
+    bits : {32, 64}
+        64 is exact for every multiple of 2**-64, so for every double from 2**-12 up.
+
+    Returns
+    -------
+    (...) uint32 or uint64
+        ``rint(x * 2**bits) mod 2**bits``.
+    """
+    if bits == 64:  # the largest double below 1 gives 2**64 - 2**11: no overflow
+        return np.rint(x * 2.0**64).astype(np.uint64)
+    return np.rint(x * 2.0**32).astype(np.uint64).astype(np.uint32)
+
+
+def with_images(x: FloatArray, margin: float) -> tuple[FloatArray, NDArray[np.intp]]:
+    """Append to one point set the periodic images that lie within margin of the unit box.
+
+    Parameters
+    ----------
+    x : (n, d) float64
+        Points on the unit torus.
+    margin : float
+        Width of the border, in (0, 1].
+
+    Returns
+    -------
+    tiled : (m, d) float64
+        The n points first, then their images in [-margin, 1 + margin)^d.
+    owner : (m,) intp
+        Index in x of which each row is an image.
+    """
+    tiled, owner = x, np.arange(len(x), dtype=np.intp)
+    for axis in range(x.shape[1]):
+        low, high = tiled[:, axis] < margin, tiled[:, axis] >= 1 - margin
+        step = np.zeros(x.shape[1])
+        step[axis] = 1.0
+        tiled = np.concatenate([tiled, tiled[low] + step, tiled[high] - step])
+        owner = np.concatenate([owner, owner[low], owner[high]])
+    return tiled, owner

@@ -1,0 +1,1 @@
+"""Whether an OpenCL device can be trusted, proved on the user's own machine."""

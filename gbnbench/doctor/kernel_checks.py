@@ -1,0 +1,249 @@
+"""Whether a device can be trusted: every kernel of ours against plain numpy, on the user's own device.
+
+Runtimes have miscompiled kernels on some processors (PoCL's tracker, issue 979), so nothing is believed that
+was not tried on the device, driver and version at hand.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+import gbnbench
+from gbnbench.core.cache_folder import recall, remember
+from gbnbench.core.errors import DeviceError, GbnbenchError
+from gbnbench.core.torus import FloatArray, displacement, spacing
+from gbnbench.opencl import Device, choose, runtime
+
+# n, d, fmax: none a multiple of a vector, a tile or a chunk.
+PERIODOGRAMS = ((7, 1, 19), (131, 2, 11), (333, 2, 5), (61, 3, 3), (29, 5, 1))
+QUICK_PERIODOGRAMS = ((131, 2, 11), (29, 5, 1))
+# n, d, sigma: wide boxes, then narrow ones, each by every evaluation that serves it.
+ENERGIES = ((613, 2, 0.9), (401, 1, 1.0), (83, 2, 1.0), (53, 3, 0.7), (37, 8, 1.0))
+QUICK_ENERGIES = ((401, 2, 1.0), (53, 3, 0.7))
+QUICK_BOXES = ((90, 2, 1.0),)
+BOXES = (*QUICK_BOXES, (1500, 2, 0.5), (120, 3, 1.0), (60, 8, 1.0))
+SWEEP, QUICK_SWEEP = 101, 41  # points of the farthest-point kernel's sweep
+DISTANCE = 1e-9  # a sweep's departure, in box sides
+AMPLITUDE = {"double": 1e-14, "float": 2e-6}  # error allowed, over sqrt(n)
+GRADIENT = {"double": 1e-11, "float": 1e-4}  # over the largest component
+
+
+@dataclass(frozen=True)
+class Check:
+    """One kernel at one size and precision against numpy.
+
+    Attributes
+    ----------
+    kernel, size, precision : str
+        What was tried.
+    error, allowed : float
+        Largest departure and its bound, in the units of the kernel's own check.
+    fault : str
+        Why it could not be tried at all; empty where it ran.
+    """
+
+    kernel: str
+    size: str
+    precision: str
+    error: float
+    allowed: float
+    fault: str = ""
+
+    @property
+    def passed(self) -> bool:
+        """Whether the kernel may be trusted here."""
+        return not self.fault and self.error <= self.allowed
+
+
+@dataclass(frozen=True)
+class Examination:
+    """All checks of one device.
+
+    Attributes
+    ----------
+    device : Device
+        Which.
+    checks : tuple of Check
+        In the order tried.
+    """
+
+    device: Device
+    checks: tuple[Check, ...]
+
+    @property
+    def trusted(self) -> bool:
+        """Whether every check passed."""
+        return all(check.passed for check in self.checks)
+
+    @property
+    def verdict(self) -> str:
+        """One sentence for the user."""
+        failed = sorted({check.kernel for check in self.checks if not check.passed})
+        if failed:
+            return (
+                f"do not trust {self.device.label}: {', '.join(failed)} departs from numpy. Choose another "
+                f"device "
+                "(gbnbench devices), or update its driver and run gbnbench doctor again"
+            )
+        precisions = " and ".join(sorted({check.precision for check in self.checks}))
+        return (
+            f"{self.device.label} can be trusted: {len(self.checks)} checks in {precisions} agree with numpy"
+        )
+
+
+def numpy_power(x: FloatArray, frequencies: NDArray[np.int64]) -> FloatArray:
+    """Power at listed frequencies by integer phases and numpy's own cosines: (m,) float64."""
+    turns = np.rint(x * 2.0**64).astype(np.uint64)
+    phase = np.zeros((len(frequencies), len(x)), np.uint64)
+    for a in range(x.shape[1]):
+        phase += frequencies[:, a].astype(np.uint64)[:, None] * turns[:, a]
+    angle = 2 * np.pi * (phase.astype(np.int64) / 2.0**64)
+    power: FloatArray = (np.cos(angle).sum(axis=1) ** 2 + np.sin(angle).sum(axis=1) ** 2) / len(x)
+    return power
+
+
+def numpy_gradient(x: FloatArray, sigma: float) -> FloatArray:
+    """Gradient of the energy by points in spacings, images summed one by one: (n, d) float64."""
+    n, d = x.shape
+    side = 1 / spacing(n, d)
+    images = np.arange(-np.ceil(9 * sigma / side) - 1, np.ceil(9 * sigma / side) + 2) * side
+    u = ((x[:, None] - x[None]) * side)[..., None] + images
+    gauss = np.exp(-(u**2) / (2 * sigma**2))
+    value, slope = gauss.sum(axis=-1), (-u / sigma**2 * gauss).sum(axis=-1)
+    others = [np.prod(np.delete(value, a, axis=-1), axis=-1) for a in range(d)]
+    return np.stack([(slope[..., a] * others[a]).sum(axis=1) for a in range(d)], axis=1)
+
+
+def _periodogram(n: int, d: int, fmax: int, precision: str) -> Iterator[Check]:
+    from gbnbench.analysis.spectrum.evaluators.gridded_product import griddable
+    from gbnbench.analysis.spectrum.periodogram import periodogram
+    from gbnbench.analysis.spectrum.shell_spectrum import shells
+
+    x = np.random.default_rng(n).random((n, d))
+    base = 2 * fmax + 1
+    f = np.stack(np.unravel_index(np.arange(base**d), (base,) * d), axis=1).astype(np.int64) - fmax
+    expected = np.sqrt(numpy_power(x, f))
+    size = f"n={n} d={d} F={fmax}"
+    found = {
+        "two-group product": periodogram(x, fmax, precision, method="two-group product").power.ravel(),
+        "listed frequencies": periodogram(x, precision=precision, frequencies=f).power,
+    }
+    if griddable(d, fmax, precision):
+        found["gridded product"] = periodogram(x, fmax, precision, method="gridded product").power.ravel()
+    for kernel, power in found.items():
+        error = float(np.max(np.abs(np.sqrt(power) - expected)))
+        yield Check(kernel, size, precision, error, AMPLITUDE[precision])
+    if d > 1:
+        streamed = shells(x, fmax, precision, corners=True)
+        _, label = np.unique((f**2).sum(axis=1), return_inverse=True)
+        mean = np.bincount(label, expected**2) / np.bincount(label)
+        error = float(np.max(np.abs(np.sqrt(streamed.power) - np.sqrt(mean[1:]))))
+        yield Check("shells", size, precision, error, AMPLITUDE[precision])
+
+
+def _energy(n: int, d: int, sigma: float, precision: str) -> Iterator[Check]:
+    from gbnbench.generators.gbn.energy import field
+    from gbnbench.generators.gbn.plan import plan
+
+    x = np.random.default_rng(n).random((2, n, d))
+    expected = np.stack([numpy_gradient(one, sigma) for one in x])
+    found = plan(n, d, sigma, precision)
+    for method in sorted(c.method for c in (found.chosen, *found.others)):
+        gradient = field(n, d, sigma, precision, method=method)(x).gradient
+        error = float(np.max(np.abs(gradient - expected)) / np.max(np.abs(expected)))
+        yield Check(
+            f"gbn gradient, {method}", f"n={n} d={d} sigma={sigma}", precision, error, GRADIENT[precision]
+        )
+
+
+def numpy_box_gradient(x: FloatArray, sigma: float) -> FloatArray:
+    """Gradient of the box's energy, pairs less the pull of a uniform density (Eq. 24-26): (n, d) float64."""
+    from scipy.special import erf
+
+    n, d = x.shape
+    side, root = 1 / spacing(n, d), np.sqrt(2) * sigma
+    u = x * side
+    apart = u[:, None] - u[None]
+    pairs = np.exp(-(apart**2).sum(axis=-1) / (2 * sigma**2))
+    within = sigma * np.sqrt(np.pi / 2) * (erf((side - u) / root) + erf(u / root))
+    slope = np.exp(-((u / root) ** 2)) - np.exp(-(((side - u) / root) ** 2))
+    pull = np.stack([slope[:, a] * np.prod(np.delete(within, a, axis=1), axis=1) for a in range(d)], axis=1)
+    return np.asarray(-(pairs[..., None] * apart).sum(axis=1) / sigma**2 - pull)
+
+
+def _box(n: int, d: int, sigma: float, precision: str) -> Iterator[Check]:
+    from gbnbench.generators.gbn.box import BoxField
+
+    x = np.random.default_rng(n).random((2, n, d))
+    expected = np.stack([numpy_box_gradient(one, sigma) for one in x])
+    field = BoxField(n, d, sigma, precision)
+    error = float(np.max(np.abs(field(x).gradient - expected)) / np.max(np.abs(expected)))
+    yield Check(
+        f"gbn gradient, {field.method}", f"n={n} d={d} sigma={sigma}", precision, error, GRADIENT[precision]
+    )
+
+
+def _farthest_points(n: int, precision: str) -> Iterator[Check]:
+    from gbnbench.generators.fpo.relocation import Sweeps, move_afresh
+
+    x = np.random.default_rng(n).random((n, 2))
+    work = Sweeps(x[None])
+    work.sweep(np.array([True]))
+    for v in range(n):
+        move_afresh(x, v)
+    error = float(np.max(np.abs(displacement(work.download()[0], x))))
+    yield Check("farthest-point sweep", f"n={n} d=2", precision, error, DISTANCE)
+
+
+def examine(quick: bool = False) -> Examination:
+    """Try every kernel on the chosen device.
+
+    Parameters
+    ----------
+    quick : bool
+        Fewer sizes: a second or two.
+
+    Raises
+    ------
+    DeviceError
+        If there is no device.
+    """
+    device = choose()
+    checks: list[Check] = []
+    precisions = [p for p in ("double", "float") if (p == "float" or device.has_double)]
+    for precision in precisions:
+        work: list[tuple[Callable[..., Iterator[Check]], tuple[float, ...]]] = [
+            *((_periodogram, case) for case in (QUICK_PERIODOGRAMS if quick else PERIODOGRAMS)),
+            *((_energy, case) for case in (QUICK_ENERGIES if quick else ENERGIES)),
+            *((_box, case) for case in (QUICK_BOXES if quick else BOXES)),
+        ]
+        if precision == "double":
+            work.append((_farthest_points, (QUICK_SWEEP if quick else SWEEP,)))
+        for check, case in work:
+            try:
+                checks.extend(check(*case, precision))
+            except (GbnbenchError, RuntimeError) as error:
+                checks.append(Check(check.__name__.strip("_"), str(case), precision, np.inf, 0.0, str(error)))
+    return Examination(device, tuple(checks))
+
+
+def ensure_trusted() -> None:
+    """Examine the chosen device quickly, once for each device, driver and version of ours, and remember.
+
+    Raises
+    ------
+    DeviceError
+        If there is no device, or a kernel departs from numpy on it.
+    """
+    device = runtime().device
+    key = f"trusted-{gbnbench.__version__}-{device.fingerprint}"
+    if recall(key) is True:
+        return
+    examination = examine(quick=True)
+    if not examination.trusted:
+        raise DeviceError(examination.verdict)
+    remember(key, True)

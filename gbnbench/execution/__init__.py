@@ -1,0 +1,1 @@
+"""Carrying work out: a pool of worker processes, the tasks they are given, and progress."""

@@ -1,0 +1,1 @@
+"""Files: point sets, lists of frequencies and weights, and atomic writes."""

@@ -1,0 +1,225 @@
+"""Text into numbers: which line holds how many, at numpy speed, with the first fault named by its line."""
+
+from __future__ import annotations
+
+import re
+import warnings
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gbnbench.core.errors import FormatError
+from gbnbench.core.torus import FloatArray
+from gbnbench.io.points.file_format import NUMERIC
+
+IntArray = NDArray[np.int64]
+
+BLOCK = 1 << 21
+NUMBER = re.compile(rb"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
+
+_COMMENT = re.compile(rb"^[ \t]*#[^\n]*", re.MULTILINE)
+_BARE = re.compile(rb"[0-9]+(?![0-9.eE+-])")
+_NAME = re.compile(r"(?:[xyzwuvstcdp]|dim|dimension|coord|coordinate|column|axis)[_ ]?[\[(]?[0-9]*[\])]?")
+SET_NAMES = ("set", "realization")
+
+# line, width, value and bare of one block; see Lexed
+Tokens = tuple[IntArray, IntArray, FloatArray, NDArray[np.bool_]]
+
+
+@dataclass(frozen=True)
+class Lexed:
+    """The numbers of a text file and the lines that hold them.
+
+    Attributes
+    ----------
+    line : (lines,) int64
+        1-based number of each line that holds numbers.
+    width : (lines,) int64
+        How many it holds, at least 1.
+    value : (tokens,) float64
+        All numbers in reading order; inf where a literal overflows.
+    bare : (tokens,) bool
+        True where the literal is digits alone, as counts are.
+    comment : (comments,) int64
+        1-based numbers of the lines that start with #.
+    hidden : (comments,) int64
+        How many numbers follow the #, where nothing else does and not all of them are bare; else 0.
+    names : tuple of str
+        Column names, empty where the file has none.
+    """
+
+    line: IntArray
+    width: IntArray
+    value: FloatArray
+    bare: NDArray[np.bool_]
+    comment: IntArray
+    hidden: IntArray
+    names: tuple[str, ...]
+
+
+def lex(path: Path, data: bytes) -> Lexed:
+    """Read every number of a text: separated by blanks, or by one comma each, the lines ended in any fashion.
+
+    Raises
+    ------
+    FormatError
+        At the first line that holds anything but numbers, apart from comments and one line of column names.
+    """
+    names: tuple[str, ...] = ()
+    parts: list[Tokens] = []
+    comment: list[int] = []
+    hidden: list[int] = []
+    before, started = 0, False
+    for raw in _blocks(data):
+        block = raw.replace(b"\r\n", b"\n").replace(b"\r", b"\n") if b"\r" in raw else raw
+        newlines = np.flatnonzero(np.frombuffer(block, np.uint8) == 10)
+        if b"#" in block:
+            found = list(_COMMENT.finditer(block))
+            at = np.searchsorted(newlines, [match.start() for match in found]) + before + 1
+            comment += at.tolist()
+            hidden += [_numbers_in(match.group()) for match in found]
+            block = _COMMENT.sub(b"", block)
+        if not started and block.strip():
+            started = True
+            names, block = _take_names(path, block, before)
+        parts.append(_fast(block, before) or _slow(path, block, before))
+        before += len(newlines)
+    line, width, value, bare = (np.concatenate(arrays) for arrays in zip(*parts, strict=True))
+    return Lexed(line, width, value, bare, np.array(comment, np.int64), np.array(hidden, np.int64), names)
+
+
+def shown(token: bytes) -> str:
+    """Show a literal in an error: quoted, on one line, cut to 40 characters."""
+    text = token.decode("utf-8", "backslashreplace")
+    return repr(text if len(text) <= 40 else text[:37] + "...")
+
+
+def _blocks(data: bytes) -> Iterator[bytes]:
+    """Cut a text after line feeds into blocks that stay in the processor's cache."""
+    start = 3 if data.startswith(b"\xef\xbb\xbf") else 0
+    while True:
+        end = data.find(b"\n", start + BLOCK) + 1 or len(data)
+        yield data[start:end]
+        if end == len(data):
+            return
+        start = end
+
+
+def _cells(line: bytes) -> list[bytes]:
+    return [cell.strip() for cell in line.split(b",")] if b"," in line else line.split()
+
+
+def _numbers_in(comment: bytes) -> int:
+    """Count the numbers of a comment that could be a point, so that none is lost behind a stray #."""
+    cells = _cells(comment.strip().lstrip(b"#"))
+    plausible = all(NUMBER.fullmatch(cell) for cell in cells) and not all(cell.isdigit() for cell in cells)
+    return len(cells) if plausible else 0
+
+
+def _take_names(path: Path, block: bytes, before: int) -> tuple[tuple[str, ...], bytes]:
+    """Split off a first line of column names, in .csv files and where commas part them, leaving it empty."""
+    start = len(block) - len(block.lstrip())
+    start = block.rfind(b"\n", 0, start) + 1
+    end = block.find(b"\n", start)
+    end = len(block) if end < 0 else end
+    first = block[start:end]
+    cells = [cell.strip().strip(b"\"'").strip() for cell in first.split(b",")]
+    if len(cells) == 1 and path.suffix.lower() != ".csv":
+        return (), block
+    if not all(cell[:1].isalpha() for cell in cells) or any(
+        cell.lower() in (b"nan", b"inf") for cell in cells
+    ):
+        return (), block
+    names = tuple(cell.decode("utf-8", "backslashreplace").lower() for cell in cells)
+    for at, name in enumerate(names):
+        if name in names[:at] or not (name in SET_NAMES or _NAME.fullmatch(name)):
+            number = before + 1 + block.count(b"\n", 0, start)
+            said = (
+                f"column {shown(cells[at])} is no coordinate; the names are x, y, z or x0, x1, ..., once each"
+            )
+            raise FormatError(path, f"{said}, and set", number)
+    coordinates = [name for name in names if name not in SET_NAMES]
+    if coordinates != sorted(coordinates, key=_axis):
+        number = before + 1 + block.count(b"\n", 0, start)
+        ordered = ", ".join(sorted(coordinates, key=_axis))
+        raise FormatError(path, f"coordinates stand out of order; put the columns as {ordered}", number)
+    return names, block[:start] + block[end:]
+
+
+def _axis(name: str) -> tuple[int, int]:
+    """Tell the axis of a column's name: its number, else its letter."""
+    digits = "".join(character for character in name if character.isdigit())
+    return int(digits or 0), "xyzwuvstcdp".find(name[0])
+
+
+def _fast(block: bytes, before: int) -> Tokens | None:
+    """Read a block by whole-array steps; None where only the slow reading can tell what is wrong."""
+    if block.translate(None, NUMERIC + b" \t\n,"):
+        return None
+    text = np.frombuffer(block, np.uint8)
+    newlines = np.flatnonzero(text == 10)
+    inside = (text > 32) & (text != 44)
+    opens = inside.copy()
+    opens[1:] &= ~inside[:-1]
+    starts = np.flatnonzero(opens)
+    width = np.diff(np.append(np.searchsorted(starts, newlines), len(starts)), prepend=0)
+    if b"," in block:
+        commas = np.append(np.searchsorted(np.flatnonzero(text == 44), newlines), block.count(b","))
+        commas = np.diff(commas, prepend=0)
+        if _has_empty_cell(block) or not np.all((commas == 0) | (commas == width - 1)):
+            return None
+        block = block.replace(b",", b" ")
+    value = _floats(block, len(starts))
+    if value is None:
+        return None
+    bare = np.zeros(len(value), np.bool_)
+    for token in np.flatnonzero(value == np.floor(value)):
+        bare[token] = _BARE.match(block, int(starts[token])) is not None
+    held = np.flatnonzero(width)
+    return held + before + 1, width[held], value, bare
+
+
+def _has_empty_cell(block: bytes) -> bool:
+    tight = b"\n" + block.translate(None, b" \t") + b"\n"
+    return any(pair in tight for pair in (b",,", b",\n", b"\n,"))
+
+
+def _floats(block: bytes, count: int) -> FloatArray | None:
+    """Read every literal of a block of numerals and blanks; None unless each is one number.
+
+    A literal such as 0.1.2 or 1-2 would be read as two numbers and 1e as none: then the total differs from
+    the count of literals, for reading stops at the first that fails.
+    """
+    if count == 0:
+        return np.empty(0)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)  # older numpy warns where it stops
+        try:
+            value = np.fromstring(block, dtype=np.float64, sep=" ")
+        except ValueError:
+            return None
+    return value if len(value) == count else None
+
+
+def _slow(path: Path, block: bytes, before: int) -> Tokens:
+    """Read the same line by line, raising at the first fault."""
+    line: list[int] = []
+    width: list[int] = []
+    value: list[float] = []
+    bare: list[bool] = []
+    for number, text in enumerate(block.split(b"\n"), start=before + 1):
+        if not text.strip():
+            continue
+        cells = _cells(text)
+        for cell in cells:
+            if not NUMBER.fullmatch(cell):
+                said = f"{shown(cell)} is not a number" if cell else "an empty cell between commas"
+                raise FormatError(path, said, number)
+        line.append(number)
+        width.append(len(cells))
+        value += map(float, cells)
+        bare += map(bytes.isdigit, cells)
+    return np.array(line, np.int64), np.array(width, np.int64), np.array(value), np.array(bare, np.bool_)

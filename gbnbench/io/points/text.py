@@ -1,0 +1,205 @@
+"""Point sets in text: lines of numbers framed by counts, # lines, a column of set numbers, or nothing."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from pathlib import Path
+from typing import NoReturn
+
+import numpy as np
+
+from gbnbench.core.errors import FormatError
+from gbnbench.core.torus import FloatArray
+from gbnbench.io.points.number_parser import SET_NAMES, IntArray, Lexed, lex
+
+# (first line, lines) of one set, as indices into Lexed.line
+Span = tuple[int, int]
+
+
+def read_text(path: Path, data: bytes) -> list[FloatArray]:
+    """Read the sets of a text file; the grammar stands in ``gbnbench.io.points``.
+
+    Parameters
+    ----------
+    path : Path
+        Named in errors; a name ending in .csv may have a single column with a name.
+    data : bytes
+        The whole file.
+
+    Returns
+    -------
+    list of (n, d) float64
+        All sets, in file order, in [0, 1).
+
+    Raises
+    ------
+    FormatError
+        At the first line that breaks the grammar.
+    """
+    return frame(path, lex(path, data))
+
+
+def frame(path: Path, text: Lexed) -> list[FloatArray]:
+    """Cut the numbers of a text into point sets."""
+    if len(text.line) == 0:
+        raise FormatError(path, "the file holds no points")
+    begin = np.concatenate([[0], np.cumsum(text.width)])
+    _refuse_hidden(path, text)
+    form = 0 if text.names else _header_form(path, text)
+    if form:
+        spans = _counted(path, text, begin, form)
+    else:
+        _same_width(path, text)
+        if any(name in SET_NAMES for name in text.names):
+            return _by_column(path, text)
+        spans = _parted(path, text)
+    return [_coordinates(path, text, begin, span) for span in spans]
+
+
+def _refuse_hidden(path: Path, text: Lexed) -> None:
+    """Refuse a comment that holds the numbers of a point: a stray # may have struck it out."""
+    lost = np.flatnonzero((text.hidden > 0) & (text.hidden == text.width[-1]))
+    if len(lost):
+        raise FormatError(path, "a point behind a '#': remove one or the other", int(text.comment[lost[0]]))
+
+
+def _header_form(path: Path, text: Lexed) -> int:
+    """Numbers in each header line (1: a count; 2: a count and a dimension), or 0 where all lines are points.
+
+    A first line of one or two bare whole numbers is a header where one of them exceeds 1, which no coordinate
+    does. The few that a point could also be written as are headers only where nothing but a header fits.
+    """
+    width = int(text.width[0])
+    if width > 2 or not text.bare[:width].all():
+        return 0
+    first = text.value[:width]
+    following = int(text.width[1]) if len(text.width) > 1 else 0
+    if np.any(first > 1):
+        return width
+    if width == 1 and following > 1:
+        return 1
+    if width == 2 and first[0] == 1 == first[1] and following == 1:
+        return 2
+    if width == 1 or first[1] == 1:
+        literal = " ".join(str(int(v)) for v in first)
+        point = " ".join(f"{v:.1f}" for v in first)
+        raise FormatError(
+            path,
+            f"'{literal}' may be a header or a point: write the point as '{point}', "
+            "or put a header of count and dimension such as '1024 2' first",
+            int(text.line[0]),
+        )
+    return 0
+
+
+def _counted(path: Path, text: Lexed, begin: IntArray, form: int) -> list[Span]:
+    """Find the sets that each follow a header line of the given form."""
+    spans: list[Span] = []
+    lines = len(text.line)
+    d, at = 0, 0
+    while at < lines:
+        number = int(text.line[at])
+        header = text.value[begin[at] : begin[at + 1]]
+        if len(header) != form or not text.bare[begin[at] : begin[at + 1]].all():
+            _refuse_surplus(path, text, spans, at)
+        if np.any(header < 1) or np.any(header > 2**53):
+            raise FormatError(
+                path, f"no set has this header: {' '.join(f'{v:.17g}' for v in header)}", number
+            )
+        n, said = int(header[0]), int(header[1]) if form == 2 else 0
+        here = said or (int(text.width[at + 1]) if at + 1 < lines else 0)
+        if here == 1 and form == 1 and n == 1:
+            raise FormatError(path, "'1' may be a count or a point: write the header as '1 1'", number)
+        d = d or here
+        if said and said != d:
+            raise FormatError(path, f"this set has {said} dimensions, the sets before have {d}", number)
+        held = min(n, lines - at - 1)
+        wrong = np.flatnonzero(text.width[at + 1 : at + 1 + held] != d)
+        if len(wrong):
+            _refuse_width(path, text, at + 1 + int(wrong[0]), d, f"line {number} says {_points(n)}")
+        if held < n:
+            raise FormatError(path, f"this line says {_points(n)}, and the file ends after {held}", number)
+        spans.append((at + 1, n))
+        at += 1 + n
+    return spans
+
+
+def _refuse_surplus(path: Path, text: Lexed, spans: list[Span], at: int) -> NoReturn:
+    first, n = spans[-1]
+    raise FormatError(
+        path,
+        f"line {text.line[first - 1]} says {_points(n)}, here is another, or no header of a next set",
+        int(text.line[at]),
+    )
+
+
+def _points(n: int) -> str:
+    return f"{n} point{'s' * (n != 1)}"
+
+
+def _same_width(path: Path, text: Lexed) -> None:
+    d = len(text.names) or int(text.width[0])
+    wrong = np.flatnonzero(text.width != d)
+    if len(wrong):
+        what = "the header names" if text.names else "the lines before have"
+        _refuse_width(path, text, int(wrong[0]), d, f"{what} {d}")
+
+
+def _refuse_width(path: Path, text: Lexed, at: int, d: int, because: str) -> NoReturn:
+    width = int(text.width[at])
+    what = f"{width} number{'s' * (width != 1)} where a point has {d}"
+    raise FormatError(path, f"{what}; {because}", int(text.line[at]))
+
+
+def _parted(path: Path, text: Lexed) -> list[Span]:
+    """Find the sets parted by # lines; a blank line in one is refused, since some programs part sets so."""
+    section = np.searchsorted(text.comment, text.line)
+    joined = np.diff(section) == 0
+    gap = np.flatnonzero(joined & (np.diff(text.line) > 1))
+    if len(gap):
+        raise FormatError(
+            path,
+            "a blank line between points: part sets by a line '#', or remove it",
+            int(text.line[gap[0]]) + 1,
+        )
+    bounds = [0, *(np.flatnonzero(~joined) + 1).tolist(), len(text.line)]
+    return [(a, b - a) for a, b in pairwise(bounds)]
+
+
+def _by_column(path: Path, text: Lexed) -> list[FloatArray]:
+    """Find the sets by the column named set, whose numbers start at 0 or 1 and count up by one."""
+    columns = [i for i, name in enumerate(text.names) if name in SET_NAMES]
+    if len(columns) > 1 or len(text.names) < 2:
+        raise FormatError(path, "the header needs one set column and at least one coordinate")
+    table = text.value.reshape(len(text.line), len(text.names))
+    index = np.clip(table[:, columns[0]], -1, 2.0**53)  # the difference of two inf is none
+    step = np.diff(index, prepend=index[0])
+    good = ((step == 0) | (step == 1)) & ((index[0] == 0) | (index[0] == 1))
+    if not good.all():
+        at = int(np.argmin(good))
+        said = f"set number {table[at, columns[0]]:g}: sets must stand together and count up from 0 or 1"
+        raise FormatError(path, said, int(text.line[at]))
+    bounds = [0, *np.flatnonzero(step).tolist(), len(index)]
+    points = np.delete(table, columns[0], axis=1)
+    _inside(path, points, text.line)
+    return [points[a:b].copy() for a, b in pairwise(bounds)]
+
+
+def _coordinates(path: Path, text: Lexed, begin: IntArray, span: Span) -> FloatArray:
+    first, n = span
+    points = text.value[begin[first] : begin[first + n]].reshape(n, -1)
+    _inside(path, points, text.line[first : first + n])
+    return points
+
+
+def _inside(path: Path, points: FloatArray, line: IntArray) -> None:
+    """Wrap 1.0 to 0 in place; refuse whatever else lies outside [0, 1)."""
+    if not (points.min() >= 0 and points.max() <= 1):
+        row, column = np.argwhere(~((points >= 0) & (points <= 1)))[0]
+        raise FormatError(path, outside_text(float(points[row, column])), int(line[row]))
+    points[points == 1] = 0
+
+
+def outside_text(value: float) -> str:
+    """Say what is wrong with a coordinate that is not on the torus."""
+    return f"coordinate {value!r} is not in [0, 1]; scale the points to the unit torus first"

@@ -1,0 +1,101 @@
+"""Vector widths that really work on a device, proved in a child process that may die of them.
+
+The PoCL on PyPI announces 16 floats and 8 doubles as native on AVX-512 processors and kills the process that
+uses them, so what is announced is never believed.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from dataclasses import dataclass
+from importlib import resources
+from typing import Any
+
+import numpy as np
+
+from gbnbench.core.cache_folder import recall, remember
+from gbnbench.opencl.device import Device, handle, import_pyopencl
+
+SECONDS = 120
+CANDIDATES = {"float": (1, 4, 8, 16), "double": (1, 2, 4, 8)}
+
+
+@dataclass(frozen=True)
+class VectorWidths:
+    """Widest proven vectors.
+
+    Attributes
+    ----------
+    float32, float64 : int
+        Lanes; 0 where the precision does not work at all.
+    """
+
+    float32: int
+    float64: int
+
+
+def _works(context: Any, queue: Any, precision: str, width: int) -> bool:
+    """Whether vectors of width compute what numpy computes; a device may also kill the process here."""
+    cl = import_pyopencl()
+    real = np.dtype("float64" if precision == "double" else "float32")
+    unsigned = np.dtype(f"u{real.itemsize}")
+    a = np.linspace(0.1, 0.9, 16).astype(real)
+    b = np.arange(1, 17, dtype=unsigned) * unsigned.type(2654435)
+    flags = cl.mem_flags.READ_ONLY | cl.mem_flags.COPY_HOST_PTR
+    device_a, device_b = (cl.Buffer(context, flags, hostbuf=array) for array in (a, b))
+    out = cl.Buffer(context, cl.mem_flags.WRITE_ONLY, a.nbytes)
+    kernels = resources.files("gbnbench.opencl") / "kernels"
+    source = "\n".join((kernels / name).read_text() for name in ("vector.cl", "probe.cl"))
+    try:
+        program = cl.Program(context, source).build(
+            [f"-D DOUBLE={int(precision == 'double')}", f"-D LANES={width}"]
+        )
+        cl.Kernel(program, "probe")(queue, (1,), (1,), device_a, device_b, out)
+        got = np.empty_like(a)
+        cl.enqueue_copy(queue, got, out)
+    except cl.Error:
+        return False
+    q = b + (b << unsigned.type(3))
+    y = (q >> unsigned.type(4)).astype(np.float64)
+    y = np.where(q & unsigned.type(1), y, -y)
+    total = (a.astype(np.float64) * a[:4].sum(dtype=np.float64) + y)[:width]
+    error = np.abs(got[:width] - (total - np.rint(total) + np.abs(a[:width])))
+    error = np.minimum(error, np.abs(error - 1))  # a sum near a half may round either way
+    return bool(np.all(error <= 16 * np.finfo(real).eps * np.abs(total).max()))
+
+
+def _child(platform: int, device: int, precision: str) -> None:
+    """Prove widths in ascending order and print each at once: a death leaves the proven ones."""
+    cl = import_pyopencl()
+    chosen = handle((platform, device))
+    context = cl.Context([chosen])
+    queue = cl.CommandQueue(context)
+    for width in CANDIDATES[precision]:
+        if _works(context, queue, precision, width):
+            print(width, flush=True)
+
+
+def _widest(device: Device, precision: str) -> int:
+    """Widest vector that a child process proved before it ended or died; 0 for none."""
+    arguments = (*device.position, precision)
+    call = f"from gbnbench.opencl.width_probe import _child; _child(*{arguments!r})"
+    try:
+        output: bytes | None = subprocess.run(
+            [sys.executable, "-c", call], capture_output=True, timeout=SECONDS, check=False
+        ).stdout
+    except subprocess.TimeoutExpired as late:
+        output = late.stdout
+    proven = (output or b"").split()
+    return max((int(width) for width in proven if width.isdigit()), default=0)
+
+
+def vector_widths(device: Device) -> VectorWidths:
+    """Widest vectors proven on device; remembered for its driver and version."""
+    known = recall(f"widths-{device.fingerprint}")
+    if isinstance(known, dict) and set(known) == {"float32", "float64"}:
+        return VectorWidths(**known)
+    found = VectorWidths(_widest(device, "float"), _widest(device, "double") if device.has_double else 0)
+    if found.float32:  # nothing at all proven is a broken installation, which may be mended: ask again
+        remember(f"widths-{device.fingerprint}", {"float32": found.float32, "float64": found.float64})
+    return found

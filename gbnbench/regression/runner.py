@@ -1,0 +1,208 @@
+"""Measuring cases again, in worker processes or in this one, judging them, and remaking what is expected."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import cast
+
+import numpy as np
+from scipy import stats
+
+from gbnbench.core.errors import GbnbenchError, InputError
+from gbnbench.execution.progress import Progress
+from gbnbench.execution.worker_pool import Finished, Pool
+from gbnbench.opencl import choose
+from gbnbench.regression.cases import Case, Expectation, Spread, Values
+from gbnbench.regression.measurement import observe
+from gbnbench.regression.verdict import Verdict, failed, judge, skipped, title
+
+FALSE_ALARM = 1e-4  # chance that another seed, or another device, alone makes a measure worse
+ROUNDING = 1e-9  # relative spread below which seeds do not matter
+
+
+@dataclass(frozen=True)
+class Change:
+    """An expectation before and after an update."""
+
+    case: str
+    measure: str
+    before: Expectation
+    after: Expectation
+
+
+def check(cases: Sequence[Case], *, jobs: int = 1, progress: Progress | None = None) -> tuple[Verdict, ...]:
+    """Measure cases once each, at their own seeds, and judge every measure.
+
+    Parameters
+    ----------
+    cases : sequence of Case
+        Which, all with expected values.
+    jobs : int
+        Worker processes of one thread each; with 1 the work is done in this process.
+    progress : Progress, optional
+        Told what is being done.
+
+    Returns
+    -------
+    tuple of Verdict
+        In the order of the cases and of their measures.
+
+    Raises
+    ------
+    InputError
+        If something expected has never been measured.
+    DeviceError
+        If there is no device.
+    """
+    for case in cases:
+        for measure, expectation in case.measures.items():
+            if not expectation.expected:
+                raise InputError(
+                    f"{case.name} expects nothing of {measure} yet: gbnbench check --update --only "
+                    f"{case.name} measures it"
+                )
+    able = [case for case in cases if _reason(case) is None]
+    verdicts = {case.name: skipped(case, _reason(case) or "") for case in cases}
+    for done in _each([(case, case.seed) for case in able], jobs, progress or Progress()):
+        case = next(c for c in able if (c.name, c.seed) == done.key)
+        verdicts[case.name] = (
+            failed(case, done.failure)
+            if done.failure
+            else [judge(case, measure, done.value[measure]) for measure in case.measures]
+        )
+    return tuple(verdict for case in cases for verdict in verdicts[case.name])
+
+
+def update(
+    cases: Sequence[Case], seeds: int, *, jobs: int = 1, progress: Progress | None = None
+) -> tuple[tuple[Case, ...], tuple[Change, ...]]:
+    """Measure anew what cases expect, over several seeds; what has a reference stays.
+
+    Parameters
+    ----------
+    cases : sequence of Case
+        Which.
+    seeds : int
+        Over how many, from each case's own upwards; at least 3.
+    jobs, progress
+        As in ``check``.
+
+    Returns
+    -------
+    cases : tuple of Case
+        With new values, spreads and tolerances.
+    changes : tuple of Change
+        Every expectation that was measured, in order.
+
+    Raises
+    ------
+    InputError
+        If something is undefined for some seed, or the seeds are too few.
+    GbnbenchError
+        If a case could not be measured.
+    """
+    if seeds < 3:
+        raise InputError(f"a spread needs at least 3 seeds; got {seeds}")
+    measured = [case for case in cases if not case.exact]
+    for case in measured:
+        if reason := _reason(case):
+            raise InputError(f"{case.name}: {reason}")
+    found: dict[str, dict[int, dict[str, Values]]] = {case.name: {} for case in measured}
+    tasks = [(case, case.seed + k) for case in measured for k in range(seeds)]
+    for done in _each(tasks, jobs, progress or Progress()):
+        name, seed = cast(tuple[str, int], done.key)
+        if done.failure:
+            raise GbnbenchError(f"{name}, seed {seed}, could not be measured: {done.failure}")
+        found[name][seed] = done.value
+    made, changes = [], []
+    for case in cases:
+        renewed = dict(case.measures)
+        for measure, expectation in case.measures.items():
+            if expectation.reference:
+                continue
+            values = [found[case.name][case.seed + k][measure] for k in range(seeds)]
+            renewed[measure] = expect(f"{case.name}: {title(measure)}", expectation, values)
+            changes.append(Change(case.name, measure, expectation, renewed[measure]))
+        made.append(replace(case, measures=renewed))
+    return tuple(made), tuple(changes)
+
+
+def expect(what: str, expectation: Expectation, values: Sequence[Values]) -> Expectation:
+    """Expect what several seeds gave: their mean, and a tolerance by their spread.
+
+    Parameters
+    ----------
+    what : str
+        For errors.
+    expectation : Expectation
+        Its side, scale and reason are kept.
+    values : sequence of tuple of float
+        A value a seed.
+
+    Raises
+    ------
+    InputError
+        If a value is not finite, not one number, or not above 0 where the scale is a ratio.
+
+    Notes
+    -----
+    Another seed, or the same on a device that rounds otherwise, departs from the mean of K by a deviation of
+    s sqrt(1 + 1/K), s being estimated with K - 1 degrees of freedom: the tolerance is that times the quantile
+    of Student's t that is exceeded once in ten thousand; of the logarithms where the scale is a ratio.
+    """
+    sample = np.array(values)
+    if sample.shape[1:] != (1,) or expectation.scale == "relative":
+        raise InputError(f"{what}: only single values have a spread; several need a reference")
+    if not np.isfinite(sample).all():
+        raise InputError(f"{what} is undefined for some seeds; take it out of the case")
+    ratio = expectation.scale == "ratio"
+    if ratio and not (sample > 0).all():
+        raise InputError(f"{what} is not above 0 for some seeds; its scale must be difference")
+    sample = np.log(sample[:, 0]) if ratio else sample[:, 0]
+    count = len(sample)
+    deviation, mean = float(sample.std(ddof=1)), float(sample.mean())
+    least = ROUNDING if ratio else ROUNDING * max(abs(mean), ROUNDING)
+    side = FALSE_ALARM / (2 if expectation.better == "neither" else 1)
+    reach = float(stats.t.isf(side, count - 1)) * max(deviation, least) * math.sqrt(1 + 1 / count)
+    return replace(
+        expectation,
+        expected=(_digits(math.exp(mean) if ratio else mean, 6),),
+        tolerance=1 + _digits(math.expm1(reach), 3) if ratio else _digits(reach, 3),
+        spread=Spread(count, _digits(deviation, 3)),
+    )
+
+
+def _digits(value: float, digits: int) -> float:
+    return float(f"{value:.{digits - 1}e}")
+
+
+def _reason(case: Case) -> str | None:
+    """Why the chosen device cannot run a case, None where it can."""
+    device = choose()
+    if case.precision == "double" and not device.has_double:
+        return f"{device.label} does not compute in double"
+    return None
+
+
+def _each(tasks: Sequence[tuple[Case, int]], jobs: int, progress: Progress) -> Iterator[Finished]:
+    """Measure every case with every seed, the largest first; keys are (name, seed)."""
+    ordered = sorted(tasks, key=lambda task: -task[0].realizations * task[0].n ** 2)
+    progress.start(len(tasks), 0, "measuring")
+    if jobs == 1:
+        for case, seed in ordered:
+            try:
+                done = Finished((case.name, seed), observe(case, seed))
+            except GbnbenchError as error:
+                done = Finished((case.name, seed), failure=str(error))
+            progress.advance(f"measured {case.name}")
+            yield done
+        return
+    with Pool(min(jobs, max(1, len(tasks)))) as pool:
+        for case, seed in ordered:
+            pool.submit((case.name, seed), observe, case, seed)
+        while pool.pending:
+            done = pool.next()
+            progress.advance(f"measured {done.key[0]}")  # type: ignore[index]
+            yield done

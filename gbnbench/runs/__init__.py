@@ -1,0 +1,1 @@
+"""Runs: named sources, resumable folders, results on disk, baselines and provenance."""

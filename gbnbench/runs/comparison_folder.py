@@ -1,0 +1,184 @@
+"""The run folder of a comparison: its parts, its sources, and the tables."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+import shutil
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from gbnbench.analysis.catalogue import BY_NAME, CATALOGUE
+from gbnbench.core.errors import FormatError, InputError
+from gbnbench.core.torus import FloatArray
+from gbnbench.io import atomic
+from gbnbench.runs import source_files
+from gbnbench.runs.comparison_result import Run, SourceResult
+from gbnbench.runs.resumable_folder import FORMAT, MANIFEST, SETTINGS, KeptFolder, read_json
+
+
+@dataclass(frozen=True)
+class Part:
+    """One generated realization.
+
+    Attributes
+    ----------
+    x : (n, d) float64
+        The points.
+    cpu_seconds : float
+        What they cost, one thread.
+    first : bool
+        Whether it was its worker's first with that generator, n and d, so that its cost may hold set-up.
+    """
+
+    x: FloatArray
+    cpu_seconds: float
+    first: bool
+
+
+class RunFolder(KeptFolder):
+    """One comparison on disk."""
+
+    kind = "run"
+
+    def write_part(self, key: str, k: int, part: Part) -> None:
+        """Keep realization k of a source."""
+        cost = {"cpu_seconds": np.asarray(part.cpu_seconds), "first": np.asarray(part.first)}
+        atomic.write_whole(self._part(key, k), source_files.to_npz(points=part.x, **cost))
+
+    def read_part(self, key: str, k: int) -> Part | None:
+        """Realization k of a source, None where it has still to be made."""
+        try:
+            arrays = source_files.reading(self._part(key, k), source_files.read_npz)
+            return Part(arrays["points"], float(arrays["cpu_seconds"]), bool(arrays["first"]))
+        except (FormatError, KeyError):  # absent, or spoilt after it was written: made again
+            return None
+
+    def write_source(self, result: SourceResult) -> None:
+        """Keep everything of one source; its parts are then no longer needed."""
+        atomic.write_folder_whole(self.path / "sources" / result.key, source_files.encode(result))
+        shutil.rmtree(self.path / "parts" / result.key, ignore_errors=True)
+
+    def read_source(self, key: str) -> SourceResult | None:
+        """All that was measured of a source, None where it has still to be measured."""
+        try:
+            return source_files.decode(self.path / "sources" / key)
+        except FormatError:
+            return None
+
+    def write_tables(self, run: Run) -> None:
+        """Write ``measures.csv`` (a row a source and measure) and ``table.csv`` (a row a source)."""
+        for name, rows in (("measures.csv", long_table(run)), ("table.csv", wide_table(run))):
+            atomic.write_whole(self.path / name, _csv(rows))
+
+    def finish(self, manifest: Mapping[str, Any]) -> None:
+        """Declare it whole: checksums of the data, and the manifest as the very last file."""
+        self.drop("parts")
+        data = sorted((self.path / "sources").rglob("*.*"))
+        sums = {p.relative_to(self.path).as_posix(): _sha256(p) for p in data if p.is_file()}
+        super().finish({**manifest, "sha256": sums})
+
+    def _part(self, key: str, k: int) -> Path:
+        return self.path / "parts" / key / f"{k:06d}.npz"
+
+
+def default_folder(identity: Mapping[str, Any], command: str = "") -> Path:
+    """Name a folder by its settings, so that the same command finds the same one."""
+    sources = identity["sources"]
+    labels = dict.fromkeys(source["label"].lower() for source in sources)
+    words = "-".join(re.sub(r"[^a-z0-9]+", "-", label).strip("-") for label in labels)
+    sizes = "-".join(dict.fromkeys(f"n{s['n']}" for s in sources))
+    stamp = hashlib.sha256(json.dumps(identity, sort_keys=True).encode()).hexdigest()[:8]
+    first = f"{command}_" if command else ""
+    return Path("runs") / f"{first}{words[:48].strip('-')}_{sizes[:24].strip('-')}_{stamp}"
+
+
+def read_run(folder: str | Path) -> Run:
+    """Read a finished run.
+
+    Parameters
+    ----------
+    folder : path
+        As written by ``gbnbench compare``.
+
+    Raises
+    ------
+    InputError
+        If it is no run or an unfinished one.
+    FormatError
+        If a file in it is missing or was changed.
+    """
+    path = Path(folder)
+    if not (path / MANIFEST).is_file():
+        if (path / SETTINGS).is_file():
+            raise InputError(f"{path} is an unfinished run; the same gbnbench compare command finishes it")
+        raise InputError(f"{path} is not a run of gbnbench: it has no {MANIFEST}")
+    manifest = read_json(path / MANIFEST)
+    if manifest.get("format") != FORMAT:
+        found = manifest.get("format")
+        raise FormatError(path / MANIFEST, f"has format {found!r}; this version reads {FORMAT}")
+    try:
+        sums = dict(manifest.pop("sha256"))
+        del manifest["format"]  # both speak of the files, not of the run
+        keys = [str(source["key"]) for source in manifest["settings"]["sources"]]
+        verdicts = {(v["source"], v["measure"]): v["verdict"] for v in manifest["verdicts"]}
+    except (KeyError, TypeError, ValueError) as error:
+        raise FormatError(path / MANIFEST, f"is not what gbnbench wrote ({error!r})") from None
+    for name, expected in sums.items():
+        if not (path / name).is_file():
+            raise FormatError(path / name, "is missing from the run")
+        if _sha256(path / name) != expected:
+            raise FormatError(path / name, "was changed after the run was written")
+    return Run(manifest, tuple(source_files.decode(path / "sources" / key) for key in keys), verdicts)
+
+
+def long_table(run: Run) -> list[dict[str, object]]:
+    """One row a source and measure, with its standard error, direction and reason."""
+    return [
+        {
+            "source": source.label,
+            "n": source.n,
+            "d": source.d,
+            "realizations": source.realizations,
+            "measure": name,
+            "value": value,
+            "standard_error": source.measures.standard_error.get(name, float("nan")),
+            "better": BY_NAME[name].better,
+            "unit": BY_NAME[name].unit,
+            "verdict": run.verdicts.get((source.key, name), ""),
+            "reason": source.measures.reasons.get(name, ""),
+        }
+        for source in run.sources
+        for name, value in source.measures.items()
+    ]
+
+
+def wide_table(run: Run) -> list[dict[str, object]]:
+    """One row a source, a column a measure."""
+    return [
+        {
+            "source": source.label,
+            "n": source.n,
+            "d": source.d,
+            "realizations": source.realizations,
+            **{definition.name: source.measures[definition.name] for definition in CATALOGUE},
+            "cpu_seconds": source.cpu_seconds,
+        }
+        for source in run.sources
+    ]
+
+
+def _csv(rows: list[dict[str, object]]) -> bytes:
+    import pandas as pd
+
+    return source_files.to_csv(pd.DataFrame(rows))
+
+
+def _sha256(path: Path) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()

@@ -1,0 +1,126 @@
+"""A folder of results that any stop can be resumed from: settings first, pieces whole, the manifest last."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from gbnbench.core.errors import InputError
+from gbnbench.io import atomic
+from gbnbench.runs import source_files
+
+FORMAT = 1  # of the folder; another number is refused
+SETTINGS, MANIFEST = "settings.json", "manifest.json"
+
+
+class KeptFolder:
+    """Where the results of one command are kept as they come.
+
+    Parameters
+    ----------
+    path : Path
+        Need not exist.
+    identity : mapping
+        JSON-ready settings that decide every number in it.
+
+    Raises
+    ------
+    InputError
+        If the folder holds something else, or results of other settings; it is left as it was.
+    """
+
+    kind = "results"  # what it holds, in words
+
+    def __init__(self, path: Path, identity: Mapping[str, Any]) -> None:
+        self.path = path
+        self.identity = {"format": FORMAT, **identity}
+        if path.exists() and not path.is_dir():
+            raise InputError(f"{path} is a file; choose another folder with --out")
+        self._check()
+
+    def _check(self) -> None:
+        settings = self.path / SETTINGS
+        if settings.exists():
+            there = read_json(settings)
+            if there != self.identity:
+                raise InputError(
+                    f"{self.path} holds a {self.kind} with other settings "
+                    f"({_difference(there, self.identity)}); choose another folder with --out, or delete "
+                    "this one"
+                )
+        elif self.path.exists() and any(not _is_ours(entry.name) for entry in self.path.iterdir()):
+            raise InputError(
+                f"{self.path} is not empty and is not a {self.kind} of gbnbench; choose another folder with "
+                "--out"
+            )
+
+    @property
+    def whole(self) -> bool:
+        """Whether everything in it is finished."""
+        return (self.path / MANIFEST).exists()
+
+    def lock(self) -> atomic.FolderLock:
+        """Make the folder where missing and lock it for this process."""
+        self.path.mkdir(parents=True, exist_ok=True)
+        return atomic.FolderLock(self.path)
+
+    def begin(self) -> None:
+        """Open it for work, under the lock: from here to ``finish`` it is not whole."""
+        self._check()
+        (self.path / MANIFEST).unlink(missing_ok=True)
+        atomic.remove_leftovers(self.path)
+        atomic.write_whole(self.path / SETTINGS, source_files.to_json(self.identity))
+
+    def finish(self, manifest: Mapping[str, Any]) -> None:
+        """Declare it whole: the manifest is the very last file."""
+        atomic.write_whole(self.path / MANIFEST, source_files.to_json({**manifest, "format": FORMAT}))
+
+    def drop(self, name: str) -> None:
+        """Delete a folder below it that is no longer needed."""
+        shutil.rmtree(self.path / name, ignore_errors=True)
+
+
+@contextmanager
+def said_where(folder: Path) -> Iterator[None]:
+    """Tell who stops the work where the finished pieces are."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(f"what is finished is kept in {folder}; the same command goes on") from None
+    except BrokenPipeError:
+        raise
+    except OSError as error:  # a full disk above all
+        text = f"{error.strerror}; what is finished is kept and the same command goes on"
+        raise OSError(error.errno, text, error.filename or str(folder)) from error
+
+
+def read_json(path: Path) -> dict[str, Any]:
+    """Read an object; raises FormatError naming the file."""
+    return source_files.reading(path, lambda p: dict(json.loads(p.read_text(encoding="utf-8"))))
+
+
+def _is_ours(name: str) -> bool:
+    """Whether a name may stand in a folder whose run was killed before it wrote its settings."""
+    return name == atomic.FolderLock.NAME or (name.startswith(".") and name.endswith(".tmp"))
+
+
+def _difference(there: Mapping[str, Any], asked: Mapping[str, Any]) -> str:
+    """Name the first setting that differs, with both values."""
+    for name in dict.fromkeys([*asked, *there]):
+        old, new = there.get(name), asked.get(name)
+        if old == new:
+            continue
+        if not (name == "sources" and isinstance(old, list) and isinstance(new, list)):
+            return f"{name} is {old!r} there, {new!r} here"
+        labels = [[f"{s.get('label')} n={s.get('n')} d={s.get('d')}" for s in side] for side in (old, new)]
+        if labels[0] != labels[1]:
+            return f"sources are {', '.join(labels[0])} there, {', '.join(labels[1])} here"
+        for a, b in zip(old, new, strict=True):
+            for field in b:
+                if a.get(field) != b[field]:
+                    return f"{field} of {b['label']} is {a.get(field)!r} there, {b[field]!r} here"
+    return "unknown"

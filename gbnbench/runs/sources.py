@@ -1,0 +1,204 @@
+"""What the user named, resolved: generators, files and folders become sources of one n and d each."""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+import hashlib
+import re
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.settings import specification
+from gbnbench.core.torus import FloatArray
+from gbnbench.generators.protocol import Generator
+
+SUFFIXES = (".txt", ".dat", ".rps", ".eps", ".csv", ".npy", ".npz")  # what a folder's point sets end in
+DEFAULT_SOURCES = ("random", "jittered", "sobol", "lloyd", "fpo", "gbn")
+
+
+@dataclass(frozen=True)
+class Source:
+    """One row of a comparison: a generator, or sets read from files, at one n and d.
+
+    Attributes
+    ----------
+    key : str
+        Unique among the sources and safe as a folder name.
+    label : str
+        What the user reads; unique for its n and d.
+    n, d, realizations : int
+        Points a set, dimension, number of sets.
+    generator : Generator or None
+        None for files.
+    sets : (realizations, n, d) float64 or None
+        None for generators.
+    digest : str
+        SHA-256 of the files' contents, empty for generators.
+    """
+
+    key: str
+    label: str
+    n: int
+    d: int
+    realizations: int
+    generator: Generator | None = None
+    sets: FloatArray | None = None
+    digest: str = ""
+
+    def identity(self) -> dict[str, Any]:
+        """Tell what decides its points and numbers, JSON-ready: equal identities make equal results."""
+        from gbnbench.generators.registry import GENERATORS
+
+        same = {
+            "key": self.key, "label": self.label, "n": self.n, "d": self.d, "realizations": self.realizations
+        }  # fmt: skip
+        if self.generator is None:
+            return {**same, "kind": "files", "sha256": self.digest}
+        kind = type(self.generator)
+        own = {} if GENERATORS.get(kind.name) is kind else {"class": f"{kind.__module__}.{kind.__qualname__}"}
+        return {
+            **same,
+            "kind": "generator",
+            "generator": self.generator.name,
+            **own,
+            "settings": dataclasses.asdict(self.generator),  # type: ignore[call-overload]
+        }
+
+
+def resolve(
+    names: Iterable[str | Generator], n: Sequence[int], d: Sequence[int], realizations: int
+) -> tuple[tuple[Source, ...], tuple[str, ...]]:
+    """Turn what was typed into sources, in the order asked for.
+
+    Parameters
+    ----------
+    names : iterable of str or Generator
+        Generators such as ``gbn[iterations=1000]``, files and folders. A name that is both is a generator;
+        with a path separator (``./gbn``) it is a path. An instance is a generator of your own, whose class
+        the workers must be able to import.
+    n, d : sequence of int
+        Sizes and dimensions for the generators: each is made at every pair. Files bring their own.
+    realizations : int
+        Sets for each generator. Files bring their own.
+
+    Returns
+    -------
+    sources : tuple of Source
+        At least one.
+    skipped : tuple of str
+        A sentence for each generator, n and d that was refused.
+
+    Raises
+    ------
+    InputError
+        If a name is neither a generator nor a path, a file cannot be read, or a number is below 1.
+    RefusalError
+        If nothing remains.
+    """
+    from gbnbench.generators.registry import of_instance
+
+    for argument, values in (("n", n), ("d", d), ("realizations", (realizations,))):
+        if bad := [v for v in values if v < 1]:
+            raise InputError(f"{argument} must be at least 1; got {bad[0]}")
+    sources: list[Source] = []
+    skipped: list[str] = []
+    names = list(names)
+    stems = Counter(_title(Path(name)) for name in dict.fromkeys(names) if isinstance(name, str))
+    for name in names:
+        generator = _generator(name) if isinstance(name, str) else of_instance(name)
+        if generator is None:
+            path = Path(str(name))
+            title = _title(path)
+            sources.extend(_read(path, title if stems[title] == 1 else str(path)))
+            continue
+        text = specification(generator)
+        for size, dimension in dict.fromkeys((size, dimension) for dimension in d for size in n):
+            why = generator.refusal(size, dimension)
+            if why is None:
+                sources.append(Source("", text, size, dimension, realizations, generator))
+            else:
+                skipped.append(f"{text} at n={size}, d={dimension}: {why}")
+    if not sources:
+        raise RefusalError("; ".join(skipped) if skipped else "no source given: name one")
+    return _distinct(sources), tuple(skipped)
+
+
+def _generator(name: str) -> Generator | None:
+    """Parse a generator's text; None where name is an existing path instead."""
+    from gbnbench.generators.registry import GENERATORS, find
+
+    base = name.partition("[")[0].strip()
+    if base in GENERATORS:
+        return find(name)
+    if Path(name).exists():
+        return None
+    close = difflib.get_close_matches(base.lower(), GENERATORS, n=2)
+    near = f"; did you mean {' or '.join(close)}?" if close else "."
+    raise InputError(
+        f"{name!r} is neither a generator nor an existing file or folder{near} "
+        f"The generators are {', '.join(GENERATORS)}"
+    )
+
+
+def _title(path: Path) -> str:
+    """Short label of a path: the folder's name, or the file's without its suffix."""
+    return path.resolve().name if path.is_dir() else path.stem
+
+
+def _read(path: Path, title: str) -> list[Source]:
+    """Read the sets of a file or folder, a source for each (n, d) among them."""
+    from gbnbench.io.points import read
+
+    files = [path]
+    if path.is_dir():
+        files = sorted(
+            (f for f in path.iterdir() if f.is_file() and f.suffix.lower() in SUFFIXES and f.name[0] != "."),
+            key=lambda f: [(part.isdigit(), int(part) if part.isdigit() else 0, part)
+                           for part in re.split(r"(\d+)", f.name)],
+        )  # fmt: skip
+        if not files:
+            raise InputError(f"{path} holds no point sets; files are known by {', '.join(SUFFIXES)}")
+    groups: dict[tuple[int, int], list[FloatArray]] = {}
+    digests: dict[tuple[int, int], list[str]] = {}
+    for file in files:
+        digest = _sha256(file)
+        for x in read(file):
+            groups.setdefault((x.shape[0], x.shape[1]), []).append(x)
+            digests.setdefault((x.shape[0], x.shape[1]), []).append(digest)
+    return [
+        Source("", title, n, d, len(sets), sets=np.stack(sets),
+               digest=hashlib.sha256("".join(digests[n, d]).encode()).hexdigest())
+        for (n, d), sets in groups.items()
+    ]  # fmt: skip
+
+
+def _sha256(path: Path) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def _distinct(sources: list[Source]) -> tuple[Source, ...]:
+    """Count repeated labels of one n and d, and give every source a key of its own."""
+    seen: Counter[tuple[str, int, int]] = Counter()
+    keys: set[str] = set()
+    result = []
+    for source in sources:
+        seen[source.label, source.n, source.d] += 1
+        times = seen[source.label, source.n, source.d]
+        text = source.label if times == 1 else f"{source.label} ({times})"
+        slug = re.sub(r"[^a-z0-9.]+", "-", text.lower()).strip("-.")[:60] or "set"
+        stem = key = f"{slug}_n{source.n}_d{source.d}"
+        twin = 1
+        while key in keys:  # different labels may share a slug
+            twin += 1
+            key = f"{stem}-{twin}"
+        keys.add(key)
+        result.append(replace(source, key=key, label=text))
+    return tuple(result)

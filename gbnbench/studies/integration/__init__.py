@@ -1,0 +1,1 @@
+"""The study of integration: variances of estimates against the number of points."""

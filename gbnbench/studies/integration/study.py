@@ -1,0 +1,314 @@
+"""Integration: the variance of means over points against n, beside what the points' spectra foretell.
+
+Ahmed, Ren & Wonka 2022, Section 5.2; Pilleboue et al. 2015.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from numpy.typing import ArrayLike
+
+from gbnbench import __version__
+from gbnbench.analysis.integration.integrands.protocol import Family
+from gbnbench.analysis.integration.integrands.registry import find as find_family
+from gbnbench.analysis.integration.variance import Variance, variance_of
+from gbnbench.core.errors import DeviceError, FormatError, InputError, RefusalError
+from gbnbench.core.settings import specification
+from gbnbench.core.torus import as_realizations
+from gbnbench.execution.progress import Progress
+from gbnbench.io import atomic
+from gbnbench.runs import comparison_folder, source_files
+from gbnbench.runs.provenance import versions
+from gbnbench.runs.resumable import PieceFolder, carry_out
+from gbnbench.runs.resumable_folder import MANIFEST, SETTINGS, read_json, said_where
+from gbnbench.runs.sources import Source, resolve
+from gbnbench.studies.integration.blocks import errors_of, instances_of, pieces_of
+from gbnbench.studies.integration.tables import gather, tables
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+DEFAULT_SOURCES = ("random", "jittered", "sobol", "gbn")
+DEFAULT_INTEGRANDS = ("gaussians", "half-space")
+DEFAULT_N = (16, 64, 256, 1024)
+TEXT = ("source", "integrand")
+TABLES = ("variance", "slopes")
+
+
+@dataclass(frozen=True)
+class Integration:
+    """A finished study.
+
+    Attributes
+    ----------
+    manifest : mapping
+        JSON-ready: command, settings, seed, device, versions.
+    variance : DataFrame
+        A row a source, n, d and family: columns source, n, d, integrand, instances, realizations, shifts,
+        variance, standard_error, low, high (95% band), bias, bias_error, foretold, foretold_error, beyond
+        (most that white noise would add beyond the frequencies summed), deviation (of variance from the range
+        of foretold to foretold + beyond, in standard errors of their difference, which is taken integrand by
+        integrand and set by set); the last four nan for families whose spectrum is not known.
+    slopes : DataFrame
+        A row a source, d and family with two or more n: columns source, d, integrand, n_from, n_to, slope,
+        standard_error, scatter (decades).
+    """
+
+    manifest: dict[str, Any]
+    variance: pd.DataFrame
+    slopes: pd.DataFrame
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What one call of ``integrate`` came to.
+
+    Attributes
+    ----------
+    study : Integration
+        Whole.
+    folder : Path
+        Where it stands.
+    reused, pieces : int
+        Pieces found finished in the folder, of how many.
+    seconds : float
+        Wall time of this call.
+    """
+
+    study: Integration
+    folder: Path
+    reused: int
+    pieces: int
+    seconds: float
+
+
+def variance(
+    x: ArrayLike, integrand: str = "gaussians", instances: int = 100, shifts: int = 0, seed: int = 0
+) -> Variance:
+    """Variance of the integral estimated by the mean over points.
+
+    Parameters
+    ----------
+    x : (n, d) or (realizations, n, d) float64
+        Points in [0, 1)^d.
+    integrand : str
+        A family of ``gbnbench.analysis.integration.integrands.registry``, with or without settings.
+    instances : int
+        Random integrands of the family, >= 1.
+    shifts : int
+        Random toroidal shifts of each set; 0 takes the sets as they are.
+    seed : int
+        Of the integrands and shifts.
+
+    Returns
+    -------
+    Variance
+        Over integrands and sets.
+
+    Raises
+    ------
+    InputError
+        If points, family or a number is wrong.
+    RefusalError
+        If the family has no integrand in d dimensions.
+
+    Examples
+    --------
+    >>> from gbnbench import generate
+    >>> x = generate("random", n=64, d=2, realizations=50)
+    >>> found = variance(x, "korobov", instances=20)
+    >>> found.low < ((1 + 2 * 1.0040773561979443) ** 2 - 1) / 64 < found.high  # zeta(8), by Parseval
+    True
+    """
+    sets = as_realizations(x)
+    family = find_family(integrand)
+    _require(instances=(instances, 1), shifts=(shifts, 0), seed=(seed, 0))
+    d = sets.shape[2]
+    _refuse(family, d)
+    drawn = instances_of(family, d, seed, instances)
+    return variance_of(errors_of(drawn, sets, 0, seed, shifts))
+
+
+def integrate(
+    sources: Sequence[str | Source] = DEFAULT_SOURCES,
+    folder: str | Path | None = None,
+    *,
+    n: Sequence[int] = DEFAULT_N,
+    d: Sequence[int] = (2,),
+    realizations: int = 16,
+    integrands: Sequence[str] = DEFAULT_INTEGRANDS,
+    instances: int = 100,
+    shifts: int = 0,
+    seed: int = 0,
+    jobs: int | None = None,
+    command: str = "",
+    progress: Progress | None = None,
+    draw: Callable[[Integration, Path], None] | None = None,
+) -> Outcome:
+    """Estimate every integral with every set, in a folder that the same call can resume.
+
+    Parameters
+    ----------
+    sources : sequence of str or Source
+        Generators with settings, files and folders, as in ``gbnbench compare``.
+    folder : path, optional
+        By default one under ``runs`` named by the settings.
+    n, d : sequence of int
+        Sizes and dimensions for the generators; what a generator refuses is skipped and said.
+    realizations : int
+        Sets of each generator.
+    integrands : sequence of str
+        Families with settings, such as ``gaussians[count=16]``.
+    instances : int
+        Integrands of each family, the same for all sources and n.
+    shifts : int
+        Random toroidal shifts of each set; 0 takes the sets as they are.
+    seed : int
+        Realization k draws from stream k of it; integrands and shifts from streams of their own.
+    jobs : int, optional
+        Worker processes, each with one thread; by default one a core.
+    command : str
+        What the user typed, for the manifest.
+    progress : Progress, optional
+        Told what is being done.
+    draw : callable, optional
+        ``draw(study, folder)`` makes the picture before the study is declared whole.
+
+    Returns
+    -------
+    Outcome
+
+    Raises
+    ------
+    InputError
+        If a name or number is wrong, or the folder holds something else.
+    RefusalError
+        If nothing remains of the sources or a family has no integrand in one of the dimensions.
+    UnfinishedError
+        If pieces failed; every other piece is kept.
+    """
+    began = time.monotonic()
+    progress = progress or Progress()
+    _require(instances=(instances, 1), shifts=(shifts, 0), seed=(seed, 0), jobs=(jobs or 1, 1))
+    families = tuple(dict.fromkeys(find_family(text) for text in integrands))
+    if not families:
+        raise InputError("no integrand given: name one, such as gaussians")
+    given = [source for source in sources if isinstance(source, Source)]
+    names = [source for source in sources if not isinstance(source, Source)]
+    skipped: tuple[str, ...] = ()
+    if names:
+        found, skipped = resolve(names, n, d, realizations)
+        given.extend(found)
+    for source in given:
+        for family in families:
+            _refuse(family, source.d)
+    settings: dict[str, Any] = {
+        "gbnbench": __version__,
+        "seed": seed,
+        "device": _device(),
+        "sources": [source.identity() for source in given],
+        "integrands": [specification(family) for family in families],
+        "instances": instances,
+        "shifts": shifts,
+    }
+    keeper = StudyFolder(Path(folder or comparison_folder.default_folder(settings, "integrate")), settings)
+    largest_first = sorted(given, key=lambda source: -source.n * source.d)
+    pieces = [
+        piece for source in largest_first for piece in pieces_of(source, families, instances, shifts, seed)
+    ]
+    with keeper.lock(), said_where(keeper.path):
+        if keeper.whole:
+            study = read_integration(keeper.path)
+            return Outcome(study, keeper.path, len(pieces), len(pieces), time.monotonic() - began)
+        keeper.begin()
+        reused = carry_out(keeper, pieces, jobs or os.cpu_count() or 1, progress)
+        errors = {
+            (source.key, specification(family)): gather(keeper, source, family)
+            for source in given for family in families
+        }  # fmt: skip
+        manifest = {
+            "command": command,
+            "version": __version__,
+            "settings": settings,
+            "seed": seed,
+            "device": settings["device"],
+            "versions": versions(),
+            "created": time.strftime("%Y-%m-%dT%H:%M:%S%z"),
+            "seconds": round(time.monotonic() - began, 3),
+            "skipped": list(skipped),
+        }
+        study = Integration(manifest, *tables(given, families, instances, shifts, errors))
+        keeper.write_tables(study)
+        if draw is not None:
+            progress.advance("drawing", 0)
+            draw(study, keeper.path)
+        keeper.finish(manifest)
+    return Outcome(study, keeper.path, reused, len(pieces), time.monotonic() - began)
+
+
+class StudyFolder(PieceFolder):
+    """A study on disk."""
+
+    kind = "study of integration"
+
+    def write_tables(self, study: Integration) -> None:
+        """Write ``variance.csv`` and ``slopes.csv``."""
+        for name in TABLES:
+            atomic.write_whole(self.path / f"{name}.csv", source_files.to_csv(getattr(study, name)))
+
+
+def is_study(folder: str | Path) -> bool:
+    """Whether a folder is a study of integration, finished or not."""
+    settings = Path(folder) / SETTINGS
+    return settings.is_file() and "integrands" in read_json(settings)
+
+
+def read_integration(folder: str | Path) -> Integration:
+    """Read a finished study.
+
+    Raises
+    ------
+    InputError
+        If it is none, or an unfinished one.
+    FormatError
+        If a file in it is missing or is not what was written.
+    """
+    path = Path(folder)
+    if not (path / MANIFEST).is_file():
+        state = "an unfinished" if (path / SETTINGS).is_file() else "no"
+        raise InputError(f"{path} is {state} study of integration: it has no {MANIFEST}")
+    manifest = read_json(path / MANIFEST)
+    if "integrands" not in manifest.get("settings", {}):
+        raise FormatError(path / MANIFEST, "is not of a study of integration")
+    tables = (
+        source_files.reading(path / f"{name}.csv", lambda p: source_files.read_csv(p, text=TEXT))
+        for name in TABLES
+    )
+    return Integration(manifest, *tables)
+
+
+def _require(**whole: tuple[int, int]) -> None:
+    for name, (value, least) in whole.items():
+        if value < least:
+            raise InputError(f"{name} must be at least {least}; got {value}")
+
+
+def _refuse(family: Family, d: int) -> None:
+    if why := family.refusal(d):
+        raise RefusalError(f"{specification(family)}: {why}")
+
+
+def _device() -> dict[str, Any] | str:
+    """Name the device, or what stands in for it: spectra and integrands have forms in numpy."""
+    from gbnbench.opencl import choose
+
+    try:
+        return dict(choose().describe())
+    except DeviceError:
+        return "numpy"

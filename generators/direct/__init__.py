@@ -1,0 +1,1 @@
+"""Generators that place points directly: random, stratified and low-discrepancy ones."""

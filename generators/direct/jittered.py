@@ -1,0 +1,45 @@
+"""Stratified (jittered) sampling on a regular grid (Cook 1986)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from gbnbench.core.errors import RefusalError
+from gbnbench.core.torus import FloatArray, wrap
+from gbnbench.generators.lattices.regular_grid import grid_corners, grid_refusal
+
+
+@dataclass(frozen=True)
+class Jittered:
+    """One uniform point in each of the n = m**d cells of a regular grid.
+
+    Notes
+    -----
+    E[P(f)] = 1 - prod over a of sinc(f_a / m)**2 for f != 0, with sinc(t) = sin(pi t) / (pi t).
+
+    References
+    ----------
+    Cook, "Stochastic sampling in computer graphics", ACM TOG 5(1), 1986.
+
+    Examples
+    --------
+    >>> Jittered().refusal(1000, 2)
+    'n must be m**2 for a jittered grid; got n=1000, nearest is 1024'
+    """
+
+    name: ClassVar[str] = "jittered"
+    summary: ClassVar[str] = "one uniform point in each cell of a grid of m**d (Cook 1986)"
+
+    def refusal(self, n: int, d: int) -> str | None:
+        """Why n is not m**d, with the nearest that is."""
+        return grid_refusal("a jittered grid", n, d)
+
+    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
+        """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
+        if reason := self.refusal(n, d):
+            raise RefusalError(reason)
+        m = round(n ** (1.0 / d))
+        return wrap((grid_corners(m, d) + rng.random((n, d))) / m)

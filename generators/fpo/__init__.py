@@ -1,0 +1,1 @@
+"""Farthest-point optimisation (Schlömer, Heck & Deussen 2011)."""

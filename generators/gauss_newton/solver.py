@@ -1,0 +1,169 @@
+"""Points moved by the least displacement to given amplitudes: damped minimum-norm Gauss-Newton.
+
+Each step solves J du = T - F for the shortest du = J^T (J J^T)^-1 (T - F) by conjugate gradients, only as
+well as the step deserves (inexact Newton: Dembo, Eisenstat & Steihaug 1982).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from gbnbench.core.errors import InputError
+from gbnbench.core.torus import FloatArray, wrap
+from gbnbench.generators.gauss_newton.conjugate_gradients import forcing, inner, solve
+from gbnbench.generators.gauss_newton.gram_matrix import gram
+from gbnbench.generators.gauss_newton.modes import Modes, modes
+from gbnbench.generators.gauss_newton.targets import Target, aims, rounding, target_power
+from gbnbench.generators.gauss_newton.wave_sums import ComplexArray, Waves
+
+LONGEST = 0.5  # spacings: cap of one step's longest displacement
+HALVINGS = 6  # of a step before a start is given up
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What ``reach`` came to.
+
+    Attributes
+    ----------
+    x : (n, d) float64
+        Points in [0, 1).
+    residual : float
+        Largest |F - T| / (tolerance sqrt(n P_target) + rounding) over the modes; at most 1 where converged.
+    steps : int
+        Steps taken.
+    products : int
+        Products with the Gram matrix.
+    converged : bool
+        Whether every amplitude below the edge is within its tolerance. A set that is not must not be used.
+    reason : str
+        Why not, in words; empty where converged.
+    """
+
+    x: FloatArray
+    residual: float
+    steps: int
+    products: int
+    converged: bool
+    reason: str = ""
+
+
+def reach(
+    x: FloatArray,
+    target: Target | float,
+    edge: float,
+    *,
+    tolerance: float = 1e-3,
+    steps: int = 40,
+    products: int = 3000,
+    progress: Callable[[int, float], None] | None = None,
+) -> Outcome:
+    """Move points so that their power below an edge follows a target, by the shortest steps that do.
+
+    Parameters
+    ----------
+    x : (n, d) float64
+        Start, box sides; disordered, since amplitudes that are rounding alone have no phase to keep.
+    target : callable or float
+        Power at nu, (m,) -> (m,); >= 0. Each amplitude of the start keeps its phase and its place in the
+        spread of its ring; 0 everywhere gives a stealthy set.
+    edge : float
+        In nu: amplitudes with 0 < nu < edge are bound.
+    tolerance : float
+        Of an amplitude over sqrt(n P_target(nu)); rounding of the coordinates is always allowed on top.
+    steps : int
+        Most Gauss-Newton steps.
+    products : int
+        Most products of one step.
+    progress : callable, optional
+        Called with the step's number and the residual, as in ``Outcome``.
+
+    Returns
+    -------
+    Outcome
+        The best set met, which is not always converged.
+
+    Raises
+    ------
+    InputError
+        If the target is negative or not finite below the edge, or the edge or the tolerance not positive.
+    """
+    for name, value in (("edge", edge), ("tolerance", tolerance)):
+        if not (math.isfinite(value) and value > 0):
+            raise InputError(f"{name} must be positive and finite; got {value}")
+    n, d = x.shape
+    below = modes(n, d, edge)
+    if not len(below):
+        return Outcome(wrap(x), 0.0, 0, 0, True)
+    run = _Run(below, target, tolerance, x)
+    return run.to_the_end(steps, products, progress)
+
+
+class _State:
+    """Points with what is known of them."""
+
+    def __init__(self, run: _Run, x: FloatArray) -> None:
+        self.x = x
+        self.waves = Waves(x, run.modes.f)
+        self.amplitudes = self.waves.amplitudes()
+
+    def measure(self, run: _Run) -> None:
+        missing = run.aim - self.amplitudes
+        self.residual = float(np.max(np.abs(missing) / run.allowed))
+        self.missing: ComplexArray = missing * run.scale
+        self.norm = math.sqrt(inner(self.missing, self.missing))
+
+
+class _Run:
+    """One descent of the residual."""
+
+    def __init__(self, below: Modes, target: Target | float, tolerance: float, x: FloatArray) -> None:
+        self.modes = below
+        self.side = math.pow(below.n, 1 / below.d)
+        power = target_power(target, below)
+        root = math.sqrt(below.n)
+        self.allowed = root * (tolerance * np.sqrt(power) + rounding(below))
+        self.scale = 1 / (root * below.length)
+        self.state = _State(self, wrap(x))
+        self.aim = aims(self.state.amplitudes, below, power)
+        self.state.measure(self)
+
+    def to_the_end(self, steps: int, products: int, progress: Callable[[int, float], None] | None) -> Outcome:
+        """Step until converged, stalled or out of steps."""
+        taken, before, last = 0, math.inf, 0.1
+        for step in range(steps + 1):
+            now = self.state
+            if progress is not None:
+                progress(step, now.residual)
+            if now.residual <= 1:
+                return Outcome(now.x, now.residual, step, taken, True)
+            if step == steps:
+                break
+            last = forcing(now.norm, before, last)
+            before = now.norm
+            product = gram(now.x, self.modes, now.waves)
+            y, used = solve(product, now.missing, last, products)
+            taken += used
+            if not self._step(y, last):
+                reason = f"no part of step {step + 1} brings the amplitudes nearer to their targets"
+                return Outcome(now.x, now.residual, step, taken, False, reason)
+        reason = f"the amplitudes are not at their targets after {steps} steps"
+        return Outcome(self.state.x, self.state.residual, steps, taken, False, reason)
+
+    def _step(self, y: ComplexArray, forced: float) -> bool:
+        """Take as much of the step as lowers the residual; False where no part does."""
+        move = self.state.waves.gradient(self.scale * y, self.side)
+        longest = math.sqrt(float(np.max(np.sum(move**2, axis=1))))
+        share = min(1.0, LONGEST / longest) if longest > 0 else 1.0
+        for _ in range(HALVINGS + 1):
+            tried = _State(self, wrap(self.state.x + share * move / self.side))
+            tried.measure(self)
+            if tried.norm <= (1 - 0.1 * share * (1 - forced)) * self.state.norm or tried.residual <= 1:
+                self.state = tried
+                return True
+            share /= 2
+        return False

@@ -1,0 +1,83 @@
+"""Amplitudes to reach: those of the start, scaled ring by ring to a target power, their spread kept."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+from gbnbench.core.errors import InputError
+from gbnbench.core.torus import FloatArray
+from gbnbench.generators.gauss_newton.modes import Modes
+from gbnbench.generators.gauss_newton.wave_sums import ComplexArray
+
+Target = Callable[[FloatArray], FloatArray]
+PASSES = 4  # corrections of the start's profile by its rings' means
+
+
+def target_power(target: Target | float, modes: Modes) -> FloatArray:
+    """Power asked for at each mode, (m,).
+
+    Raises
+    ------
+    InputError
+        If it is negative or not finite anywhere.
+    """
+    power = np.broadcast_to(
+        np.asarray(target(modes.nu) if callable(target) else target, dtype=np.float64), (len(modes),)
+    )
+    wrong = ~(np.isfinite(power) & (power >= 0))
+    if wrong.any():
+        k = int(np.argmax(wrong))
+        raise InputError(
+            f"target must be finite and >= 0 below the edge; got {power[k]} at nu={modes.nu[k]:.4g}"
+        )
+    return power
+
+
+def profile(amplitudes: ComplexArray, modes: Modes) -> FloatArray:
+    """Smooth radial power of one set at each mode, (m,), all > 0.
+
+    Means over rings one unit of |f| wide, joined by straight lines in ln P over nu, and corrected by the
+    rings' means of what they leave: the profile is steep within a ring. Exact shells would be too narrow: the
+    mean of two or four amplitudes takes away a good part of their spread.
+    """
+    power = np.maximum(np.abs(amplitudes) ** 2 / modes.n, 1e-300)
+    ring = np.rint(np.sqrt(modes.square)).astype(np.int64)
+    _, ring = np.unique(ring, return_inverse=True)
+    count = np.bincount(ring)
+    centre = np.bincount(ring, modes.nu) / count
+    logarithm = np.log(np.bincount(ring, power) / count)
+    for _ in range(PASSES):
+        smooth = np.exp(np.interp(modes.nu, centre, logarithm))
+        logarithm += np.log(np.bincount(ring, power / smooth) / count)
+    smooth_power: FloatArray = np.exp(np.interp(modes.nu, centre, logarithm))
+    return smooth_power
+
+
+def aims(amplitudes: ComplexArray, modes: Modes, power: FloatArray) -> ComplexArray:
+    """Scale the amplitudes so that their smooth radial power becomes ``power``; phase and spread are kept.
+
+    Parameters
+    ----------
+    amplitudes : (m,) complex128
+        Of the start.
+    modes : Modes
+        Their frequencies.
+    power : (m,) float64
+        Target, >= 0.
+    """
+    scaled: ComplexArray = amplitudes * np.sqrt(power / profile(amplitudes, modes))
+    return scaled
+
+
+def rounding(modes: Modes) -> FloatArray:
+    """Error of each amplitude over sqrt(n) that rounding the coordinates to double can leave, (m,).
+
+    A coordinate errs by 2**-53 / sqrt(12) of the box, a wave by 2 pi |f| times that, and so does their sum
+    over sqrt(n); the sum itself errs by about 5e-16. Eight times that is allowed: the largest of a million
+    such errors is five times the typical.
+    """
+    error: FloatArray = 2 * math.pi * np.sqrt(modes.square) * 2.0**-53 / math.sqrt(12) + 5e-16
+    return 8 * error

@@ -1,0 +1,1 @@
+"""Regular lattices on the torus."""

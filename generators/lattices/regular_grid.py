@@ -1,0 +1,80 @@
+"""The regular grid Z^d / m on the torus, and the arithmetic of sizes n = m**d."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from gbnbench.core.errors import RefusalError
+from gbnbench.core.torus import FloatArray, wrap
+
+
+def grid_side(n: int, d: int) -> int | None:
+    """Return the whole m with m**d = n, None where there is none.
+
+    Examples
+    --------
+    >>> grid_side(1024, 2), grid_side(1000, 2)
+    (32, None)
+    """
+    side = round(n ** (1.0 / d))
+    return side if side**d == n else None
+
+
+def grid_refusal(what: str, n: int, d: int) -> str | None:
+    """Why n is not m**d, with the nearest that is; None where it is.
+
+    Examples
+    --------
+    >>> grid_refusal("a jittered grid", 1000, 2)
+    'n must be m**2 for a jittered grid; got n=1000, nearest is 1024'
+    """
+    if grid_side(n, d) is not None:
+        return None
+    side = round(n ** (1.0 / d))
+    nearest = min((m**d for m in range(max(side - 1, 1), side + 2)), key=lambda size: abs(size - n))
+    return f"n must be m**{d} for {what}; got n={n}, nearest is {nearest}"
+
+
+def grid_corners(m: int, d: int) -> FloatArray:
+    """Lower corners of the m**d cells, in units of a cell: (m**d, d) float64 whole numbers."""
+    return np.ascontiguousarray(np.indices((m,) * d, dtype=np.float64).reshape(d, -1).T)
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Regular grid of n = m**d points.
+
+    Parameters
+    ----------
+    shift : bool
+        Move each realization by its own uniform toroidal shift; without it the points are the centres of the
+        cells, the same in every realization.
+
+    Notes
+    -----
+    P(f) = n where m divides every f_a, 0 elsewhere.
+
+    Examples
+    --------
+    >>> Grid(shift=False)(4, 2, np.random.default_rng(0)).tolist()
+    [[0.25, 0.25], [0.25, 0.75], [0.75, 0.25], [0.75, 0.75]]
+    """
+
+    name: ClassVar[str] = "grid"
+    summary: ClassVar[str] = "regular grid of m**d points, each realization shifted at random"
+    shift: bool = True
+
+    def refusal(self, n: int, d: int) -> str | None:
+        """Why n is not m**d, with the nearest that is."""
+        return grid_refusal("a regular grid", n, d)
+
+    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
+        """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
+        if reason := self.refusal(n, d):
+            raise RefusalError(reason)
+        m = round(n ** (1.0 / d))
+        offset = rng.random(d) if self.shift else np.full(d, 0.5)
+        return wrap((grid_corners(m, d) + offset) / m)

@@ -1,0 +1,1 @@
+"""Generators that are given a spectrum: deep and stealthy blue noise."""

@@ -1,0 +1,208 @@
+"""Stealthy, or step, blue noise: no power below an edge, none asked beyond (Uche et al. 2006; Supp. B)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import ClassVar, Literal
+
+import numpy as np
+
+from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.torus import FloatArray, wrap
+from gbnbench.generators.gauss_newton.conjugate_gradients import solve
+from gbnbench.generators.gauss_newton.gram_matrix import gram
+from gbnbench.generators.gauss_newton.modes import bound, edge_of, modes
+from gbnbench.generators.gauss_newton.product_cost import too_much
+from gbnbench.generators.gauss_newton.solver import reach
+from gbnbench.generators.gauss_newton.wave_sums import Waves
+from gbnbench.generators.gbn.energy import field
+from gbnbench.generators.gbn.optimiser import Nesterov, step_size
+from gbnbench.generators.monitor import Watch, only_progress
+
+SHARE = 0.6  # of the coordinates that the default edge binds, in any dimension
+MOST_BOUND = 0.96  # beyond, there are no disordered sets: in 1D they collapse to the grid
+LONGER = (1, 3, 10)  # starts for newton, in times of its gradients
+SIGMA = 1.0  # of the truncated energy
+FORCING = 1e-4  # residual of the last step's linear solve
+PRODUCTS = 3000
+CHUNK = 50  # gradients between two looks at the band
+USUAL = 10  # Gauss-Newton steps that progress expects
+
+
+def band_power(x: FloatArray, edge: float) -> FloatArray:
+    """Power of one set, (n, d) in box sides, at one of each pair f, -f with 0 < nu < edge: (m,) float64."""
+    n, d = x.shape
+    amplitudes = Waves(wrap(x), modes(n, d, edge).f).amplitudes()
+    return np.asarray(np.abs(amplitudes) ** 2 / n)
+
+
+@dataclass(frozen=True)
+class Stealthy:
+    """Random points moved until no power is left at the frequencies 0 < nu < edge.
+
+    Attributes
+    ----------
+    edge : float or None
+        In nu; by default what binds 0.6 of the coordinates: 0.3 in 1D, 0.618 in 2D, 0.755 in 3D.
+    method : {"newton", "harmonics"}
+        Minimum-norm Gauss-Newton after a short descent, down to rounding; or the descent alone, of the
+        Gaussian energy truncated at the edge.
+    gradients : int or None
+        Of the descent before newton; by default 30, in one dimension 300. A start that does not converge is
+        drawn anew with 3 and 10 times as many.
+    most : int
+        Most gradients of method harmonics.
+    power : float
+        Largest power below the edge at which method harmonics stops, > 0; the paper's are below 1e-8.
+
+    Raises
+    ------
+    InputError
+        If a setting is out of range.
+
+    Notes
+    -----
+    The amplitudes below the edge bind 2 chi = V_d edge^d / d of the coordinates, V_d being the unit ball's
+    volume (Uche, Stillinger & Torquato 2006). Disordered sets exist while that is below 1; order sets in
+    before. The Gaussian energy of the frequencies below the edge is least, 0, exactly at stealthy sets. A set
+    that has not reached its band is refused, never returned.
+
+    References
+    ----------
+    Heck, Schlömer & Deussen, "Blue noise sampling with controlled aliasing", ACM Trans. Graph. 32(3), 2013.
+    Uche, Stillinger & Torquato, "Constraints on collective density variables", Phys. Rev. E 74, 031104, 2006.
+
+    Examples
+    --------
+    >>> x = Stealthy(edge=0.4)(64, 2, np.random.default_rng(0))
+    >>> bool(band_power(x, 0.4).max() < 1e-25)
+    True
+    """
+
+    name: ClassVar[str] = "stealthy"
+    summary: ClassVar[str] = "stealthy (step) blue noise: no power below an edge (Uche et al. 2006)"
+
+    edge: float | None = None
+    method: Literal["newton", "harmonics"] = "newton"
+    gradients: int | None = None
+    most: int = 5000
+    power: float = 1e-8
+
+    def __post_init__(self) -> None:
+        if self.edge is not None and not (math.isfinite(self.edge) and self.edge > 0):
+            raise InputError(f"edge must be positive and finite, in nu; got {self.edge}")
+        for name in ("gradients", "most"):
+            if (getattr(self, name) or 0) < 0:
+                raise InputError(f"{name} must be 0 or more; got {getattr(self, name)}")
+        if not (math.isfinite(self.power) and self.power > 0):
+            raise InputError(f"power must be positive; got {self.power}")
+
+    def _edge(self, d: int) -> float:
+        return edge_of(SHARE, d) if self.edge is None else self.edge
+
+    def refusal(self, n: int, d: int) -> str | None:
+        """Why n points in d dimensions cannot have that band empty."""
+        edge = self._edge(d)
+        numbers = bound(n, d, edge)
+        if numbers > MOST_BOUND * n * d:
+            return (
+                f"an empty band below nu={edge:.4g} binds {numbers:.6g} of the {n * d} coordinates of n={n} "
+                f"points in d={d}: only lattices, if any, have it; lower the edge, {edge_of(0.8, d):.3g} "
+                "still leaves disorder"
+            )
+        return too_much(n, d, edge)
+
+    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
+        """Draw one realization; see ``Generator`` and ``draw``."""
+        one: FloatArray = self.draw(n, d, [rng], Watch())[0]
+        return one
+
+    def draw(self, n: int, d: int, rngs: Sequence[np.random.Generator], watch: Watch) -> FloatArray:
+        """Draw one set from each stream; see ``Watchable``. There is progress alone.
+
+        Raises
+        ------
+        InputError
+            If a trace or a checkpoint is asked for.
+        RefusalError
+            Where ``refusal`` has a reason, or the band was not reached.
+        """
+        only_progress(watch, self.name)
+        if reason := self.refusal(n, d):
+            raise RefusalError(reason)
+        return np.stack([self._one(n, d, rng, _Told(watch, k, len(rngs))) for k, rng in enumerate(rngs)])
+
+    def _one(self, n: int, d: int, rng: np.random.Generator, told: _Told) -> FloatArray:
+        x, edge = rng.random((n, d)), self._edge(d)
+        if not len(modes(n, d, edge)):  # a box of few points has no frequency so low
+            return x
+        if self.method == "harmonics":
+            return self._descended(x, edge, told)
+        gradients = (300 if d == 1 else 30) if self.gradients is None else self.gradients
+        for times in LONGER:
+            start = wrap(_settled(x, edge, times * gradients, told).x[0])
+            outcome = reach(start, 0.0, edge, progress=told.step)
+            if outcome.converged:
+                return _once_more(outcome.x, edge)
+            x = rng.random((n, d))
+        raise RefusalError(
+            f"the power of n={n} points in d={d} below nu={edge:.4g} could not be brought to 0 from "
+            f"{len(LONGER)} starts: {outcome.reason}; lower the edge, or raise gradients, now {gradients}"
+        )
+
+    def _descended(self, x: FloatArray, edge: float, told: _Told) -> FloatArray:
+        run = _settled(x, edge, 0, told)
+        while True:
+            left = float(band_power(run.x[0], edge).max())
+            doing = f"{run.gradients} gradients, largest power {left:.1e}"
+            told.share(run.gradients / max(self.most, 1), doing)
+            if left <= self.power:
+                return wrap(run.x[0])
+            if run.gradients >= self.most:
+                raise RefusalError(
+                    f"the largest power below nu={edge:.4g} is {left:.3g} after {run.gradients} gradients, "
+                    f"and power={self.power:.3g} was asked for; raise most or power, lower the edge, or take "
+                    "method=newton"
+                )
+            for _ in range(min(CHUNK, self.most - run.gradients)):
+                run.advance()
+
+
+class _Told:
+    """Progress of one set of several, in hundredths of a set: half for the descent, half for newton."""
+
+    def __init__(self, watch: Watch, k: int, sets: int) -> None:
+        self._progress, self._k, self._sets = watch.progress, k, sets
+
+    def share(self, share: float, doing: str) -> None:
+        """Say which share of this set is done."""
+        if self._progress is not None:
+            done = 100 * self._k + min(99, round(100 * share))
+            self._progress(done, 100 * self._sets, f"stealthy, set {self._k + 1}, {doing}")
+
+    def step(self, step: int, residual: float) -> None:
+        """Say that a Gauss-Newton step is done."""
+        self.share(0.5 + step / (2 * USUAL), f"{residual:.1e} times what is allowed")
+
+
+def _settled(x: FloatArray, edge: float, gradients: int, told: _Told) -> Nesterov:
+    """Run the descent of the energy below the edge from one set, (n, d)."""
+    n, d = x.shape
+    run = Nesterov(field(n, d, SIGMA, "double", edge=edge), x[None], step_size(n, d, SIGMA))
+    for k in range(gradients):
+        run.advance()
+        told.share(k / gradients / 2, f"gradient {k + 1}")
+    return run
+
+
+def _once_more(x: FloatArray, edge: float) -> FloatArray:
+    """One more Gauss-Newton step: quadratic convergence leaves rounding alone, 1e-29 for 1,024 points."""
+    n, d = x.shape
+    below = modes(n, d, edge)
+    waves = Waves(x, below.f)
+    scale, side = 1 / (math.sqrt(n) * below.length), math.pow(n, 1 / d)
+    y, _ = solve(gram(x, below, waves), -waves.amplitudes() * scale, FORCING, PRODUCTS)
+    moved = wrap(x + waves.gradient(scale * y, side) / side)
+    return moved if band_power(moved, edge).max() < band_power(x, edge).max() else x

@@ -1,0 +1,1 @@
+"""Generators that move points by their toroidal Voronoi cells."""

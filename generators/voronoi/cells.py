@@ -1,0 +1,193 @@
+"""Volumes, centroids and energies of toroidal Voronoi cells, exact but for rounding (Du et al. 1999)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from itertools import chain
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.torus import FloatArray, spacing, with_images, wrap
+
+COINCIDENT = "x must hold distinct points for Voronoi cells; at least two coincide"
+
+
+@dataclass(frozen=True)
+class Cells:
+    """Voronoi cells of n points on the unit torus.
+
+    Attributes
+    ----------
+    volume : (n,) float64
+        They sum to 1.
+    offset : (n, d) float64
+        Centroid of each cell, from its point; not wrapped.
+    energy : (n,) float64
+        Integral of |y - x|**2 over each cell; their sum is what Lloyd's method lowers.
+    reach : float
+        Width of the border whose images bear on the cells.
+    """
+
+    volume: FloatArray
+    offset: FloatArray
+    energy: FloatArray
+    reach: float
+
+
+def toroidal_cells(x: FloatArray, margin: float | None = None) -> Cells:
+    """Voronoi cells of points on the torus, in one, two or three dimensions.
+
+    Parameters
+    ----------
+    x : (n, d) float64
+        Distinct points in [0, 1)^d, d <= 3.
+    margin : float, optional
+        First guess of the border of images, in units of length; the answer does not depend on it.
+
+    Returns
+    -------
+    Cells
+
+    Raises
+    ------
+    RefusalError
+        If d > 3.
+    InputError
+        If two points coincide.
+
+    Notes
+    -----
+    The points are tiled by a border of their images. A cell is right if, for each of its vertices v at
+    distance r from its point, the ball of radius r about v stays inside the tiled box, for then no image left
+    out can be nearer to v. Where that fails the border is widened; a border of 1 needs no check (Dolbilin &
+    Huson 1997). A cell is cut in simplices with their apex at its point.
+
+    References
+    ----------
+    Du, Faber & Gunzburger, "Centroidal Voronoi tessellations", SIAM Review 41(4), 1999. Dolbilin & Huson,
+    "Periodic Delone tilings", Periodica Mathematica Hungarica 34, 1997.
+
+    Examples
+    --------
+    >>> toroidal_cells(np.array([[0.1], [0.3], [0.5]])).volume.round(12).tolist()
+    [0.4, 0.2, 0.4]
+    """
+    n, d = x.shape
+    if d > 3:
+        raise RefusalError(f"d must be 1, 2 or 3 for Voronoi cells; got d={d}")
+    if d == 1:
+        return _moments(x, *_intervals(x))
+    margin = min(1.0, 4.0 * spacing(n, d) if margin is None else margin)
+    cut = _triangles if d == 2 else _tetrahedra
+    while True:
+        simplices = cut(x, margin)
+        if simplices is not None:
+            cells = _moments(x, *simplices)
+            if margin >= 1 or cells.reach <= margin:
+                return cells
+            margin = min(1.0, 1.01 * cells.reach)
+        elif margin >= 1:
+            raise InputError(COINCIDENT)
+        else:
+            margin = min(1.0, 2 * margin)
+
+
+def _intervals(x: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
+    """In 1D a cell is two segments, from its point to either midpoint."""
+    order = np.argsort(x[:, 0])
+    half = np.diff(x[order, 0], append=x[order[0], 0] + 1) / 2
+    if not (half > 0).all():
+        raise InputError(COINCIDENT)
+    return np.concatenate([order, order]), np.concatenate([half, -np.roll(half, 1)])[:, None, None]
+
+
+def _triangles(x: FloatArray, margin: float) -> tuple[NDArray[np.intp], FloatArray] | None:
+    """In 2D a triangle for each side, which joins the circumcentres left and right of a Delaunay edge."""
+    from scipy.spatial import Delaunay, QhullError
+
+    tiled, _ = with_images(x, margin)
+    try:
+        mesh = Delaunay(tiled)
+    except QhullError:  # too few images, or all on a line
+        return None
+    corner = tiled[mesh.simplices]
+    u, v = corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]
+    uu, vv = np.sum(u * u, axis=1), np.sum(v * v, axis=1)
+    normal = np.stack([v[:, 1] * uu - u[:, 1] * vv, u[:, 0] * vv - v[:, 0] * uu], axis=1)
+    with np.errstate(divide="ignore", invalid="ignore"):  # a flat triangle on the tiling's rim bounds no cell
+        centre = corner[:, 0] + normal / (2 * (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]))[:, None]
+    # Triangles run counterclockwise, so each edge a -> b is met once with its triangle on the left.
+    a, right = np.roll(mesh.simplices, -1, axis=1), mesh.neighbors
+    left = np.broadcast_to(np.arange(len(right))[:, None], right.shape)
+    own = a < len(x)
+    site, right, left = a[own], right[own], left[own]
+    if (right < 0).any() or len(np.unique(site)) < len(x):
+        return None
+    return site.astype(np.intp), np.stack([centre[right], centre[left]], axis=1) - x[site][:, None]
+
+
+def _tetrahedra(x: FloatArray, margin: float) -> tuple[NDArray[np.intp], FloatArray] | None:
+    """In 3D a fan of tetrahedra over each face, the same for the points on both its sides."""
+    from scipy.spatial import QhullError, Voronoi
+
+    tiled, _ = with_images(x, margin)
+    try:
+        diagram = Voronoi(tiled)
+    except QhullError:  # too few images, or all on a plane
+        return None
+    inner = np.flatnonzero(diagram.ridge_points.min(axis=1) < len(x))
+    faces = [diagram.ridge_vertices[i] for i in inner]
+    corners = np.fromiter(chain.from_iterable(faces), dtype=np.intp)
+    if (corners < 0).any():
+        return None
+    count = np.array([len(face) for face in faces], dtype=np.intp)
+    first = np.cumsum(count) - count
+    face = np.repeat(np.arange(len(faces)), count - 2)
+    start = np.cumsum(count - 2) - (count - 2)
+    second = first[face] + 1 + np.arange(len(face)) - start[face]
+    fan = diagram.vertices[np.stack([corners[first[face]], corners[second], corners[second + 1]], axis=1)]
+    pair = diagram.ridge_points[inner[face]]
+    site, fan = pair.T.reshape(-1).astype(np.intp), np.concatenate([fan, fan])
+    own = site < len(x)
+    site, fan = site[own], fan[own]
+    if len(np.unique(site)) < len(x):
+        return None
+    return site, fan - x[site][:, None]
+
+
+def _moments(x: FloatArray, site: NDArray[np.intp], rays: FloatArray) -> Cells:
+    """Sum simplices with their apex at the points.
+
+    Parameters
+    ----------
+    x : (n, d) float64
+        The points.
+    site : (m,) intp
+        The point each simplex belongs to.
+    rays : (m, d, d) float64
+        Its other corners, from the point. In 2D they run counterclockwise, so that a side whose Delaunay edge
+        does not cross it counts right too.
+    """
+    n, d = x.shape
+    volume: FloatArray = np.linalg.det(rays) / math.factorial(d)
+    if d != 2:  # convex cells hold their point, and faces come in either sense
+        volume = np.abs(volume)
+    total = rays.sum(axis=1)
+    squares = np.sum(rays * rays, axis=(1, 2)) + np.sum(total * total, axis=1)
+    cell = np.asarray(np.bincount(site, volume, n), dtype=np.float64)
+    first = np.stack([np.bincount(site, volume * total[:, k], n) for k in range(d)], axis=1) / (d + 1)
+    second: FloatArray = np.bincount(site, volume * squares, n) / ((d + 1) * (d + 2))
+    if not (cell > 0).all():
+        raise InputError(COINCIDENT)
+    radius = np.sqrt(np.sum(rays * rays, axis=2))
+    vertex = x[site][:, None] + rays
+    beyond = np.maximum(-vertex, vertex - 1).max(axis=2) + radius
+    return Cells(cell, first / cell[:, None], second, float(beyond.max()))
+
+
+def move_to_centroids(x: FloatArray, cells: Cells) -> FloatArray:
+    """Each point at its cell's centroid, back on the torus: one step of Lloyd's method."""
+    return wrap(x + cells.offset)

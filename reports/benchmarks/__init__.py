@@ -1,0 +1,1 @@
+"""Pictures of benchmarks, drawn from their saved tables."""

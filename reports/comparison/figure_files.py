@@ -1,0 +1,110 @@
+"""Writes every figure of a run as PNG and PDF, each whole or not at all."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from gbnbench.io.atomic import write_whole
+from gbnbench.reports import style
+from gbnbench.reports.comparison import (
+    gallery,
+    loglog,
+    points,
+    radial,
+    rdf,
+    spectrum,
+    sweep,
+    valence,
+    zone_plate,
+)
+from gbnbench.runs.comparison_result import Run, SourceResult
+
+
+class Kind(NamedTuple):
+    """A figure by name: how it is drawn, and what a source needs to be in it."""
+
+    draw: Callable[[Run, style.Group | None], Figure]
+    needs: Callable[[SourceResult], bool]
+
+
+def _always(source: SourceResult) -> bool:  # noqa: ARG001 - asked as the others are
+    return True
+
+
+FIGURES: dict[str, Kind] = {
+    "gallery": Kind(gallery.figure, _always),
+    "points": Kind(points.figure, _always),
+    "spectrum": Kind(spectrum.figure, _always),
+    "radial": Kind(radial.figure, _always),
+    "loglog": Kind(loglog.figure, _always),
+    "zone-plate": Kind(zone_plate.figure, lambda s: s.zone_plate is not None),
+    "valence": Kind(valence.figure, lambda s: s.d == 2 or s.valence is not None),
+    "rdf": Kind(rdf.figure, lambda s: s.rdf is not None),
+}
+
+
+@style.styled
+def png(figure: Figure, dpi: float = style.DPI) -> bytes:
+    """Return the figure as PNG: the same bytes for the same figure, no date within."""
+    stream = io.BytesIO()
+    FigureCanvasAgg(figure)
+    figure.savefig(
+        stream, format="png", dpi=dpi, metadata={"Software": None}, pil_kwargs={"compress_level": 4}
+    )
+    return stream.getvalue()
+
+
+@style.styled
+def pdf(figure: Figure) -> bytes:
+    """Return the figure as PDF: the same bytes for the same figure, no date within."""
+    stream = io.BytesIO()
+    figure.savefig(stream, format="pdf", dpi=200, metadata={"CreationDate": None, "Producer": None})
+    return stream.getvalue()
+
+
+def planned(run: Run) -> list[tuple[str, Callable[[Run, style.Group | None], Figure], style.Group | None]]:
+    """File stem, drawing function and (n, d) of every figure of a run; stems say n and d where several."""
+    every = style.groups(run)
+    plan: list[tuple[str, Callable[[Run, style.Group | None], Figure], style.Group | None]] = []
+    for group in every:
+        suffix = f"_n{group[0]}_d{group[1]}" if len(every) > 1 else ""
+        for name, kind in FIGURES.items():
+            if any(map(kind.needs, style.members(run, group))):
+                plan.append((name + suffix, kind.draw, group))
+    if sweep.several(run):
+        plan.append(("sweep", sweep.figure, None))
+    return plan
+
+
+def write_figures(run: Run, folder: str | Path) -> list[Path]:
+    """Draw every figure the run has data for.
+
+    Parameters
+    ----------
+    run : Run
+        Drawn as it is: nothing is measured again.
+    folder : path
+        Made where it is not there; files of the same names are replaced, each at once.
+
+    Returns
+    -------
+    list of Path
+        ``gallery.png``, ``gallery.pdf`` and so on; with several (n, d) in the run the names end in
+        ``_n1024_d2``, and ``sweep`` shows the measures against n.
+    """
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    written = []
+    for stem, draw, group in planned(run):
+        figure = draw(run, group)
+        for ending, content in (("png", png(figure)), ("pdf", pdf(figure))):
+            path = folder / f"{stem}.{ending}"
+            write_whole(path, content)
+            written.append(path)
+    return written

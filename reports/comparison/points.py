@@ -1,0 +1,67 @@
+"""The points themselves: the first realization in the unit square, x to the right and y up."""
+
+from __future__ import annotations
+
+import math
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from gbnbench.reports import style
+from gbnbench.runs.comparison_result import Run, SourceResult
+
+MOST = 16384  # beyond this many points in the plane a panel would be solid ink: a corner is shown instead
+VECTOR = 4096  # a PDF holds so many points as vectors, more as a picture
+
+
+def window(source: SourceResult) -> float:
+    """Side of the corner square that a picture of the points shows: 1, or less for very large 2D sets."""
+    return 1.0 if source.n <= MOST or source.d > 2 else math.sqrt(4096 / source.n)
+
+
+def note(source: SourceResult) -> str:
+    """Say what the panel of this source shows other than the whole set; empty for an ordinary 2D set."""
+    if source.d == 1:
+        return "Points on a line."
+    if source.d > 2:
+        shown = f" of the first {MOST:,} points" if source.n > MOST else ""
+        return f"First two of {source.d} coordinates{shown}."
+    side = window(source)
+    return "" if side == 1.0 else f"Lower left corner of side {side:.3g}."
+
+
+def panel(ax: Axes, source: SourceResult) -> None:
+    """Draw the first realization: a rug in 1D, the first two coordinates in higher dimensions."""
+    style.frame(ax)
+    x = source.points[0]
+    side = window(source)
+    ax.set_xlim(0, side)
+    if source.d == 1:
+        ax.set_ylim(0, 1)
+        ax.vlines(x[:, 0], 0.35, 0.65, color=style.INK, linewidth=0.7, rasterized=len(x) > VECTOR)
+        return
+    ax.set_ylim(0, side)
+    ax.set_aspect("equal")
+    x = x[(x[:, 0] <= side) & (x[:, 1] <= side)][:MOST]
+    inches = ax.get_position().width * ax.figure.get_figwidth()  # type: ignore[union-attr]
+    size = min(max(0.36 * 72 * inches / math.sqrt(max(len(x), 1)), 0.7), 5.0)
+    ax.plot(
+        x[:, 0], x[:, 1], "o", markersize=size, markeredgewidth=0, color=style.INK, rasterized=len(x) > VECTOR
+    )
+
+
+@style.styled
+def figure(run: Run, group: style.Group | None = None) -> Figure:
+    """Scatter of every source, the first realization of each."""
+    sources = style.members(run, group)
+    notes = " ".join(dict.fromkeys(filter(None, map(note, sources))))
+    caption = f"First realization of each source in the unit square, x right, y up. {notes} ".replace(
+        "  ", " "
+    )
+    sheet = style.sheet(
+        "Points", caption + style.settings(run, group), len(sources), 2.5, [2.5], columns=3, left=0.2
+    )
+    for (ax,), source in zip(sheet.cells, sources, strict=True):
+        panel(ax, source)
+        ax.set_title(style.name(source, run, 30), loc="left")
+    return sheet.figure

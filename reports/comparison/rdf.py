@@ -1,0 +1,53 @@
+"""Radial distribution functions: how often two points stand at each distance, white noise being 1."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from gbnbench.reports import style
+from gbnbench.runs.comparison_result import Run
+
+CAP = 5.0  # a lattice's shells are narrow and tall: the axis stops here
+REACH = 5.0  # in densest spacings; beyond it every curve lies on 1
+
+
+@style.styled
+def figure(run: Run, group: style.Group | None = None) -> Figure:
+    """Radial distribution function of every source that has one, laid over one another."""
+    given = style.strokes(run)
+    drawn = [(s, s.rdf) for s in style.members(run, group) if s.rdf is not None]
+    labels = [style.name(source, run, 30) for source, _ in drawn]
+    curves = [(t["r"].to_numpy(dtype=float), t["g"].to_numpy(dtype=float)) for _, t in drawn]
+    tops = [float(np.nanmax(g)) for _, g in curves if np.isfinite(g).any()]
+    top = min(CAP, 1.1 * max(tops, default=2.0))
+    caption = "g(r) over all realizations, r in spacings of the densest lattice; 1 is white noise. "
+    if max(tops, default=0.0) > top:
+        caption += f"The axis stops at {top:g}; the highest value is {max(tops):.3g}. "
+    sheet = style.sheet(
+        "Radial distribution function",
+        caption + style.settings(run, group),
+        1,
+        6.0,
+        [2.9],
+        left=0.55,
+        under=0.42,
+        right=style.legend_room(labels),
+        titles=False,
+    )
+    ax = sheet.cells[0][0]
+    ax.axhline(1, color=style.RULE, linewidth=0.9, zorder=0)
+    handles = []
+    for (source, _), (r, g) in zip(drawn, curves, strict=True):
+        stroke = given[source.key]
+        handles += ax.plot(r, g, color=stroke.colour, linestyle=stroke.dash, linewidth=1.1)
+    farthest = max((float(np.nanmax(r)) for r, _ in curves if len(r)), default=1.0)
+    ax.set_xlim(0, min(REACH, farthest) if math.isfinite(farthest) and farthest > 0 else 1.0)
+    ax.set_ylim(0, max(top, 1.5))
+    ax.grid(True)
+    ax.set_xlabel("r / densest spacing")
+    ax.set_ylabel("g(r)")
+    style.beside(ax, handles, labels)
+    return sheet.figure

@@ -1,0 +1,154 @@
+"""Pictures of the power spectrum: log10 with a colour bar, and the grey tone map of PSA."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Colormap, LogNorm
+from matplotlib.figure import Figure
+
+from gbnbench.core.results import Spectrum
+from gbnbench.core.torus import FloatArray
+from gbnbench.reports import style
+from gbnbench.runs.comparison_result import Run, SourceResult
+
+CEILING = 10.0
+LOWEST = 1e-14  # the log10 map reaches no deeper, lest a lattice's exact zeros flatten everybody else's map
+ROUNDING = 1e-24  # what double precision leaves of a lattice's exact zeros stays below this and sets no scale
+
+
+def plane(spectrum: Spectrum) -> FloatArray | None:
+    """Return the picture's power: frequency x on axis 0 and y on axis 1, nan where it was not evaluated.
+
+    Returns
+    -------
+    (2*fmax+1, 2*fmax+1) float64 or None
+        The cube itself in 2D; the slice with all other frequencies 0 in higher dimensions; a single column,
+        (2*fmax+1, 1), in 1D; None where a list of frequencies has none in that plane.
+    """
+    f, d = spectrum.fmax, spectrum.d
+    wide = (2 * f + 1, 2 * f + 1 if d > 1 else 1)
+    if spectrum.frequencies is None:
+        cut = spectrum.power[(slice(None), slice(None)) + (f,) * (d - 2)] if d > 1 else spectrum.power
+        return np.array(cut, dtype=np.float64).reshape(wide)
+    listed = np.asarray(spectrum.frequencies)
+    flat = np.all(listed[:, 2:] == 0, axis=1) & np.all(np.abs(listed) <= f, axis=1)
+    if not flat.any():
+        return None
+    image = np.full(wide, np.nan)
+    row = listed[flat, 0] + f
+    column = listed[flat, 1] + f if d > 1 else np.zeros_like(row)
+    image[row, column] = spectrum.power[flat]
+    return image
+
+
+def without_dc(image: FloatArray) -> FloatArray:
+    """Return the same picture with its centre, which holds n and not noise, left out as nan."""
+    clear = image.copy()
+    clear[image.shape[0] // 2, image.shape[1] // 2] = np.nan
+    return clear
+
+
+def tone_map(power: FloatArray) -> FloatArray:
+    """PSA's grey: clamp(log2(1 + sqrt(P) / 4)) in [0, 1], white from P = 16 (Schlömer & Deussen 2011)."""
+    grey: FloatArray = np.clip(np.log2(1 + 0.25 * np.sqrt(np.maximum(power, 0.0))), 0.0, 1.0)
+    return grey
+
+
+def norm(sources: Sequence[SourceResult]) -> LogNorm:
+    """One log10 scale for all sources: up to 10, down to a decade under the smallest power in any picture."""
+    lowest = math.inf
+    for source in sources:
+        image = plane(source.spectrum)
+        if image is not None:
+            image = without_dc(image)
+            positive = image[np.isfinite(image) & (image > ROUNDING)]
+            lowest = min(lowest, float(positive.min()) if positive.size else lowest)
+    lowest = min(max(lowest, LOWEST), 0.05)
+    return LogNorm(10.0 ** math.floor(math.log10(lowest)), CEILING, clip=True)
+
+
+def palette() -> Colormap:
+    """Dark is quiet; where the spectrum was not evaluated, and at DC, it is grey."""
+    return colormaps["magma"].with_extremes(bad="#9aa3af")
+
+
+def note(source: SourceResult) -> str:
+    """Say what the picture shows other than the whole spectrum; empty in 2D."""
+    if source.d == 1:
+        return "1D: every row is the same."
+    return "" if source.d == 2 else f"Slice of the first two of {source.d} frequencies, the others 0."
+
+
+def panel(ax: Axes, source: SourceResult, scale: LogNorm | None, *, ticks: bool = True) -> None:
+    """Draw one spectrum, log10 with the given scale, or in PSA's grey for None; axes in nu."""
+    image = plane(source.spectrum)
+    if image is None:
+        style.empty(ax, "no frequency of the plane was evaluated")
+        return
+    reach = (source.spectrum.fmax + 0.5) * source.spectrum.spacing
+    extent = (-reach, reach, -reach, reach)
+    if scale is None:
+        ax.imshow(
+            tone_map(image).T, cmap="gray", vmin=0, vmax=1, origin="lower", extent=extent, aspect="equal"
+        )
+    else:
+        safe = np.maximum(without_dc(image), float(scale.vmin or LOWEST))
+        ax.imshow(safe.T, cmap=palette(), norm=scale, origin="lower", extent=extent, aspect="equal")
+    style.frame(ax)
+    if ticks:
+        whole = math.floor(reach)
+        marks = [-whole, 0, whole] if whole else [0]
+        ax.set_xticks(marks)
+        ax.set_yticks(marks if source.d > 1 else [])
+        ax.tick_params(length=2, pad=1.5)
+
+
+@style.styled
+def figure(run: Run, group: style.Group | None = None) -> Figure:
+    """Log10 of power over the grey picture that PSA shows, every source on the same scales."""
+    sources = style.members(run, group)
+    scale = norm(sources)
+    notes = " ".join(dict.fromkeys(filter(None, map(note, sources))))
+    caption = (
+        f"Power at every integer frequency, zero in the middle, x right, y up, axes in nu = |f| n^(-1/d). "
+        f"Upper picture of a pair: log10, one scale for all sources, clipped at {scale.vmin:.0e} and "
+        f"{CEILING:g}, DC left out; lower: grey = log2(1 + sqrt(P)/4), white from P = 16 (PSA). {notes} "
+    ).replace("  ", " ")
+    sheet = style.sheet(
+        "Power spectra",
+        caption + style.settings(run, group),
+        len(sources),
+        2.2,
+        [2.2, 2.2],
+        columns=6 if len(sources) <= 6 else 5,
+        gaps=[0.22],
+        left=0.35,
+        between=0.25,
+        under=0.28,
+        key=0.55,
+    )
+    for (log, grey), first, source in zip(sheet.cells, sheet.first, sources, strict=True):
+        panel(log, source, scale)
+        panel(grey, source, None)
+        log.set_title(style.name(source, run, 28), loc="left")
+        log.tick_params(labelbottom=False, labelleft=first)
+        grey.tick_params(labelleft=first)
+    add_colour_bar(sheet, scale)
+    return sheet.figure
+
+
+def add_colour_bar(sheet: style.Sheet, scale: LogNorm) -> None:
+    """Draw a horizontal bar for log10 power in the key strip above the caption."""
+    width, height = sheet.figure.get_size_inches()
+    bar = sheet.figure.add_axes(
+        (0.35 / width, (sheet.foot + 0.36) / height, min(3.0, width - 0.8) / width, 0.1 / height)
+    )
+    sheet.figure.colorbar(ScalarMappable(scale, palette()), cax=bar, orientation="horizontal")
+    bar.set_xlabel("power (white noise = 1)", size=7)
+    bar.minorticks_off()

@@ -1,0 +1,194 @@
+"""Delaunay valence: Voronoi cells coloured by their number of neighbours, and the share of each degree."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch, PathPatch
+from matplotlib.path import Path
+from numpy.typing import NDArray
+from scipy.spatial import QhullError, Voronoi
+
+from gbnbench.core.torus import FloatArray, spacing, with_images
+from gbnbench.reports import style
+from gbnbench.reports.comparison import points
+from gbnbench.runs.comparison_result import Run, SourceResult
+
+# ColorBrewer RdBu around a near white six: fewer neighbours blue, more red; safe for the colour-blind.
+DEGREE_COLOURS = {4: "#2166ac", 5: "#92c5de", 6: "#f3f3f1", 7: "#f4a582", 8: "#b2182b"}
+# A side shorter than this many spacings is the rounding of four points on a circle and counts as none.
+SHORT = 1e-8
+TILES = np.mgrid[-2.0:3.0, -2.0:3.0].reshape(2, -1).T
+DEGREE_NAMES = {4: "4 or fewer", 5: "5", 6: "6", 7: "7", 8: "8 or more"}
+
+
+def colour(degree: int) -> str:
+    """Colour of a degree; fewer than 4 and more than 8 share the ends."""
+    return DEGREE_COLOURS[min(max(degree, 4), 8)]
+
+
+def cells(x: FloatArray, side: float = 1.0) -> tuple[list[FloatArray], NDArray[np.intp]]:
+    """Voronoi cells of the periodic set that touch the square [0, side]^2, with their numbers of sides.
+
+    Parameters
+    ----------
+    x : (n, 2) float64
+        Points on the unit torus.
+    side : float
+        Side of the corner square that is drawn.
+
+    Returns
+    -------
+    polygons : list of (m, 2) float64
+        Corners of each cell; cells of images of a point repeat its degree.
+    degrees : (cells,) intp
+        Sides of each cell that have length: its neighbours as the table's valence counts them, so that a
+        square grid has four.
+
+    Notes
+    -----
+    A cell is the periodic one when every empty circle around its corners lies within the images that were
+    added. That is checked, and a 5 x 5 tiling is taken where a narrower border does not suffice: no empty
+    circle is as wide.
+    """
+    unit = spacing(len(x), 2)
+    near = min(2.5 * unit, 1.0)
+    for margin in sorted({min(8 * unit, 1.0), 1.0}):
+        tiled = with_images(x, margin)[0] if margin < 1.0 else (x + TILES[:, None]).reshape(-1, 2)
+        if side < 1.0:
+            tiled = tiled[np.all(tiled <= side + margin, axis=1)]
+        diagram = Voronoi(tiled)
+        wanted = np.flatnonzero(np.all((tiled >= -near) & (tiled <= side + near), axis=1))
+        wanted = wanted[diagram.point_region[wanted] >= 0]  # the twin of a coincident point has no cell
+        regions = [diagram.regions[region] for region in diagram.point_region[wanted]]
+        drawn = np.array([len(region) >= 3 and -1 not in region for region in regions])
+        inside = np.all((tiled[wanted] >= 0) & (tiled[wanted] < side), axis=1)
+        kept = [region for region, good in zip(regions, drawn, strict=True) if good]
+        sides = np.array([len(region) for region in kept], dtype=np.intp)
+        start = np.concatenate([[0], np.cumsum(sides)[:-1]])
+        corners = diagram.vertices[np.concatenate([np.array(region) for region in kept])]
+        following = np.arange(1, len(corners) + 1)
+        following[start + sides - 1] = start
+        edge = np.hypot(*(corners - corners[following]).T)
+        reach = np.hypot(*(corners - np.repeat(tiled[wanted[drawn]], sides, axis=0)).T)
+        whole = not np.any(inside & ~drawn) and not np.any(
+            np.maximum.reduceat(reach, start)[inside[drawn]] > margin
+        )
+        if whole:
+            break
+    degrees = np.add.reduceat((edge > SHORT * unit).astype(np.intp), start)
+    return np.split(corners, start[1:]), degrees
+
+
+def panel(ax: Axes, source: SourceResult) -> None:
+    """Colour the first realization's cells by valence; in other dimensions say that there is no picture."""
+    if source.d != 2:
+        style.empty(ax, "the picture of valence needs d = 2")
+        return
+    side = points.window(source)
+    try:
+        polygons, degrees = cells(source.points[0], side)
+    except QhullError:
+        style.empty(ax, "these points have no Voronoi diagram")
+        return
+    style.frame(ax)
+    ax.set_xlim(0, side)
+    ax.set_ylim(0, side)
+    ax.set_aspect("equal")
+    classes = np.clip(degrees, 4, 8)
+    for degree in np.unique(classes):  # one path a colour: a thousand patches would take a second to draw
+        mine = [polygon for polygon, k in zip(polygons, classes, strict=True) if k == degree]
+        outline = Path(
+            np.concatenate([np.vstack([polygon, polygon[:1]]) for polygon in mine]),
+            np.concatenate([[Path.MOVETO, *[Path.LINETO] * (len(p) - 1), Path.CLOSEPOLY] for p in mine]),
+        )
+        ax.add_artist(
+            PathPatch(
+                outline,
+                facecolor=colour(int(degree)),
+                edgecolor="#8a94a3",
+                linewidth=0.35 if len(polygons) > 400 else 0.7,
+                rasterized=len(polygons) > 2 * points.VECTOR,
+            )
+        )
+
+
+def histogram_panel(ax: Axes, source: SourceResult) -> None:
+    """Share of points of each degree, over all realizations."""
+    if source.valence is None:
+        style.empty(ax, f"no Delaunay valence for d = {source.d}")
+        return
+    degree = source.valence["degree"].to_numpy(dtype=int)
+    share = source.valence["share"].to_numpy(dtype=float)
+    paint = [colour(int(k)) for k in degree] if source.d == 2 else "#92c5de"
+    ax.bar(degree, 100 * share, width=0.8, color=paint, edgecolor="#8a94a3", linewidth=0.5)
+    if source.d == 2:
+        ax.set_xlim(2.3, 10.7)
+        ax.set_xticks(range(3, 11))
+        top = float(np.nanmax(share)) if len(share) else 1.0
+        for k, s in zip(degree, share, strict=True):
+            if s >= 0.005 and 3 <= k <= 10:
+                ax.text(
+                    k,
+                    100 * s + 3 * top,
+                    f"{100 * s:.0f}",
+                    ha="center",
+                    va="bottom",
+                    size=6,
+                    color=style.FAINT,
+                )
+    ax.margins(y=0.32)
+    ax.set_yticks([])
+    ax.spines["left"].set_visible(False)
+    ax.tick_params(axis="x", length=0)
+
+
+@style.styled
+def figure(run: Run, group: style.Group | None = None) -> Figure:
+    """Cells coloured by valence over the histogram of all realizations, a pair a source."""
+    sources = style.members(run, group)
+    flat = any(source.d == 2 for source in sources)
+    caption = "Share of points, in percent, with each number of Delaunay neighbours on the torus. "
+    if flat:
+        caption = (
+            "Above: Voronoi cells of the first realization, coloured by number of neighbours, which is the "
+            "point's valence in the Delaunay triangulation on the torus. Below: share of points with each "
+            "number of neighbours, in percent, all realizations. "
+        )
+    sheet = style.sheet(
+        "Delaunay valence",
+        caption + style.settings(run, group),
+        len(sources),
+        2.6,
+        [2.6, 0.75] if flat else [1.2],
+        columns=3,
+        gaps=[0.1] if flat else [],
+        left=0.2,
+        under=0.3,
+        key=0.3 if flat else 0.0,
+    )
+    for stack, source in zip(sheet.cells, sources, strict=True):
+        if flat:
+            panel(stack[0], source)
+        histogram_panel(stack[-1], source)
+        stack[0].set_title(style.name(source, run, 30), loc="left")
+    if flat:
+        key(sheet)
+    return sheet.figure
+
+
+def key(sheet: style.Sheet) -> None:
+    """Names of the colours, in a strip above the caption."""
+    width, height = sheet.figure.get_size_inches()
+    sheet.figure.legend(
+        [Patch(facecolor=paint, edgecolor="#8a94a3", linewidth=0.5) for paint in DEGREE_COLOURS.values()],
+        list(DEGREE_NAMES.values()),
+        loc="lower left",
+        bbox_to_anchor=(0.1 / width, sheet.foot / height),
+        ncols=5,
+        fontsize=7,
+        handlelength=1.0,
+        columnspacing=1.0,
+        handletextpad=0.4,
+    )

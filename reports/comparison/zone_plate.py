@@ -1,0 +1,46 @@
+"""Zone plates: what a set makes of a pattern whose frequency grows with the radius."""
+
+from __future__ import annotations
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from gbnbench.reports import style
+from gbnbench.runs.comparison_result import Run, SourceResult
+
+
+def panel(ax: Axes, source: SourceResult, *, exact: bool = False) -> None:
+    """Draw the picture, or say that there is none; exact: pixel for pixel, where the axes are that large."""
+    if source.zone_plate is None:
+        style.empty(ax, "a zone plate needs d = 2")
+        return
+    ax.imshow(
+        source.zone_plate,
+        cmap="gray",
+        vmin=0,
+        vmax=1,
+        origin="lower",
+        extent=(0, 1, 0, 1),
+        interpolation="none" if exact else "antialiased",
+    )
+    style.frame(ax)
+
+
+@style.styled
+def figure(run: Run, group: style.Group | None = None) -> Figure:
+    """Zone plate of every source's first realization, one pattern, filter and grey scale for all."""
+    sources = style.members(run, group)
+    pixels = max((len(s.zone_plate) for s in sources if s.zone_plate is not None), default=0)
+    side = min(max(pixels / style.DPI, 2.6), 4.2)  # about a pixel of the plate to one of the PNG
+    caption = (
+        "One chirp, its frequency growing from the lower left corner, sampled at the first realization of "
+        "each source and rebuilt by the same filter. Fringes around the corner are the signal and their "
+        "grain is low-frequency noise; whatever shows farther out is aliasing. "
+    )
+    sheet = style.sheet(
+        "Zone plates", caption + style.settings(run, group), len(sources), side, [side], columns=3, left=0.2
+    )
+    for (ax,), source in zip(sheet.cells, sources, strict=True):
+        panel(ax, source, exact=True)
+        ax.set_title(style.name(source, run, 30), loc="left")
+    return sheet.figure

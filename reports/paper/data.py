@@ -1,0 +1,153 @@
+"""What figures are drawn from: comparisons, studies of integration and tables, asked for and kept."""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import json
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from numpy.typing import NDArray
+
+from gbnbench import __version__
+from gbnbench.runs.resumable import Arrays, Piece, PieceFolder, carry_out
+
+if TYPE_CHECKING:
+    from gbnbench.execution.progress import Progress
+    from gbnbench.runs.comparison_result import Run
+    from gbnbench.studies.integration.study import Integration
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """A run of ``gbnbench compare``; becomes a ``Run``.
+
+    Attributes
+    ----------
+    sources : tuple of str
+        Generators with settings, files, folders.
+    n, d : tuple of int
+        Sizes and dimensions for the generators.
+    realizations : int
+        Sets of each generator.
+    """
+
+    sources: tuple[str, ...]
+    n: tuple[int, ...] = (1024,)
+    d: tuple[int, ...] = (2,)
+    realizations: int = 16
+
+
+@dataclass(frozen=True)
+class Study:
+    """A run of ``gbnbench integrate``; becomes an ``Integration``."""
+
+    sources: tuple[str, ...]
+    n: tuple[int, ...]
+    d: tuple[int, ...]
+    realizations: int
+    integrands: tuple[str, ...]
+    instances: int
+    shifts: int = 0
+
+
+@dataclass(frozen=True)
+class Tables:
+    """Calls of one library function, each in a worker; become a mapping from key to arrays by name.
+
+    Attributes
+    ----------
+    function : callable
+        A public function of a module that returns arrays by name.
+    calls : mapping
+        Key (safe as a file name) -> arguments, JSON-ready.
+    """
+
+    function: Callable[..., Arrays]
+    calls: Mapping[str, tuple[Any, ...]]
+
+
+Request: TypeAlias = Comparison | Study | Tables
+Filled: TypeAlias = "Run | Integration | dict[str, dict[str, NDArray[Any]]]"
+
+
+def folder_name(request: Request, seed: int) -> str:
+    """Name that says what is kept there, and ends in a digest of all that was asked."""
+    content = {"seed": seed, "version": __version__, **_asked(request)}
+    digest = hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:8]
+    if isinstance(request, Tables):
+        words = request.function.__name__
+    else:
+        kind = "compare" if isinstance(request, Comparison) else "integrate"
+        sizes = "-".join(f"n{n}" for n in request.n) + "-" + "-".join(f"d{d}" for d in request.d)
+        sources = "-".join(Path(source).name for source in request.sources)[:40]
+        words = f"{kind}_{sources}_{sizes[:32]}"
+    return re.sub(r"[^a-z0-9_.]+", "-", words.lower()).strip("-") + f"_{digest}"
+
+
+def fill(request: Request, folder: Path, seed: int, jobs: int, progress: Progress) -> Filled:
+    """Do what was asked, or read it where the folder holds it whole.
+
+    Parameters
+    ----------
+    request : Comparison, Study or Tables
+        What is asked.
+    folder : Path
+        Where it is kept; the same call goes on with what a stopped one left.
+    seed, jobs, progress
+        As in ``compare`` and ``integrate``. A table's function has its seed among its arguments.
+
+    Returns
+    -------
+    Run, Integration or dict
+        By the kind of request.
+
+    Raises
+    ------
+    GbnbenchError
+        As ``compare``, ``integrate`` and ``carry_out`` do.
+    """
+    if isinstance(request, Comparison):
+        from gbnbench.runs.sources import resolve
+        from gbnbench.studies.comparison import compare
+
+        sources, skipped = resolve(request.sources, request.n, request.d, request.realizations)
+        return compare(
+            sources, folder, seed=seed, jobs=jobs, command="gbnbench figures", skipped=skipped,
+            progress=progress,
+        ).run  # fmt: skip
+    if isinstance(request, Study):
+        from gbnbench.studies.integration.study import integrate
+
+        return integrate(
+            request.sources, folder, n=request.n, d=request.d, realizations=request.realizations,
+            integrands=request.integrands, instances=request.instances, shifts=request.shifts, seed=seed,
+            jobs=jobs, command="gbnbench figures", progress=progress,
+        ).study  # fmt: skip
+    keeper = PieceFolder(folder, {"gbnbench": __version__, **_asked(request)})
+    name = request.function.__name__.replace("_", " ")
+    pieces = [
+        Piece(key, f"{name}: {key}", request.function, arguments) for key, arguments in request.calls.items()
+    ]
+    with keeper.lock():
+        if not keeper.whole:
+            keeper.begin()
+            carry_out(keeper, pieces, jobs, progress)
+            keeper.finish({"version": __version__})
+        return {piece.key: keeper.read(piece.key) or {} for piece in pieces}
+
+
+def _asked(request: Request) -> dict[str, Any]:
+    """JSON-ready form of a request."""
+    if isinstance(request, Tables):
+        function = f"{request.function.__module__}.{request.function.__name__}"
+        calls = {key: list(arguments) for key, arguments in request.calls.items()}
+        content: dict[str, Any] = {"function": function, "calls": calls}
+    else:
+        content = {"kind": type(request).__name__, **dataclasses.asdict(request)}
+    done: dict[str, Any] = json.loads(json.dumps(content))  # as it will be read back
+    return done

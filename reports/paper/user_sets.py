@@ -1,0 +1,58 @@
+"""Sets that the user gives for methods without a generator here: refused where no figure can show them."""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+from collections.abc import Sequence
+
+from gbnbench.core.errors import InputError
+from gbnbench.generators.registry import GENERATORS
+from gbnbench.reports.paper.figure import Ask, PaperFigure
+from gbnbench.reports.paper.shared import NAMES
+from gbnbench.runs.sources import resolve
+
+CLOSE = 0.7  # likeness of names beyond which one is taken for a slip of the other
+ANY_DIMENSION = ("9",)  # figures that show sets of the plane and others
+
+
+def check_sets(figures: Sequence[PaperFigure], ask: Ask) -> None:
+    """Refuse sets that would be read and not be seen.
+
+    Parameters
+    ----------
+    figures : sequence of PaperFigure
+        Those to be made.
+    ask : Ask
+        With the sets.
+
+    Raises
+    ------
+    InputError
+        If a name is that of a generator here, or nearly that of a method of the paper; if no figure asked for
+        shows the method; or if its sets are of dimensions that none of them shows.
+    """
+    for name, path in ask.sets.items():
+        if name in GENERATORS:
+            raise InputError(
+                f"--sets {name}: {name} has a generator here, whose sets the figures show; give yours "
+                "another name"
+            )
+        methods = [method for method in NAMES if method not in GENERATORS]
+        slips = difflib.get_close_matches(name, methods, 1, CLOSE)
+        if name not in methods and slips:
+            raise InputError(f"--sets {name}: no method is named so; did you mean {slips[0]}?")
+        without = dataclasses.replace(ask, sets={k: v for k, v in ask.sets.items() if k != name})
+        shows = [figure.name for figure in figures if figure.needs(ask) != figure.needs(without)]
+        if not shows:
+            asked = ", ".join(figure.name for figure in figures)
+            raise InputError(
+                f"--sets {name}: figure {asked} shows no sets of it; figures 1, 8 and 9 show any method"
+            )
+        found = sorted({source.d for source in resolve([path], (1,), (1,), 1)[0]})
+        fits = (2, 3, 8) if set(shows) & set(ANY_DIMENSION) else (2,)
+        if not set(found) & set(fits):
+            raise InputError(
+                f"--sets {name}: its sets are of d={', '.join(map(str, found))}, and figure "
+                f"{', '.join(shows)} shows d={', '.join(map(str, fits))}"
+            )

@@ -1,0 +1,198 @@
+from __future__ import annotations
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial import Voronoi
+
+from gbnbench.analysis.spatial.delaunay import Neighbours, neighbours, valence, valence6
+from gbnbench.core.errors import RefusalError
+from gbnbench.core.torus import wrap
+from tests.published_sets import grid, hexagonal, published
+
+
+def rounded(vectors: np.ndarray) -> list[tuple[float, ...]]:
+    return sorted(tuple(row) for row in np.round(vectors, 9) + 0.0)
+
+
+def by_point(made: Neighbours) -> list[list[tuple[float, ...]]]:
+    return [rounded(part) for part in np.split(made.vector, made.indptr[1:-1])]
+
+
+def tiling(x: np.ndarray, rings: int) -> np.ndarray:
+    shifts = sorted(itertools.product(range(-rings, rings + 1), repeat=x.shape[1]), key=lambda s: any(s))
+    return np.concatenate([x + np.array(shift) for shift in shifts])
+
+
+def by_voronoi(x: np.ndarray, rings: int) -> list[list[tuple[float, ...]]]:
+    """Neighbours as pairs of cells with a common ridge in the Voronoi diagram of the whole tiling."""
+    tiled = tiling(x, rings)
+    found: list[list[np.ndarray]] = [[] for _ in x]
+    for p, q in Voronoi(tiled).ridge_points:
+        if p < len(x):
+            found[p].append(tiled[q] - tiled[p])
+        if q < len(x):
+            found[q].append(tiled[p] - tiled[q])
+    return [rounded(np.array(vectors)) for vectors in found]
+
+
+def by_empty_circles(x: np.ndarray) -> list[list[tuple[float, ...]]]:
+    """Neighbours from every triangle of the tiling whose circumscribed circle holds no point."""
+    tiled = tiling(x, 2)
+    found = []
+    for p in x:
+        rest = tiled[np.any(tiled != p, axis=1)] - p
+        i, j = np.triu_indices(len(rest), 1)
+        a, b = rest[i], rest[j]
+        twice = 2 * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+        proper = np.abs(twice) > 1e-12
+        a, b, i, j, twice = a[proper], b[proper], i[proper], j[proper], twice[proper]
+        aa, bb = (a**2).sum(1), (b**2).sum(1)
+        centre = np.column_stack([b[:, 1] * aa - a[:, 1] * bb, a[:, 0] * bb - b[:, 0] * aa]) / twice[:, None]
+        gap = np.full(len(centre), np.inf)
+        for q in rest:
+            np.minimum(gap, ((q - centre) ** 2).sum(1) - (centre**2).sum(1), out=gap)
+        empty = gap > -1e-12
+        found.append(rounded(rest[np.unique(np.concatenate([i[empty], j[empty]]))]))
+    return found
+
+
+@pytest.mark.parametrize("n", [2, 3, 4, 7])
+def test_few_points_against_empty_circles(n: int) -> None:
+    x = np.random.default_rng(n).random((n, 2))
+    assert by_point(neighbours(x)[0]) == by_empty_circles(x)
+
+
+@pytest.mark.parametrize("n", [5, 20, 300])
+def test_against_voronoi_of_the_whole_tiling(n: int) -> None:
+    x = np.random.default_rng(n).random((n, 2))
+    assert by_point(neighbours(x)[0]) == by_voronoi(x, 1 if n > 10 else 2)
+
+
+def test_clustered_points_need_and_get_a_wide_border() -> None:
+    x = wrap(0.95 + 0.08 * np.random.default_rng(1).random((120, 2)))
+    assert by_point(neighbours(x)[0]) == by_voronoi(x, 2)
+
+
+@pytest.mark.parametrize("n", [2, 3, 12, 150])
+def test_space_against_voronoi_of_the_whole_tiling(n: int) -> None:
+    x = np.random.default_rng(n).random((n, 3))
+    assert by_point(neighbours(x)[0]) == by_voronoi(x, 1 if n > 100 else 2)
+
+
+def test_cycles_turn_once_and_lead_to_their_points() -> None:
+    x = np.random.default_rng(3).random((200, 2))
+    made = neighbours(x)[0]
+    owner = np.repeat(np.arange(200), made.degree)
+    away = x[owner] + made.vector - x[made.index]
+    assert np.abs(away - np.rint(away)).max() < 1e-12
+    for part in np.split(made.vector, made.indptr[1:-1]):
+        z = part @ [1, 1j]
+        turns = np.angle(np.roll(z, -1) / z)
+        assert (turns > 0).all()
+        assert turns.sum() == pytest.approx(2 * math.pi)
+
+
+def test_hexagonal_lattice_has_valence_six() -> None:
+    histogram = valence(hexagonal(26, 15))
+    assert histogram.degree.tolist() == [6]
+    assert histogram.share.tolist() == [1.0]
+    assert valence6(hexagonal(26, 15)).tolist() == [1.0]
+
+
+@pytest.mark.parametrize("shift", [0.0, 0.1, 1 / 3])
+@pytest.mark.parametrize(("m", "d"), [(1, 2), (2, 2), (13, 2), (32, 2), (1, 3), (5, 3)])
+def test_grid_counts_no_diagonal(m: int, d: int, shift: float) -> None:
+    made = neighbours(wrap(grid(m, d) + shift))[0]
+    assert made.degree.tolist() == [2 * d] * m**d
+    np.testing.assert_allclose(np.abs(made.vector).sum(axis=1), 1 / m)
+
+
+def test_one_point_is_its_own_neighbour() -> None:
+    made = neighbours([[0.3, 0.7]])[0]
+    assert made.index.tolist() == [0, 0, 0, 0]
+    assert rounded(made.vector) == [(-1.0, 0.0), (0.0, -1.0), (0.0, 1.0), (1.0, 0.0)]
+
+
+def test_points_on_a_line() -> None:
+    y = np.array([0.05, 0.2, 0.3, 0.7])
+    made = neighbours(np.column_stack([np.full(4, 0.4), y]))[0]
+    assert made.degree.tolist() == [4, 4, 4, 4]
+
+
+def test_points_in_a_plane_of_space_have_prisms_as_cells() -> None:
+    x = np.random.default_rng(8).random((60, 3))
+    x[:, 2] = 0.2
+    made = neighbours(x)[0]
+    assert made.degree.tolist() == (neighbours(x[:, :2])[0].degree + 2).tolist()
+
+
+@pytest.mark.parametrize(
+    ("cell", "degree"),
+    [
+        ([(0, 0, 0), (0.5, 0.5, 0.5)], 14),  # body centred: truncated octahedra
+        ([(0, 0, 0), (0.5, 0.5, 0), (0.5, 0, 0.5), (0, 0.5, 0.5)], 12),  # face centred: rhombic dodecahedra
+    ],
+)
+def test_cubic_lattices(cell: list[tuple[float, float, float]], degree: int) -> None:
+    x = wrap((grid(3, 3)[:, None] + np.array(cell) / 3).reshape(-1, 3) + 0.01)
+    assert set(neighbours(x)[0].degree.tolist()) == {degree}
+
+
+def test_random_points_have_the_known_mean_degrees() -> None:
+    rng = np.random.default_rng(4)
+    plane = valence(rng.random((6, 1500, 2)))
+    assert plane.share @ plane.degree == pytest.approx(6, abs=1e-12)
+    assert plane.of(6).mean() == pytest.approx(0.2947, abs=0.015)  # Calka 2003
+    space = valence(rng.random((1500, 3)))
+    assert space.share @ space.degree == pytest.approx(48 * math.pi**2 / 35 + 2, abs=0.2)  # Meijering 1953
+
+
+def test_histogram_averages_the_sets() -> None:
+    x = np.random.default_rng(5).random((3, 60, 2))
+    made = valence(x)
+    np.testing.assert_allclose(made.share, made.share_by_set.mean(axis=0))
+    np.testing.assert_allclose(made.share_by_set.sum(axis=1), 1)
+    for k, points in enumerate(x):
+        degrees = neighbours(points)[0].degree
+        for degree in range(3, 12):
+            assert made.of(degree)[k] == np.mean(degrees == degree)
+    assert list(made.to_frame().columns) == ["degree", "share"]
+    np.testing.assert_array_equal(valence(neighbours(x)).share, made.share)
+
+
+def test_refusals_name_the_reason() -> None:
+    x = np.random.default_rng(6).random((50, 2))
+    with pytest.raises(RefusalError, match="distinct"):
+        neighbours(np.concatenate([x, x[:1]]))
+    with pytest.raises(RefusalError, match="d = 1"):
+        neighbours(x[:, :1])
+    with pytest.raises(RefusalError, match="d=4"):
+        neighbours(np.random.default_rng(7).random((50, 4)))
+    with pytest.raises(RefusalError, match="too near"):
+        neighbours(0.5 + 1e-9 * np.random.default_rng(7).random((50, 2)))
+    with pytest.raises(RefusalError, match="d=3"):
+        valence6(np.random.default_rng(7).random((50, 3)))
+
+
+@settings(deadline=None, max_examples=25)
+@given(st.integers(0, 2**32 - 1), st.integers(1, 80), st.sampled_from([2, 3]))
+def test_neighbours_do_not_know_the_origin_or_the_order(seed: int, n: int, d: int) -> None:
+    rng = np.random.default_rng(seed)
+    x = np.round(rng.random((n, d)), 6) % 1  # room for a shift without rounding into another triangulation
+    order = rng.permutation(n)
+    one, two = by_point(neighbours(x)[0]), by_point(neighbours(wrap(x + rng.random(d))[order])[0])
+    assert [len(part) for part in two] == [len(one[k]) for k in order]
+    for part, k in zip(two, order, strict=True):
+        np.testing.assert_allclose(
+            sorted(np.linalg.norm(part, axis=1)), sorted(np.linalg.norm(one[k], axis=1))
+        )
+
+
+def test_authors_set_is_mostly_six_valent() -> None:
+    share = valence6(published("gbn-1024/official-10k-f32-1.txt"))
+    assert 0.5 < share[0] < 0.7

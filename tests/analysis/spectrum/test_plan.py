@@ -1,0 +1,311 @@
+"""Which evaluation is chosen and that it really does what it was chosen for."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from gbnbench.analysis.spectrum.error_model import rms_for
+from gbnbench.analysis.spectrum.evaluators import nufft
+from gbnbench.analysis.spectrum.periodogram import periodogram
+from gbnbench.analysis.spectrum.plan import plan
+from gbnbench.analysis.spectrum.shell_spectrum import shells
+from gbnbench.core.errors import InputError
+from gbnbench.core.results import resolvable_power
+from gbnbench.opencl import runtime
+from tests.analysis.spectrum.exact_sums import distance, mean_power, on_grid
+
+FLOORS = tuple(10.0**-k for k in range(0, 30, 2))
+EXACT = ("two-group product", "gridded product")
+REQUESTS = {
+    "small square": {"n": 100, "d": 2, "fmax": 12},
+    "square": {"n": 1024, "d": 2, "fmax": 64},
+    "many sets": {"n": 256, "d": 2, "fmax": 30, "realizations": 16},
+    "half": {"n": 500, "d": 3, "fmax": 8, "half": True},
+    "line": {"n": 3000, "d": 1, "fmax": 5000},
+    "large square": {"n": 20_000, "d": 2, "fmax": 200},
+    "high dimension": {"n": 500, "d": 8, "fmax": 1},
+    "listed": {"n": 500, "d": 3, "fmax": 10**5, "frequencies": 40},
+    "shells": {"n": 64, "d": 10, "fmax": 2, "shells": True},
+    "band": {"n": 64, "d": 3, "fmax": 9, "band": (3, 7)},
+    "corners": {"n": 64, "d": 4, "fmax": 3, "corners": True},
+}
+
+
+@pytest.mark.parametrize("name", REQUESTS)
+def test_without_a_floor_it_is_exact_in_the_precision_asked_for(name):
+    for precision in (None, "double", "float"):
+        found = plan(**REQUESTS[name], precision=precision)
+        assert found.precision == (precision or "double")
+        expected = {"listed": ("direct sum",)}.get(name, EXACT)
+        if name in ("shells", "band", "corners"):
+            expected = ("streamed two-group product",)
+        assert found.method in expected
+        assert found.flops > 0
+        assert found.bytes > 0
+        assert found.seconds > 0
+        assert 0 < found.errors.rms < found.errors.bound
+        assert found.chosen.against == ""
+        assert all(other.against for other in found.others)
+
+
+@pytest.mark.parametrize("name", REQUESTS)
+def test_a_deeper_floor_is_never_answered_by_less(name):
+    deepest = plan(**REQUESTS[name]).errors.resolvable
+    reached, seconds = math.inf, 0.0
+    for floor in FLOORS:
+        if floor < deepest:
+            with pytest.raises(InputError, match="out of reach: the least power known to 1% here is"):
+                plan(**REQUESTS[name], floor=floor)
+            continue
+        found = plan(**REQUESTS[name], floor=floor)
+        assert found.errors.resolvable <= floor * (1 + 1e-6)
+        assert found.errors.resolvable <= reached * (1 + 1e-6)
+        assert found.seconds >= seconds * (1 - 1e-9)
+        reached, seconds = found.errors.resolvable, found.seconds
+        others = [c for c in found.others if c.against == "slower"]
+        assert all(c.cost.seconds >= found.seconds for c in others)
+
+
+@pytest.mark.parametrize("name", REQUESTS)
+def test_it_says_what_why_and_at_what_cost(name):
+    for options in ({}, {"precision": "float"}, {"floor": 1e-6}, {"floor": 1e-20}):
+        found = plan(**REQUESTS[name], **options)
+        text = found.explain()
+        assert text == str(found)
+        assert found.method in text
+        assert "because" in text
+        assert "flop" in text
+        assert "B, about" in text
+        assert " s\n" in text
+        assert runtime().device.name in text or "FINUFFT" in text
+        assert "is known to 1%" in text
+        assert f"{found.request.n:,} points" in text
+        if "floor" in options:
+            assert f"{options['floor']:g}" in text
+        for other in found.others:
+            assert f"not {other.evaluation.label}" in text
+
+
+def test_the_frequencies_it_counts_are_those_there_are():
+    assert plan(10, 3, 4).request.frequencies == 9**3
+    assert plan(10, 3, 4, frequencies=17).request.frequencies == 17
+    cases = ((1, 7, {}), (1, 7, {"band": (2, 5)}), (2, 1, {}), (2, 9, {}), (3, 4, {"corners": True}))
+    for d, fmax, options in (*cases, (6, 2, {}), (3, 5, {"band": (2, 4.5)})):
+        counted = plan(10, d, fmax, shells=True, **options).request.frequencies
+        assert counted == shells(on_grid((5, d)), fmax, **options).count.sum()
+
+
+@pytest.mark.parametrize("name", ["small square", "square", "half", "line", "high dimension"])
+@pytest.mark.parametrize("floor", [1e-3, 1e-8, 1e-11, 1e-18, 1e-24])
+def test_what_is_chosen_has_the_error_that_the_floor_allows(name, floor):
+    request = dict(REQUESTS[name])
+    n, d, fmax, half = request["n"], request["d"], request["fmax"], request.get("half", False)
+    x = on_grid((n, d), n)
+    spectrum = periodogram(x, fmax, floor=floor, half=half)
+    f = np.random.default_rng(n).integers(-fmax, fmax + 1, (100, d))
+    f = f[f.any(axis=1)]
+    cube = spectrum.whole().power
+    met = distance(cube[tuple((f + fmax).T)], mean_power(x[None], f))
+    assert np.sqrt(np.mean(met**2)) <= 1.3 * rms_for(floor)
+    assert spectrum.resolvable <= floor * (1 + 1e-6)
+
+
+@pytest.mark.parametrize("floor", [1e-3, 1e-6, 1e-9, 1e-12, 1e-16, 1e-20, 1e-24])
+@pytest.mark.parametrize(("d", "m", "fmax"), [(1, 512, 200), (2, 32, 15)])
+def test_a_power_as_low_as_the_floor_is_seen_to_1_percent(floor, d, m, fmax):
+    """A lattice moved by a wave of small random size has powers near the floor off its harmonics."""
+    rng = np.random.default_rng(m)
+    lattice = np.stack(np.meshgrid(*[np.arange(m) / m] * d, indexing="ij"), axis=-1).reshape(-1, d)
+    size = math.sqrt(floor) / (2 * math.pi * fmax)
+    x = (lattice + size * rng.standard_normal(lattice.shape)) % 1
+    f = rng.integers(-fmax, fmax + 1, (200, d))
+    f = f[np.abs(f).max(axis=1) > fmax // 2]
+    truth = mean_power(x[None], f)
+    spectrum = periodogram(x, fmax, floor=floor)
+    found = spectrum.power[tuple((f + fmax).T)]
+    at_floor = (truth > floor / 2) & (truth < 20 * floor)
+    assert at_floor.sum() > 10
+    off = np.abs(found / truth - 1)[at_floor].astype(float) * np.sqrt(truth[at_floor].astype(float) / floor)
+    assert np.sqrt(np.mean(off**2)) <= 0.015
+
+
+def test_listed_frequencies_and_shells_take_float_where_it_suffices():
+    assert plan(500, 3, 50, frequencies=40, floor=1e-6).precision == "float"
+    assert plan(500, 3, 50, frequencies=40, floor=1e-20).precision == "double"
+    assert plan(64, 10, 2, shells=True, floor=1e-6).precision == "float"
+    assert plan(64, 10, 2, shells=True, floor=1e-20).precision == "double"
+    x = on_grid((200, 4), 2)
+    assert shells(x, 3, floor=1e-6).precision == "float"
+    assert shells(x, 3, floor=1e-20).precision == "double"
+    assert np.allclose(shells(x, 3, floor=1e-6).power, shells(x, 3).power, rtol=1e-4)
+
+
+@pytest.mark.skipif(not nufft.available(), reason="finufft is not installed")
+def test_a_transform_is_taken_where_a_grid_is_large_and_the_floor_allows():
+    found = plan(100_000, 2, 300, floor=1e-6)
+    assert found.method == "non-uniform FFT"
+    assert "cheapest that knows" in found.why
+    assert plan(100_000, 2, 300).method in EXACT
+    assert plan(100_000, 4, 8, floor=1e-6).method in EXACT
+    assert plan(100_000, 2, 300, "float", floor=1e-6).method in EXACT
+
+
+@pytest.mark.parametrize("method", [*EXACT, "non-uniform FFT", "numpy product"])
+@pytest.mark.parametrize("precision", [None, "double", "float"])
+def test_a_method_by_name_is_taken_or_refused_in_words(method, precision):
+    if method == "non-uniform FFT" and not nufft.available():
+        pytest.skip("finufft is not installed")
+    x = on_grid((90, 2), 3)
+    f = np.indices((41, 41)).reshape(2, -1).T[::29] - 20
+    if method == "non-uniform FFT" and precision == "float":
+        with pytest.raises(InputError, match="float"):
+            periodogram(x, 20, precision, method=method)
+        return
+    spectrum = periodogram(x, 20, precision, method=method)
+    assert spectrum.method == method
+    assert spectrum.precision == (precision or "double")
+    met = distance(spectrum.power[tuple((f + 20).T)], mean_power(x[None], f))
+    assert met.max() <= spectrum.error_bound
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        ({"n": 0, "d": 2, "fmax": 3}, "n must be an integer"),
+        ({"n": 10.5, "d": 2, "fmax": 3}, "n must be an integer"),
+        ({"n": 10, "d": True, "fmax": 3}, "d must be an integer"),
+        ({"n": 10, "d": 2, "fmax": 0}, "fmax must be an integer"),
+        ({"n": 10, "d": 2, "fmax": 3, "realizations": 0}, "realizations must be"),
+        ({"n": 10, "d": 2, "fmax": 3, "floor": 0.0}, "floor must be"),
+        ({"n": 10, "d": 2, "fmax": 3, "floor": -1e-9}, "floor must be"),
+        ({"n": 10, "d": 2, "fmax": 3, "floor": math.nan}, "floor must be"),
+        ({"n": 10, "d": 2, "fmax": 3, "floor": math.inf}, "floor must be"),
+        ({"n": 10, "d": 2, "fmax": 3, "floor": "deep"}, "floor must be"),
+        ({"n": 10, "d": 2, "fmax": 3, "floor": 1e-40}, "out of reach"),
+        (
+            {"n": 10, "d": 2, "fmax": 3, "floor": 1e-20, "precision": "float"},
+            'precision="double" reaches deeper',
+        ),
+        ({"n": 10, "d": 2, "fmax": 3, "precision": "single"}, '"double" or "float"'),
+        ({"n": 10, "d": 2, "fmax": 10**7}, "largest fmax that fits"),
+        ({"n": 10, "d": 30, "fmax": 2}, "more than 2^63"),
+        ({"n": 10, "d": 2, "fmax": 4, "band": (9, 10)}, "fmax=10"),
+        ({"n": 10, "d": 2, "fmax": 4, "frequencies": 0}, "frequencies must be"),
+        ({"n": 10, "d": 2, "fmax": 4, "frequencies": -3}, "frequencies must be"),
+        ({"n": 10, "d": 2, "fmax": 4, "frequencies": 2.5}, "frequencies must be"),
+        ({"n": 10, "d": 2, "fmax": -4, "frequencies": 2}, "fmax must be"),
+        ({"n": 10, "d": 2, "fmax": "4", "frequencies": 2}, "fmax must be"),
+    ],
+)
+def test_bad_requests_are_refused_in_words(arguments, says):
+    with pytest.raises(InputError) as refusal:
+        plan(**arguments)
+    assert says in str(refusal.value)
+
+
+def test_a_refused_floor_names_the_least_that_is_served():
+    with pytest.raises(InputError) as refusal:
+        plan(1000, 2, 20, floor=1e-40)
+    least = float(str(refusal.value).split("here is ")[1].split(";")[0])
+    assert plan(1000, 2, 20, floor=1.1 * least).precision == "double"
+    assert least == pytest.approx(resolvable_power(plan(1000, 2, 20).errors.rms), rel=0.5)
+
+
+@pytest.mark.parametrize(("n", "d", "fmax"), [(4096, 3, 300), (10_000, 3, 390), (100_000, 2, 9000)])
+def test_what_is_chosen_fits_in_the_devices_buffers(n, d, fmax):
+    from gbnbench.analysis.spectrum.digits import half_size, whole_axes
+    from gbnbench.analysis.spectrum.evaluators.kaiser_bessel import nodes_for
+
+    try:
+        found = plan(n, d, fmax)
+    except InputError:
+        return  # nor does the cube
+    if found.method == "gridded product":
+        grid = nodes_for(fmax, 1) * half_size(whole_axes(d, fmax)[1:]) * 2 * 8
+        assert grid <= runtime().largest_buffer
+        assert found.bytes >= 8 * (2 * fmax + 1) ** d + 2 * grid  # the grid and it folded
+
+
+WITHOUT_DEVICE = """
+import json
+import numpy as np
+from gbnbench.analysis.spectrum.periodogram import periodogram
+from gbnbench.analysis.spectrum.plan import plan
+from gbnbench.analysis.spectrum.shell_spectrum import shells
+x = np.random.default_rng(1).integers(0, 2**53, (2, 60, 3)) / 2.0**53
+w = np.random.default_rng(2).random((2, 60))
+f = [[2**40, -3, 1], [1, 2, 3]]
+cube, half = periodogram(x, 3, weights=w), periodogram(x, 3, half=True)
+listed, s = periodogram(x, frequencies=f, weights=w), shells(x, 3, weights=w)
+single = periodogram(x, 3, "float")
+print(json.dumps({
+    "methods": [r.method for r in (cube, half, listed, s, single)],
+    "device": cube.device,
+    "errors": [[r.error_rms, r.error_bound] for r in (cube, half, listed, s, single)],
+    "cube": cube.power.tolist(), "half": half.power.tolist(), "listed": listed.power.tolist(),
+    "single": single.power.tolist(),
+    "shells": [s.count.tolist(), s.power.tolist(), s.deviation.tolist()],
+    "why": plan(60, 3, 3).explain(),
+    "floors": [plan(60, 3, 3, floor=e).precision for e in (1e-5, 1e-20)],
+    "of shells": plan(60, 3, 3, shells=True).method,
+    "of a list": plan(60, 3, 3, frequencies=5).method,
+}))
+"""
+
+
+def test_without_a_device_numpy_finds_the_same():
+    done = subprocess.run(
+        [sys.executable, "-c", WITHOUT_DEVICE],
+        env={**os.environ, "OCL_ICD_VENDORS": "/nonexistent"},
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    got = json.loads(done.stdout)
+    x = np.random.default_rng(1).integers(0, 2**53, (2, 60, 3)) / 2.0**53
+    w = np.random.default_rng(2).random((2, 60))
+    assert set(got["methods"]) == {"numpy product"}
+    assert "no OpenCL device" in got["device"]
+    assert "no OpenCL device" in got["why"]
+    assert got["of shells"] == got["of a list"] == "numpy product"
+    assert got["floors"][1] == "double"
+    assert all(0 < rms < bound for rms, bound in got["errors"])
+    f = [[2**40, -3, 1], [1, 2, 3]]
+    cube, ours = np.array(got["cube"]), periodogram(x, 3, weights=w)
+    assert np.allclose(np.sqrt(cube), np.sqrt(ours.power), atol=1e-14)
+    assert np.allclose(np.sqrt(got["half"]), np.sqrt(periodogram(x, 3).power[3:]), atol=1e-14)
+    assert np.allclose(np.sqrt(got["single"]), np.sqrt(periodogram(x, 3).power), atol=1e-5)
+    assert distance(np.array(got["listed"]), mean_power(x, f, w)).max() <= got["errors"][2][1]
+    s = shells(x, 3, weights=w)
+    count, power, deviation = got["shells"]
+    assert count == s.count.tolist()
+    assert np.allclose(power, s.power, rtol=1e-12)
+    assert np.allclose(deviation, s.deviation, rtol=1e-11)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        ({"half": True, "shells": True}, "one of half, shells"),
+        ({"frequencies": 5, "half": True}, "one of frequencies, half"),
+        ({"half": "no"}, "True or False"),
+        ({"floor": True}, "floor must be"),
+        ({"frequencies": 3, "precision": "half"}, "precision"),
+    ],
+)
+def test_requests_that_contradict_themselves_are_refused(arguments, says):
+    with pytest.raises(InputError, match=says):
+        plan(100, 2, 5, **arguments)
+
+
+def test_a_list_may_hold_any_frequency_of_64_bits():
+    assert plan(10, 2, 2**63, frequencies=1).method == "direct sum"

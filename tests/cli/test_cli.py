@@ -1,0 +1,276 @@
+"""The real command in real processes: what it prints, where, its exit codes, and what survives a stop."""
+
+from __future__ import annotations
+
+import json
+import os
+import resource
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import gbnbench.studies.comparison
+from gbnbench.analysis.catalogue import BY_NAME
+from gbnbench.io.points import load, save
+from gbnbench.runs.comparison_folder import read_run
+from gbnbench.runs.sources import resolve
+
+COMMAND = [sys.executable, "-m", "gbnbench"]
+
+
+def run(*arguments: object, cwd: Path, **options: Any) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [*COMMAND, *map(str, arguments)], cwd=cwd, capture_output=True, text=True, check=False, **options
+    )
+
+
+@dataclass(frozen=True)
+class Whole:
+    folder: Path  # where the command ran
+    arguments: tuple[str, ...]
+    done: subprocess.CompletedProcess[str]
+
+    @property
+    def out(self) -> Path:
+        (out,) = (self.folder / "runs").iterdir()
+        return out
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> Whole:
+    """A small run of two generators and a file, whose sets are clumped since its baseline."""
+    folder = tmp_path_factory.mktemp("whole")
+    before = np.random.default_rng(3).random((3, 64, 2))
+    save(folder / "mine.npy", before)
+    sources, _ = resolve([str(folder / "mine.npy")], (64,), (2,), 3)
+    gbnbench.studies.comparison.compare(sources, folder / "before", jobs=1)
+    save(folder / "mine.npy", 0.5 + before / 1000)
+    line = "compare random jittered mine.npy -n 64 --realizations 3 --baseline before"
+    arguments = tuple(line.split())
+    return Whole(folder, arguments, run(*arguments, cwd=folder))
+
+
+def test_compare_prints_a_table_and_leaves_a_whole_run(whole: Whole) -> None:
+    folder, out, done = whole.folder, whole.out, whole.done
+    assert all(label in done.stdout for label in ("random", "jittered", "mine", "report: runs")), done.stderr
+    names = {path.relative_to(out).as_posix() for path in out.rglob("*") if path.is_file()}
+    assert {
+        "manifest.json", "settings.json", "measures.csv", "table.csv", "report.html", "figures/gallery.png",
+        "figures/gallery.pdf", "sources/random_n64_d2/points.npz", "sources/random_n64_d2/spectrum.npz",
+        "sources/mine_n64_d2/radial.csv",
+    } <= names  # fmt: skip
+    assert not any("parts" in name or name.endswith(".tmp") for name in names)
+    result = read_run(out)
+    assert [(s.label, s.n, s.realizations) for s in result.sources] == [
+        ("random", 64, 3), ("jittered", 64, 3), ("mine", 64, 3)
+    ]  # fmt: skip
+    for k in range(3):  # the documented stream, drawn here without gbnbench
+        rng = np.random.default_rng(np.random.SeedSequence(0, spawn_key=(k,)))
+        np.testing.assert_array_equal(result.sources[0].points[k], rng.random((64, 2)))
+    np.testing.assert_array_equal(result.sources[2].points, load(folder / "mine.npy"))
+    assert result.sources[0].cpu_seconds > 0
+    assert np.isnan(result.sources[2].cpu_seconds)
+    assert result.manifest["command"].startswith("gbnbench compare random jittered mine.npy -n 64")
+
+
+def test_the_same_command_again_reuses_everything(whole: Whole) -> None:
+    before = {path: path.stat().st_mtime_ns for path in whole.out.rglob("*") if path.name != ".lock"}
+    again = run(*whole.arguments, cwd=whole.folder)
+    assert "9 of 9 pieces reused" in again.stdout
+    assert again.stdout.splitlines()[:-1] == whole.done.stdout.splitlines()[:-1]
+    assert {p: p.stat().st_mtime_ns for p in whole.out.rglob("*") if p.name != ".lock"} == before
+
+
+def test_what_is_worse_than_the_baseline_exits_with_1(whole: Whole) -> None:
+    assert whole.done.returncode == 1
+    assert "worse: mine (n=64, d=2) power_at_1" in whole.done.stdout
+    assert "baseline: random (n=64, d=2): not in the baseline" in whole.done.stderr
+    assert read_run(whole.out).verdicts["mine_n64_d2", "power_at_1"] == "worse"
+
+
+def test_killed_in_the_middle_it_resumes_to_the_same_bits(tmp_path: Path) -> None:
+    arguments = ["compare", "lloyd", "-n", 144, "--realizations", 6, "--out", "run", "--quiet"]
+    out = tmp_path / "run"
+    busy = subprocess.Popen([*COMMAND, *map(str, arguments), "--jobs", "1"], cwd=tmp_path, text=True)
+    wait_for(lambda: len(list(out.glob("parts/*/[0-9]*.npz"))) >= 2, busy)
+    busy.kill()
+    assert busy.wait() == -signal.SIGKILL
+    kept = {path: path.stat().st_mtime_ns for path in out.glob("parts/*/[0-9]*.npz")}
+    assert kept
+    assert not (out / "manifest.json").exists()
+    assert "unfinished run" in run("report", out, cwd=tmp_path).stderr
+    resumed = run(*arguments, cwd=tmp_path)
+    assert resumed.returncode == 0, resumed.stderr
+    assert f"{len(kept)} of 7 pieces reused" in resumed.stdout
+    sources, _ = resolve(["lloyd"], (144,), (2,), 6)
+    straight = gbnbench.studies.comparison.compare(sources, tmp_path / "straight", jobs=1).run.sources[0]
+    after = read_run(out).sources[0]
+    assert after.points.tobytes() == straight.points.tobytes()
+    assert after.spectrum.power.tobytes() == straight.spectrum.power.tobytes()
+    assert repr(dict(after.measures)) == repr(dict(straight.measures))
+
+
+def test_ctrl_c_stops_at_once_and_says_how_to_go_on(tmp_path: Path) -> None:
+    slow = ["compare", "lloyd", "-n", "4096", "--realizations", "40", "--out", "run"]
+    busy = subprocess.Popen(
+        [*COMMAND, *slow], cwd=tmp_path, stderr=subprocess.PIPE, text=True, start_new_session=True
+    )
+    wait_for(lambda: (tmp_path / "run" / "settings.json").exists(), busy)
+    time.sleep(0.5)
+    os.killpg(busy.pid, signal.SIGINT)  # as the terminal does: to every process
+    _, said = busy.communicate(timeout=30)
+    assert busy.returncode == 130
+    assert said.splitlines()[-1] == (
+        "gbnbench: stopped; what is finished is kept in run; the same command goes on"
+    )
+    assert "Traceback" not in said
+    with pytest.raises(ProcessLookupError):  # no worker is left in its session
+        os.killpg(busy.pid, 0)
+
+
+def test_a_full_disk_is_one_line_and_loses_nothing(tmp_path: Path) -> None:
+    sizes = ["-n", "1024,200000", "--realizations", "2", "--jobs", "1"]
+
+    def small_files() -> None:  # room for OpenCL's own cache and for 1,024 points, not for 200,000
+        resource.setrlimit(resource.RLIMIT_FSIZE, (2_000_000, resource.RLIM_INFINITY))
+
+    full = run("compare", "random", *sizes, "--out", "run", "--quiet", cwd=tmp_path, preexec_fn=small_files)
+    assert full.returncode == 2
+    assert full.stderr == (
+        "gbnbench: error: run: File too large; what is finished is kept and the same command goes on\n"
+    )
+    left = {path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*") if path.is_file()}
+    assert left == {
+        "run/.lock",
+        "run/settings.json",
+        "run/parts/random_n1024_d2/000000.npz",
+        "run/parts/random_n1024_d2/000001.npz",
+    }
+
+
+def test_a_crashed_worker_is_named_and_the_rest_is_kept(tmp_path: Path) -> None:
+    arguments = ["compare", "lloyd", "-n", "400", "--realizations", "3", "--jobs", "1", "--out", "run"]
+    busy = subprocess.Popen([*COMMAND, *arguments], cwd=tmp_path, stderr=subprocess.PIPE, text=True)
+    wait_for(lambda: list((tmp_path / "run").rglob("000000.npz")), busy)
+    children = Path(f"/proc/{busy.pid}/task").glob("*/children")
+    (worker,) = (int(pid) for path in children for pid in path.read_text().split())
+    os.kill(worker, signal.SIGKILL)
+    _, said = busy.communicate()
+    assert busy.returncode == 2
+    assert "lloyd (n=400, d=2), realization 1: its process was killed by SIGKILL" in said
+    assert {path.name for path in (tmp_path / "run").rglob("0*.npz")} == {"000000.npz", "000002.npz"}
+    assert not (tmp_path / "run" / "manifest.json").exists()
+
+
+def test_bad_use_is_one_line_and_exit_2(tmp_path: Path) -> None:
+    (tmp_path / "thesis").mkdir()
+    (tmp_path / "thesis" / "thesis.tex").write_text("x")
+    for arguments, words in (
+        (["compare", "randm"], "did you mean random?"),
+        (["compare", "jittered", "-n", "50"], "nearest is 49"),
+        (["compare", "random", "-n", "64,x"], "whole numbers parted by commas"),
+        (["compare", "random", "--out", "thesis"], "not empty and is not a run"),
+        (["compare", "random", "--baseline", "thesis"], "not a run of gbnbench"),
+        (["generate", "random", "-o", "x.docx"], "x.docx"),
+        (["report", "nowhere"], "not a run of gbnbench"),
+    ):
+        done = run(*arguments, cwd=tmp_path)
+        assert done.returncode == 2, arguments
+        assert done.stdout == ""
+        assert done.stderr.startswith("gbnbench: error: ")
+        assert done.stderr.count("\n") == 1
+        assert words in done.stderr
+    assert sorted(p.name for p in tmp_path.rglob("*")) == ["thesis", "thesis.tex"]
+
+
+def test_generate_writes_what_the_seed_says(tmp_path: Path) -> None:
+    done = run(
+        "generate", "random", "-n", 32, "-d", 3, "--realizations", 2, "--seed", 5, "-o", "x.csv", cwd=tmp_path
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout == "wrote x.csv: 2 sets of 32 points, d=3\n"
+    expected = [
+        np.random.default_rng(np.random.SeedSequence(5, spawn_key=(k,))).random((32, 3)) for k in (0, 1)
+    ]
+    np.testing.assert_array_equal(load(tmp_path / "x.csv"), np.stack(expected))
+    assert "replacing" in run("generate", "random", "-o", "x.csv", cwd=tmp_path).stdout
+
+
+def test_analyze_prints_json_alone_and_goes_on_past_a_bad_file(tmp_path: Path) -> None:
+    sets = np.random.default_rng(3).random((2, 40, 3))
+    save(tmp_path / "good.npy", sets)
+    (tmp_path / "bad.txt").write_text("0.5 nan\n")
+    done = run("analyze", "bad.txt", "absent.txt", "good.npy", "--json", cwd=tmp_path)
+    assert done.returncode == 2
+    rows = json.loads(done.stdout, parse_constant=pytest.fail)
+    assert [(r["path"], r["set"], r["n"], r["d"]) for r in rows] == [
+        ("good.npy", 0, 40, 3), ("good.npy", 1, 40, 3)
+    ]  # fmt: skip
+    assert all(set(r["measures"]) == set(BY_NAME) for r in rows)
+    assert all(r["measures"]["psi6"] is None for r in rows)  # the plane's measure
+    for row, x in zip(rows, sets, strict=True):  # |f| = 1 summed here, without gbnbench
+        power = np.abs(np.exp(-2j * np.pi * x).sum(axis=0)) ** 2 / 40
+        assert row["measures"]["power_at_1"] == pytest.approx(power.mean(), rel=1e-12)
+    assert len(done.stderr.splitlines()) == 2
+    assert "bad.txt, line 1" in done.stderr
+    table = run("analyze", "good.npy", cwd=tmp_path)
+    assert table.returncode == 0
+    assert [line.split()[:4] for line in table.stdout.splitlines()[1:]] == [
+        ["good.npy", "0", "40", "3"], ["good.npy", "1", "40", "3"]
+    ]  # fmt: skip
+
+
+def test_report_remakes_the_pictures(whole: Whole) -> None:
+    made = [whole.out / "report.html", whole.out / "figures" / "gallery.png"]
+    before = [path.read_bytes() for path in made]
+    for path in made:
+        path.unlink()
+    done = run("report", whole.out, cwd=whole.folder)
+    assert done.returncode == 0, done.stderr
+    assert [path.read_bytes() for path in made] == before
+
+
+def test_help_and_version_and_a_closed_pipe(tmp_path: Path) -> None:
+    shown = run("--help", cwd=tmp_path)
+    assert shown.returncode == 0
+    assert all(
+        name in shown.stdout for name in ("analyze", "compare", "devices", "doctor", "generate", "report")
+    )
+    assert run("--version", cwd=tmp_path).stdout.startswith("gbnbench ")
+    piped = subprocess.Popen(
+        [*COMMAND, "compare", "--help"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    assert piped.stdout is not None
+    piped.stdout.close()
+    assert piped.stderr is not None
+    with piped.stderr as said:
+        assert said.read() == ""
+    piped.wait()
+
+
+def test_the_command_starts_without_heavy_libraries(tmp_path: Path) -> None:
+    script = (
+        "import sys\n"
+        "from gbnbench.cli import run\n"
+        "run(['compare', '--help'])\n"
+        "heavy = {'numpy', 'scipy', 'pandas', 'matplotlib', 'pyopencl', 'skimage', 'rich'}\n"
+        "sys.exit(' '.join(heavy & set(sys.modules)) or 0)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+def wait_for(condition: Callable[[], object], process: subprocess.Popen[str]) -> None:
+    deadline = time.monotonic() + 60
+    while not condition():
+        assert process.poll() is None, "the command ended early"
+        assert time.monotonic() < deadline
+        time.sleep(0.005)

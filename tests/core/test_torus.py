@@ -1,0 +1,95 @@
+"""Points on the torus: what is accepted, wrapped, measured and turned into exact phases."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from gbnbench.core.errors import InputError
+from gbnbench.core.torus import (
+    check_points,
+    densest_spacing,
+    displacement,
+    fixed_point,
+    spacing,
+    toroidal_distance,
+    with_images,
+    wrap,
+)
+
+
+@pytest.mark.parametrize(
+    ("x", "says"),
+    [
+        ([[0.5, 1.0]], "1.0 at index (0, 1)"),
+        ([[0.5, -1e-300]], "[0, 1)"),
+        ([[0.5, math.nan]], "nan"),
+        ([0.5, 0.25], "(2,)"),
+        (np.zeros((0, 2)), "(0, 2)"),
+        (np.zeros((3, 0)), "(3, 0)"),
+        ([["a", "b"]], "real numbers"),
+        ([[1j, 0]], "real numbers"),
+    ],
+)
+def test_what_is_not_points_of_the_torus_is_refused_in_words(x, says):
+    with pytest.raises(InputError) as refusal:
+        check_points(x)
+    assert says in str(refusal.value).replace("np.float64(1.0)", "1.0")
+
+
+@given(arrays(float, (4, 3), elements=st.floats(-1e6, 1e6)))
+def test_wrap_stays_below_one_and_moves_by_whole_turns(x):
+    y = wrap(x)
+    assert ((y >= 0) & (y < 1)).all()
+    turns = x - y
+    assert np.abs(turns - np.rint(turns)).max() <= 2e-10
+
+
+def test_a_tiny_negative_wraps_to_zero_and_not_to_one():
+    assert wrap([-1e-17])[0] == 0.0
+
+
+@given(arrays(float, (5, 2), elements=st.floats(0, 1, exclude_max=True)), st.integers(-3, 3))
+def test_distance_ignores_whole_turns_and_is_symmetric(x, turns):
+    a, b = x[:-1], x[1:]
+    there = toroidal_distance(a, b)
+    assert there == pytest.approx(toroidal_distance(b, a), abs=0)
+    assert there == pytest.approx(toroidal_distance(a + turns, b), abs=1e-14)
+    assert (there <= math.sqrt(2) / 2 + 1e-15).all()
+    assert (np.abs(displacement(a, b)) <= 0.5).all()
+
+
+def test_densest_spacings_are_those_of_the_known_lattices():
+    # Minimum distance of Z, A2, D3, D4, E8 scaled to one point a unit volume (Conway & Sloane, Table 1.2).
+    known = {1: 1.0, 2: (4 / 3) ** 0.25, 3: 2 ** (1 / 6), 4: 2**0.25, 8: math.sqrt(2)}
+    for d, distance in known.items():
+        assert densest_spacing(1, d) == pytest.approx(distance, rel=1e-15)
+    assert densest_spacing(1024, 2) == pytest.approx(math.sqrt(2 / (math.sqrt(3) * 1024)), rel=1e-15)
+    assert math.isnan(densest_spacing(10, 9))
+    assert spacing(4096, 3) == pytest.approx(1 / 16)
+
+
+@given(st.integers(0, 2**53 - 1))
+def test_fixed_point_is_exact_for_multiples_of_the_double_grid(k):
+    assert int(fixed_point(np.array([k / 2**53]), 64)[0]) == k * 2**11
+
+
+def test_fixed_point_wraps_where_float_rounds_up_to_a_turn():
+    assert fixed_point(np.array([1 - 2.0**-53]), 32)[0] == 0
+    assert fixed_point(np.array([1 - 2.0**-53]), 64)[0] == 2**64 - 2**11
+
+
+def test_images_are_those_of_the_full_tiling_within_the_margin():
+    x = np.random.default_rng(1).random((40, 3))
+    tiled, owner = with_images(x, 0.3)
+    shifts = np.stack(np.meshgrid(*[[-1, 0, 1]] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
+    full = (x[None] + shifts[:, None]).reshape(-1, 3)
+    inside = ((full >= -0.3) & (full < 1.3)).all(axis=1)
+    assert sorted(map(tuple, tiled)) == sorted(map(tuple, full[inside]))
+    assert np.array_equal(tiled[:40], x)
+    assert np.allclose(wrap(tiled), x[owner], atol=1e-15)

@@ -1,0 +1,54 @@
+"""The doctor: agrees with an independent oracle, and notices a kernel that is wrong."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from gbnbench.core import cache_folder
+from gbnbench.core.errors import DeviceError
+from gbnbench.doctor import kernel_checks
+from tests.oracles import direct_power
+
+
+def test_its_numpy_twins_are_right_themselves():
+    rng = np.random.default_rng(1)
+    x, f = rng.random((40, 3)), rng.integers(-20, 21, (30, 3))
+    assert kernel_checks.numpy_power(x, f) == pytest.approx(direct_power(x, f), rel=1e-11, abs=1e-13)
+
+    def energy(u):
+        side = 9 ** (1 / 2)
+        difference = u[:, None] - u[None]
+        periods = sum(np.exp(-((difference + k * side) ** 2) / (2 * 0.8**2)) for k in range(-8, 9))
+        return periods.prod(axis=-1).sum() / 2
+
+    u = rng.random((9, 2)) * 3
+    gradient = kernel_checks.numpy_gradient(u / 3, 0.8)
+    for k in range(3):
+        for a in range(2):
+            step = np.zeros_like(u)
+            step[k, a] = 1e-5
+            assert gradient[k, a] == pytest.approx((energy(u + step) - energy(u - step)) / 2e-5, abs=1e-8)
+
+
+def test_this_device_passes_in_full():
+    examination = kernel_checks.examine()
+    assert examination.trusted, [c for c in examination.checks if not c.passed]
+    assert "can be trusted" in examination.verdict
+
+
+def test_a_wrong_kernel_is_named_and_not_trusted(monkeypatch, tmp_path):
+    monkeypatch.setattr(cache_folder, "cache_folder", lambda: tmp_path)
+    right = kernel_checks.numpy_gradient
+    monkeypatch.setattr(kernel_checks, "numpy_gradient", lambda x, sigma: right(x, sigma) * (1 + 1e-3))
+    with pytest.raises(DeviceError, match="gbn gradient"):
+        kernel_checks.ensure_trusted()
+    assert not list(tmp_path.glob("trusted*"))
+
+
+def test_a_device_is_examined_once_and_remembered(monkeypatch, tmp_path):
+    monkeypatch.setattr(cache_folder, "cache_folder", lambda: tmp_path)
+    kernel_checks.ensure_trusted()
+    assert len(list(tmp_path.glob("trusted*"))) == 1
+    monkeypatch.setattr(kernel_checks, "examine", lambda **_: pytest.fail("examined again"))
+    kernel_checks.ensure_trusted()

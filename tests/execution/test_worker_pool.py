@@ -1,0 +1,70 @@
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+from gbnbench.core.errors import InputError
+from gbnbench.execution.worker_pool import ONE_THREAD, Pool
+
+
+def work(number: int) -> tuple[int, int, str | None]:
+    if number == 13:
+        os.kill(os.getpid(), signal.SIGKILL)
+    if number == 14:
+        raise InputError("n must be even; got 13")
+    if number == 15:
+        raise ZeroDivisionError
+    print("noise on standard output", flush=True)
+    return number * number, os.getpid(), os.environ.get("OMP_NUM_THREADS")
+
+
+def test_a_dead_child_costs_only_its_own_task() -> None:
+    done = {}
+    with Pool(2) as pool:
+        for number in (1, 13, 14, 15, 2, 3):
+            pool.submit(number, work, number)
+        while pool.pending:
+            finished = pool.next()
+            done[finished.key] = finished
+    assert {key: done[key].value[0] for key in (1, 2, 3)} == {1: 1, 2: 4, 3: 9}
+    assert "killed by SIGKILL" in done[13].failure
+    assert done[14].failure == "n must be even; got 13"
+    assert "ZeroDivisionError" in done[15].failure
+    assert os.getpid() not in {done[key].value[1] for key in (1, 2, 3)}
+    assert {done[key].value[2] for key in (1, 2, 3)} == {ONE_THREAD["OMP_NUM_THREADS"]}
+
+
+PARENT = """
+import os, sys, time
+from gbnbench.execution.worker_pool import Pool
+pool = Pool(1)
+pool.submit(0, os.getpid)
+print(pool.next().value, flush=True)
+pool.submit(1, time.sleep, 600)
+time.sleep(600)
+"""
+
+
+def test_a_busy_child_ends_when_its_parent_is_killed() -> None:
+    parent = subprocess.Popen([sys.executable, "-c", PARENT], stdout=subprocess.PIPE, text=True)
+    assert parent.stdout is not None
+    child = int(parent.stdout.readline())
+    parent.kill()
+    parent.wait()
+    parent.stdout.close()
+    deadline = time.monotonic() + 20
+    while time.monotonic() < deadline and alive(child):
+        time.sleep(0.02)
+    assert not alive(child)
+
+
+def alive(pid: int) -> bool:
+    try:
+        state = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0]
+    except (FileNotFoundError, ProcessLookupError):
+        return False
+    return state != "Z"

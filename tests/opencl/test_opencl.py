@@ -1,0 +1,192 @@
+"""Choosing devices, proving widths and building programs, on the real runtime."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gbnbench.core.errors import DeviceError
+from gbnbench.opencl import choose, devices, runtime
+from gbnbench.opencl.runtime import OPTIONS
+from gbnbench.opencl.width_probe import VectorWidths, vector_widths
+
+
+def python(code: str, **environment: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-c", code],
+        env={**os.environ, **environment},
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
+
+
+def test_every_device_can_be_chosen_by_its_index_and_its_label():
+    for device in devices():
+        assert choose(str(device.index)) == device
+        assert choose(device.label) == device
+        assert choose(device.label.upper()) == device
+
+
+def test_an_unknown_device_names_those_there_are():
+    with pytest.raises(DeviceError) as refusal:
+        choose("no such device")
+    assert devices()[0].name in str(refusal.value)
+
+
+def test_the_environment_variable_chooses(monkeypatch):
+    monkeypatch.setenv("GBNBENCH_DEVICE", "no such device")
+    with pytest.raises(DeviceError, match="no such device"):
+        choose()
+    monkeypatch.setenv("GBNBENCH_DEVICE", "0")
+    assert choose().index == 0
+
+
+def test_without_any_device_importing_works_and_the_error_says_what_to_install():
+    done = python(
+        "import gbnbench\n"
+        "print(gbnbench.periodogram([[0.5, 0.5]], 1).device)\n"
+        "try:\n    gbnbench.generate('gbn', n=4, d=2)\n"
+        "except gbnbench.GbnbenchError as error:\n    print(error)",
+        OCL_ICD_VENDORS="/nonexistent",
+    )
+    assert done.returncode == 0, done.stderr
+    numpy, refusal = done.stdout.splitlines()
+    assert numpy == "numpy, no OpenCL device"
+    assert "no OpenCL device" in refusal
+    assert "pip install" in done.stdout
+
+
+def test_without_pyopencl_the_error_says_what_to_install(tmp_path):
+    (tmp_path / "pyopencl.py").write_text("raise ImportError('none here')")
+    done = python(
+        "import gbnbench\nprint(gbnbench.periodogram([[0.5, 0.5]], 1).device)\n"
+        "try:\n    gbnbench.generate('gbn', n=4, d=2)\n"
+        "except gbnbench.GbnbenchError as error:\n    print(error)",
+        PYTHONPATH=str(tmp_path),
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.startswith("numpy, no OpenCL device")
+    assert "pyopencl cannot be imported" in done.stdout
+    assert "pip install" in done.stdout
+
+
+def test_importing_gbnbench_loads_no_heavy_library():
+    done = python(
+        "import sys, gbnbench\n"
+        "print([m for m in ('numpy', 'scipy', 'pandas', 'matplotlib', 'pyopencl', 'skimage') if m in "
+        "sys.modules])"
+    )
+    assert done.stdout.strip() == "[]"
+
+
+@pytest.mark.skipif(os.name != "posix", reason="folders are made unwritable by a file in their way")
+def test_an_unwritable_cache_folder_still_leaves_a_device(tmp_path):
+    blocked = tmp_path / "file"
+    blocked.write_text("")
+    done = python(
+        "import os\nfrom gbnbench.opencl import devices\nprint(len(devices()), os.environ['POCL_CACHE_DIR'])",
+        GBNBENCH_CACHE=str(blocked / "cache"),
+        XDG_CACHE_HOME=str(blocked / "xdg"),
+        POCL_CACHE_DIR=str(blocked / "pocl"),
+    )
+    count, folder = done.stdout.split()
+    assert int(count) >= 1
+    assert not folder.startswith(str(blocked))
+    assert Path(folder).name == "pocl"
+
+
+def test_proven_widths_are_remembered_and_a_dead_child_leaves_the_proven_ones(monkeypatch, tmp_path):
+    from gbnbench.core import cache_folder
+    from gbnbench.opencl import width_probe
+
+    monkeypatch.setattr(cache_folder, "cache_folder", lambda: tmp_path)
+    device = choose()
+    widths = vector_widths(device)
+    assert widths.float32 in (1, 4, 8, 16)
+    assert widths.float64 in ((1, 2, 4, 8) if device.has_double else (0,))
+    monkeypatch.setattr(width_probe, "_widest", lambda *_: pytest.fail("asked the device again"))
+    assert vector_widths(device) == widths
+
+    class Dying:
+        stdout = b"1\n4\n"
+
+    monkeypatch.undo()
+    monkeypatch.setattr(cache_folder, "cache_folder", lambda: tmp_path / "other")
+    (tmp_path / "other").mkdir()
+    monkeypatch.setattr(width_probe.subprocess, "run", lambda *_, **__: Dying)
+    assert vector_widths(device) == VectorWidths(4, 4 if device.has_double else 0)
+
+
+def test_programs_are_built_once_and_a_compiler_error_is_told():
+    chosen = runtime()
+    defines = {"DOUBLE": 0, "LANES": 1}
+    first = chosen.program("gbnbench.opencl", ("/vector.cl", "/probe.cl"), defines)
+    assert chosen.program("gbnbench.opencl", ("/vector.cl", "/probe.cl"), dict(defines)) is first
+    with pytest.raises(DeviceError, match=r"cannot build /probe\.cl"):
+        chosen.program("gbnbench.opencl", ("/probe.cl",), {"LANES": 1})
+
+
+def test_wrong_results_are_never_asked_for_by_compiler_options():
+    assert not {"-cl-fast-relaxed-math", "-cl-unsafe-math-optimizations"} & set(OPTIONS)
+
+
+def test_buffers_come_back_as_they_went_and_too_large_ones_are_refused():
+    chosen = runtime()
+    array = np.random.default_rng(1).random(1001)
+    assert np.array_equal(chosen.download(chosen.upload(array), np.empty(1001)), array)
+    with pytest.raises(DeviceError, match="at most"):
+        chosen.empty(1 << 60)
+
+
+def test_without_any_writable_home_one_folder_serves_every_process(tmp_path):
+    blocked = tmp_path / "file"
+    blocked.write_text("")
+    places = {
+        "GBNBENCH_CACHE": str(blocked / "a"),
+        "XDG_CACHE_HOME": str(blocked / "b"),
+        "TMPDIR": str(tmp_path),
+    }
+    code = "from gbnbench.core.cache_folder import cache_folder\nprint(cache_folder())"
+    first, second = (python(code, **places).stdout.strip() for _ in range(2))
+    assert first == second
+    assert Path(first).parent == tmp_path
+    assert Path(first).stat().st_mode & 0o077 == 0
+
+
+def test_threads_share_the_device_and_get_what_one_gets():
+    from concurrent.futures import ThreadPoolExecutor
+
+    from gbnbench import periodogram
+
+    sets = [np.random.default_rng(k).random((200 + k, 2)) for k in range(40)]
+    alone = [periodogram(x, 12).power for x in sets]
+    before = sys.getswitchinterval()
+    sys.setswitchinterval(1e-5)
+    try:
+        with ThreadPoolExecutor(4) as pool:
+            together = list(pool.map(lambda x: periodogram(x, 12).power, sets))
+    finally:
+        sys.setswitchinterval(before)
+    assert all(np.array_equal(a, b) for a, b in zip(alone, together, strict=True))
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork here")
+def test_a_fork_is_refused_in_words_instead_of_hanging():
+    done = python(
+        "import os, gbnbench\n"
+        "gbnbench.periodogram([[0.5, 0.5]], 1)\n"
+        "child = os.fork()\n"
+        "if child == 0:\n"
+        "    try:\n        gbnbench.periodogram([[0.5, 0.5]], 1)\n"
+        "    except gbnbench.GbnbenchError as error:\n        print(error, flush=True)\n"
+        "    os._exit(0)\n"
+        "os.waitpid(child, 0)"
+    )
+    assert "spawn" in done.stdout

@@ -1,0 +1,173 @@
+import math
+import re
+import shutil
+import subprocess
+from dataclasses import replace
+from html.parser import HTMLParser
+from pathlib import Path
+
+import numpy as np
+import pytest
+from matplotlib.image import imread
+
+from gbnbench.analysis.catalogue import CATALOGUE
+from gbnbench.reports.html.page import page, write_report
+from gbnbench.runs.comparison_result import Run
+from tests.reports import samples
+
+VOID = {"meta", "img", "br", "link", "input", "hr"}
+EVIL = '<script>alert("x")</script>&amp;$title'
+
+
+class Reader(HTMLParser):
+    """Collects what a page holds and checks that every element is closed in order."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__(convert_charrefs=True)
+        self.open: list[str] = []
+        self.tags: list[tuple[str, dict[str, str | None]]] = []
+        self.words: list[str] = []
+        self.feed(text)
+        self.close()
+        assert self.open == []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append((tag, dict(attrs)))
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+    def handle_data(self, data: str) -> None:
+        if not {"style", "script"} & set(self.open):
+            self.words.append(data)
+
+    def all(self, tag: str) -> list[dict[str, str | None]]:
+        return [attributes for name, attributes in self.tags if name == tag]
+
+
+@pytest.fixture(scope="module")
+def run() -> Run:
+    evil = samples.source(EVIL, samples.random(36, 2, 3), 4, warnings=[f"beware {EVIL}"], key="evil")
+    good = samples.source(
+        "jittered", samples.jittered(36, 2, 3), 4, measured={"noise_floor": 1.25e-9, "evacuated_energy": 3.5}
+    )
+    return Run(
+        samples.manifest(command=f"gbnbench compare '{EVIL}'", skipped=["hexagonal refuses n=36"]),
+        (evil, good),
+        {("evil", "peak"): "worse", (good.key, "noise_floor"): "better"},
+    )
+
+
+@pytest.fixture(scope="module")
+def text(run: Run) -> str:
+    return page(run)
+
+
+def test_page_is_whole_and_needs_nothing_from_outside(text: str) -> None:
+    reader = Reader(text)
+    for tag, attributes in reader.tags:
+        for name in ("src", "href", "srcset", "data"):
+            value = attributes.get(name)
+            assert value is None or value.startswith(("data:image/png;base64,", "#")), (tag, name)
+    assert not re.search(r"url\(|@import|https?://", re.sub(r"base64,[^\"]*", "", text))
+    ids = [attributes["id"] for _, attributes in reader.tags if "id" in attributes]
+    assert len(ids) == len(set(ids))
+    assert {a["href"] for a in reader.all("a")} <= {f"#{i}" for i in ids}
+
+
+def test_labels_are_escaped_everywhere(text: str) -> None:
+    assert text.count("<script>") == 1  # our own, which sorts the table
+    assert EVIL not in text
+    reader = Reader(text)
+    assert EVIL in " ".join(reader.words)
+    assert any(EVIL in (a["alt"] or "") for a in reader.all("img"))
+
+
+def test_every_picture_has_words(text: str) -> None:
+    pictures = Reader(text).all("img")
+    assert len(pictures) >= 2 * 7 + 2
+    assert all(a.get("alt") for a in pictures)
+
+
+def test_words_of_the_page(text: str) -> None:
+    words = " ".join(Reader(text).words)
+    for definition in CATALOGUE:
+        assert definition.text in words
+        assert definition.source in words
+    assert "beware" in words
+    assert "hexagonal refuses n=36" in words
+    assert "left out of the made-up run" in words  # the reason of an undefined value
+    assert "cpu-haswell" in words
+    assert "numpy 2.4.6" in words
+    assert "4 pi^2 = 39.5" in words
+
+
+def test_marks_of_the_table(text: str) -> None:
+    rows = re.findall(r"<tr data-order.*?</tr>", text, re.S)
+    assert len(rows) == 2
+    cells = [re.findall(r"<td.*?</td>", row, re.S) for row in rows]
+    assert {len(c) for c in cells} == {len(CATALOGUE) + 1}
+    names = [definition.name for definition in CATALOGUE]
+    floor, peak = names.index("noise_floor"), names.index("peak")
+    assert 'class="best"' in cells[1][floor]
+    assert "▲ better" in cells[1][floor]
+    assert "1.25·10<sup>−9</sup>" in cells[1][floor]
+    assert 'class="best"' not in cells[0][floor]
+    assert "▼ worse" in cells[0][peak]
+    assert 'data-value="1.25e-09"' in cells[1][floor]
+
+
+@pytest.mark.parametrize(("n", "d", "fmax", "sets"), [(1, 2, 2, 1), (5, 1, 3, 2), (8, 3, 2, 1), (4, 8, 1, 2)])
+def test_any_dimension(n: int, d: int, fmax: int, sets: int) -> None:
+    run = Run({}, (samples.source("random", samples.random(n, d, sets), fmax, cpu=math.nan),))
+    words = " ".join(Reader(page(run)).words)
+    assert ("zone plate" in words) == (d == 2)
+    assert ("Slice of the first two of" in words) == (d > 2)
+
+
+def test_several_n_have_a_section_each_and_a_sweep() -> None:
+    sources = tuple(samples.source("random", samples.random(n, 2, 2), 3) for n in (9, 16))
+    reader = Reader(page(Run({}, sources)))
+    sections = {a.get("id") for a in reader.all("section")}
+    assert {"table-n9-d2", "table-n16-d2", "gallery-n16-d2", "sweep"} <= sections
+
+
+def test_odd_manifest_is_survived(run: Run) -> None:
+    odd = {"device": "a string", "versions": None, "settings": {"path": Path("x")}, "timings": {"seconds": 2}}
+    assert "a string" in page(replace(run, manifest=odd))
+    assert "\udcff" not in page(replace(run, manifest={"command": "caf\udcff"}))
+
+
+def test_file_is_replaced_whole(tmp_path: Path) -> None:
+    path = tmp_path / "report.html"
+    path.write_text("old")
+    write_report(samples.small_run(), path)
+    assert path.read_text(encoding="utf-8").rstrip().endswith("</html>")
+    assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.skipif(shutil.which("chromium") is None, reason="no chromium on PATH to open the page with")
+def test_chromium_renders_the_page(run: Run, tmp_path: Path) -> None:
+    write_report(run, tmp_path / "report.html")
+    still = ("background-networking", "component-update", "sync", "gpu")
+    options = [*(f"--disable-{what}" for what in still), "--headless", "--no-sandbox", "--no-first-run"]
+    options += ["--hide-scrollbars", "--window-size=1000,1400"]
+    shot = tmp_path / "shot.png"
+    profile = f"--user-data-dir={tmp_path / 'profile'}"
+    address = (tmp_path / "report.html").as_uri()
+    chromium = ["chromium", *options, profile]
+    subprocess.run([*chromium, f"--screenshot={shot}", address], check=True, capture_output=True, timeout=120)
+    picture = imread(shot)[..., :3]
+    assert picture.shape[:2] == (1400, 1000)
+    assert (
+        len(np.unique((picture * 255).astype(np.uint8).reshape(-1, 3), axis=0)) > 500
+    )  # pictures, not text alone
+    bands = [np.mean(np.abs(band - band[:1, :1])) for band in np.split(picture, 7)]
+    assert min(bands) > 1e-3  # something in every part of the page
+    dump = subprocess.run(
+        [*chromium, "--dump-dom", address], check=True, capture_output=True, timeout=120, text=True
+    ).stdout
+    assert dump.count("<img") >= 16
+    assert dump.count("<script>") == 1

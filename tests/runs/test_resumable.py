@@ -1,0 +1,97 @@
+"""Pieces of work: done in real workers, kept, done again only where missing, failures named."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gbnbench.core.errors import InputError, UnfinishedError
+from gbnbench.execution.progress import Progress
+from gbnbench.runs.resumable import Piece, PieceFolder, carry_out
+from gbnbench.runs.resumable_folder import KeptFolder
+
+
+class Heard(Progress):
+    def __init__(self):
+        self.lines, self.counts, self.steps = [], [], 0
+
+    def say(self, text):
+        self.lines.append(text)
+
+    def start(self, total, done, doing):
+        self.counts.append((total, done))
+
+    def advance(self, doing, steps=1):
+        self.steps += steps
+
+
+def roots(count, mark=""):
+    """Work: square roots, leaving a line in a file for every time that it is done."""
+    if mark:
+        with Path(mark).open("a") as file:
+            file.write(f"{count} {os.getpid()}\n")
+    return {"root": np.sqrt(np.arange(count))}
+
+
+def fails(reason):
+    raise InputError(reason)
+
+
+def opened(tmp_path, **identity):
+    folder = PieceFolder(tmp_path / "kept", {"what": "roots", **identity})
+    folder.path.mkdir(exist_ok=True)
+    folder.begin()
+    return folder
+
+
+def test_only_what_is_missing_is_done_again(tmp_path):
+    mark = str(tmp_path / "mark")
+    pieces = [Piece(f"a/{k}", f"roots {k}", roots, (k, mark)) for k in (3, 4, 5)]
+    folder = opened(tmp_path)
+    assert carry_out(folder, pieces, 2, Progress()) == 0
+    for k in (3, 4, 5):
+        assert folder.read(f"a/{k}")["root"].tolist() == [math.sqrt(j) for j in range(k)]
+    (folder.path / "pieces/a/4.npz").write_bytes(b"spoilt")
+    heard = Heard()
+    assert carry_out(folder, pieces, 2, heard) == 2
+    assert heard.counts[-1] == (3, 2)
+    assert any("2 of 3" in line for line in heard.lines)
+    done = [int(line.split()[0]) for line in Path(mark).read_text().splitlines()]
+    assert sorted(done) == [3, 4, 4, 5]
+    assert str(os.getpid()) not in Path(mark).read_text()  # in workers
+
+
+def test_a_failure_is_named_and_the_rest_kept(tmp_path):
+    pieces = [Piece("good", "the good", roots, (4,)), Piece("bad", "the bad", fails, ("too odd",))]
+    folder = opened(tmp_path)
+    with pytest.raises(UnfinishedError, match=r"1 of 2 pieces failed.*the bad: too odd"):
+        carry_out(folder, pieces, 1, Progress())
+    assert folder.read("good") is not None
+    assert folder.read("bad") is None
+
+
+def test_other_settings_and_strange_folders_are_refused_and_left_alone(tmp_path):
+    opened(tmp_path, seed=1)
+    with pytest.raises(InputError, match=r"seed is 1 there, 2 here"):
+        PieceFolder(tmp_path / "kept", {"what": "roots", "seed": 2})
+    strange = tmp_path / "strange"
+    strange.mkdir()
+    (strange / "thesis.txt").write_text("mine")
+    with pytest.raises(InputError, match="not empty"):
+        KeptFolder(strange, {})
+    assert [p.name for p in strange.iterdir()] == ["thesis.txt"]
+
+
+def test_finished_means_that_the_manifest_is_there(tmp_path):
+    folder = opened(tmp_path)
+    assert not folder.whole
+    folder.finish({"made": "now"})
+    assert folder.whole
+    assert json.loads((folder.path / "manifest.json").read_text()) == {"made": "now", "format": 1}
+    folder.begin()
+    assert not folder.whole
