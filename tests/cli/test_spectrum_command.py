@@ -209,8 +209,8 @@ def test_explain_computes_and_writes_nothing(
     def forbidden(*_: object, **__: object) -> None:
         raise AssertionError("evaluated")
 
-    monkeypatch.setattr("gbnbench.analysis.spectrum.spectrum_request.periodogram", forbidden)
-    monkeypatch.setattr("gbnbench.analysis.spectrum.spectrum_request.shells", forbidden)
+    monkeypatch.setattr("gbnbench.analysis.spectrum.settings.periodogram", forbidden)
+    monkeypatch.setattr("gbnbench.analysis.spectrum.settings.shells", forbidden)
     plan = gbnbench.plan(40, 2, 3, realizations=2, half=True)
     assert said("s.npz", "--half", "--fmax", 3, "--explain", "-o", "x.npz") == (f"s.npz:\n{plan}\n", "")
     assert not Path("x.npz").exists()
@@ -338,7 +338,7 @@ def test_each_never_replaces_what_is_read(said: Said, sets: np.ndarray) -> None:
 
 
 def test_a_run_that_is_stopped_says_what_it_keeps(said: Said, monkeypatch: pytest.MonkeyPatch) -> None:
-    find, calls = gbnbench.analysis.spectrum.spectrum_request.Asked.find, []
+    find, calls = gbnbench.analysis.spectrum.settings.SpectrumSettings.evaluate, []
 
     def stopped(*arguments: Any) -> Any:
         calls.append(1)
@@ -346,7 +346,7 @@ def test_a_run_that_is_stopped_says_what_it_keeps(said: Said, monkeypatch: pytes
             raise KeyboardInterrupt
         return find(*arguments)
 
-    monkeypatch.setattr(gbnbench.analysis.spectrum.spectrum_request.Asked, "find", stopped)
+    monkeypatch.setattr(gbnbench.analysis.spectrum.settings.SpectrumSettings, "evaluate", stopped)
     _, err = said("s.npz", "a.txt", "b.csv", "--each", "--fmax", 2, "-o", "q.npy", code=130)
     assert err == "gbnbench: stopped; 2 of 4 files are written and kept\n"
     assert sorted(path.name for path in Path().glob("q*")) == ["q_0.npy", "q_1.npy"]

@@ -15,7 +15,7 @@ import pytest
 
 from gbnbench.analysis.radial.anisotropy import anisotropy
 from gbnbench.analysis.radial.radial_power import radial
-from gbnbench.analysis.spectrum import limits
+from gbnbench.analysis.spectrum import request
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.request import shell_request
 from gbnbench.analysis.spectrum.shell_spectrum import shells
@@ -182,7 +182,7 @@ def test_the_largest_harmonic_of_32_bits_is_the_one_that_is_named(d, corners):
 @pytest.mark.parametrize(("d", "fmax"), [(2, 8000), (3, 300)])
 def test_shells_and_groups_that_would_fill_the_memory_are_refused(monkeypatch, d, fmax):
     monkeypatch.setattr(
-        limits, "memory", lambda: 8 << 20
+        request, "physical_memory", lambda: 8 << 20
     )  # 6.4e7 shells; 2.8e5 frequencies in a group's ball
     with pytest.raises(InputError, match="memory"):
         shell_request(10, d, fmax, 1, None, False)
