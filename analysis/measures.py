@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gbnbench.analysis.catalogue import CATALOGUE
+from gbnbench.analysis.measure_definitions import DEFINITIONS
 from gbnbench.analysis.radial.anisotropy import anisotropy, anisotropy_db
-from gbnbench.analysis.radial.profile import (
-    ROUNDING,
+from gbnbench.analysis.radial.profile_measures import (
+    ROUNDING_POWER,
     evacuated_energy,
     exponential_fit,
     noise_floor,
@@ -22,7 +22,7 @@ from gbnbench.analysis.radial.profile import (
     powerlaw_fit,
 )
 from gbnbench.analysis.radial.psa import spectral_statistics
-from gbnbench.analysis.radial.radial_power import radial_power
+from gbnbench.analysis.radial.radial_power import mean_over_groups
 from gbnbench.analysis.spatial.bond_order import bond_order, psi6
 from gbnbench.analysis.spatial.delaunay import Neighbours, neighbours, valence, valence6
 from gbnbench.analysis.spatial.discrepancy import discrepancies
@@ -132,7 +132,7 @@ class _Scalars:
         self.fmax = check_fmax(default_fmax(n, d, realizations) if fmax is None else fmax, d)
         self.powers, self.spectrum = each_power(points, self.fmax)
         self.shells: Shells = exact_shells(self.fmax, d)
-        self.radial = radial_power(self.spectrum.power, self.shells, self.spectrum.spacing)
+        self.radial = mean_over_groups(self.spectrum.power, self.shells, self.spectrum.spacing)
         self._neighbours: Sequence[Neighbours] | None = None
 
     def neighbours(self) -> Sequence[Neighbours]:
@@ -157,7 +157,7 @@ class _Scalars:
                 for name in names:
                     values[name] = errors[name] = math.nan
                     reasons[name] = str(refusal)
-        order = [definition.name for definition in CATALOGUE]
+        order = [definition.name for definition in DEFINITIONS]
         return Measures({m: values[m] for m in order}, {m: errors[m] for m in order}, reasons)
 
     def _of_spectrum(self) -> list[_Entry]:
@@ -276,7 +276,7 @@ def _warnings(radial: RadialPower, d: int) -> tuple[str, ...]:
     if d < 2 or not {1, 2, 4, 5} <= set(by_square):
         return ()
     axes, diagonals = min(by_square[1], by_square[4]), (by_square[2] + by_square[5]) / 2
-    if axes < max(EDGE_RATIO * diagonals, ROUNDING):
+    if axes < max(EDGE_RATIO * diagonals, ROUNDING_POWER):
         return ()
     return (
         f"not toroidal? power on the axes, {by_square[1]:.2g} at |f| = 1, is {axes / diagonals:.2g} times "

@@ -54,7 +54,7 @@ def estimate_errors(integrands: Sequence[Integrand], x: ArrayLike) -> FloatArray
 
 
 @dataclass(frozen=True)
-class Series:
+class FourierSeries:
     """Energy of drawn integrands where it matters.
 
     Attributes
@@ -77,12 +77,12 @@ class Series:
         return float(2 * self.energy.sum(axis=1).mean() * self.share / (1 - self.share))
 
 
-def series_of(family: Family, integrands: Sequence[Integrand], d: int) -> Series | None:
+def fourier_series(family: Family, integrands: Sequence[Integrand], d: int) -> FourierSeries | None:
     """Fourier series of drawn integrands, as far as 20,000 frequencies reach.
 
     Returns
     -------
-    Series or None
+    FourierSeries or None
         None for a family that is not periodic, or whose series is not known or too long to hold nine tenths
         of its energy.
     """
@@ -95,7 +95,7 @@ def series_of(family: Family, integrands: Sequence[Integrand], d: int) -> Series
         if not isinstance(integrand, Periodic):
             raise TypeError(f"{family.name} is declared periodic and its integrands have no energy")
         row[:] = integrand.energy(frequencies)
-    return Series(frequencies, energy, share)
+    return FourierSeries(frequencies, energy, share)
 
 
 @lru_cache(maxsize=32)
@@ -109,12 +109,12 @@ def _frequencies(family: Family, d: int) -> tuple[NDArray[np.int64], float] | No
     return None
 
 
-def foretold_variance(series: Series, x: ArrayLike) -> FloatArray:
+def predicted_variance(series: FourierSeries, x: ArrayLike) -> FloatArray:
     """Variance of each estimate over random toroidal shifts of each set.
 
     Parameters
     ----------
-    series : Series
+    series : FourierSeries
         Of the integrands.
     x : (n, d) or (realizations, n, d) float64
         Points on the unit torus.

@@ -13,7 +13,7 @@ from scipy.stats import t
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
 
-BENT = 0.3  # decades from the fitted line beyond which a slope is no law
+MOST_SCATTER = 0.3  # decades from the fitted line beyond which a slope is no law
 BAND = 0.975  # quantile at the upper end of a 95% band
 
 
@@ -165,7 +165,7 @@ def _crossed(errors: ArrayLike) -> FloatArray:
 
 
 @dataclass(frozen=True)
-class Mean:
+class CrossedMean:
     """Mean of crossed values.
 
     Attributes
@@ -181,7 +181,7 @@ class Mean:
     freedom: float
 
 
-def crossed_mean(values: FloatArray) -> Mean:
+def crossed_mean(values: FloatArray) -> CrossedMean:
     """Average values of every integrand with every set, (integrands, sets); see ``variance_of``."""
     rows, columns = values.shape
     parts, freedom, least = [], [], 0.0
@@ -196,11 +196,11 @@ def crossed_mean(values: FloatArray) -> Mean:
         parts.append(-least)
         freedom.append((rows - 1) * (columns - 1))
     if not parts:
-        return Mean(float(values.mean()), math.nan, 0.0)
+        return CrossedMean(float(values.mean()), math.nan, 0.0)
     variance = max(sum(parts), least)
     spread = sum(part**2 / count for part, count in zip(parts, freedom, strict=True))
     degrees = min(max(variance**2 / spread, min(freedom)), sum(freedom)) if spread > 0 else sum(freedom)
-    return Mean(float(values.mean()), math.sqrt(variance), float(degrees))
+    return CrossedMean(float(values.mean()), math.sqrt(variance), float(degrees))
 
 
 def _residual(values: FloatArray) -> float:

@@ -7,7 +7,7 @@ import os
 
 import numpy as np
 
-from gbnbench.analysis.radial.profile import FLOOR_NU
+from gbnbench.analysis.radial.profile_measures import FLOOR_NU
 from gbnbench.analysis.spectrum.shells import EDGE
 from gbnbench.core.errors import InputError
 

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gbnbench.analysis.radial import profile
-from gbnbench.analysis.radial.radial_power import radial_power
+from gbnbench.analysis.radial import profile_measures
+from gbnbench.analysis.radial.radial_power import mean_over_groups
 from gbnbench.analysis.spectrum.limits import default_fmax
 from gbnbench.analysis.spectrum.periodogram import each_power
 from gbnbench.analysis.spectrum.shells import exact_shells
@@ -111,11 +111,14 @@ def _measured(points: FloatArray, axes: tuple[int, ...], fmax: int | None) -> Pr
     reach = default_fmax(n, m, sets) if fmax is None else fmax
     powers, spectrum = each_power(seen, reach)
     shells = exact_shells(reach, m)
-    radials = [radial_power(power, shells, spacing(n, m)) for power in powers]
-    mean = radial_power(spectrum.power, shells, spacing(n, m))
-    floors, firsts = (np.array([of(r) for r in radials]) for of in (profile.noise_floor, profile.power_at_1))
+    radials = [mean_over_groups(power, shells, spacing(n, m)) for power in powers]
+    mean = mean_over_groups(spectrum.power, shells, spacing(n, m))
+    floors, firsts = (
+        np.array([of(r) for r in radials])
+        for of in (profile_measures.noise_floor, profile_measures.power_at_1)
+    )
     try:
-        peak, peak_nu = profile.peak(mean)
+        peak, peak_nu = profile_measures.peak(mean)
     except RefusalError:
         peak, peak_nu = math.nan, math.nan
     return Projection(

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from gbnbench.analysis.radial.anisotropy import anisotropy
-from gbnbench.analysis.radial.profile import noise_floor, peak
+from gbnbench.analysis.radial.profile_measures import noise_floor, peak
 from gbnbench.analysis.radial.radial_power import radial
 from gbnbench.analysis.spatial.bond_order import psi6
 from gbnbench.analysis.spatial.delaunay import neighbours, valence6

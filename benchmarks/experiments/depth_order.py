@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from gbnbench.analysis.radial.anisotropy import anisotropy_db
-from gbnbench.analysis.radial.profile import evacuated_energy, noise_floor, peak, power_at_1
+from gbnbench.analysis.radial.profile_measures import evacuated_energy, noise_floor, peak, power_at_1
 from gbnbench.analysis.radial.radial_power import radial
 from gbnbench.analysis.spatial.bond_order import psi6
 from gbnbench.analysis.spatial.delaunay import neighbours, valence6

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from gbnbench.analysis.radial.profile import noise_floor, peak, power_at_1
+from gbnbench.analysis.radial.profile_measures import noise_floor, peak, power_at_1
 from gbnbench.analysis.radial.radial_power import radial
 from gbnbench.analysis.spatial.bond_order import psi6
 from gbnbench.analysis.spatial.delaunay import neighbours, valence6

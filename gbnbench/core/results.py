@@ -1,4 +1,4 @@
-"""What the analysis returns: frozen results that carry how they were made."""
+"""Results of the analysis, frozen, each with the settings that made it."""
 
 from __future__ import annotations
 
@@ -217,12 +217,6 @@ class ShellSpectrum:
         """Radial power, as ``gbnbench.radial`` makes it of a whole cube."""
         return RadialPower(self.frequency, self.nu, self.power, self.count)
 
-    def anisotropy(self) -> pd.DataFrame:
-        """Anisotropy of each ring, as ``gbnbench.analysis.radial.anisotropy`` makes it of a whole cube."""
-        from gbnbench.analysis.radial.anisotropy import anisotropy_of_shells
-
-        return anisotropy_of_shells(self)
-
     def to_frame(self) -> pd.DataFrame:
         """Columns frequency, nu, power, count, deviation."""
         return self.radial().to_frame().assign(deviation=self.deviation)
@@ -240,7 +234,7 @@ class Measures(Mapping[str, float]):
     Attributes
     ----------
     measured : dict
-        Every name of ``gbnbench.analysis.catalogue`` is always there.
+        Name -> value, for every name of ``gbnbench.analysis.measure_definitions``.
     standard_error : dict
         Over realizations; nan for a single realization or where the measure is undefined.
     reasons : dict

@@ -8,7 +8,12 @@ from typing import ClassVar
 import numpy as np
 import pytest
 
-from gbnbench.analysis.integration.estimator import Series, estimate_errors, foretold_variance, series_of
+from gbnbench.analysis.integration.estimator import (
+    FourierSeries,
+    estimate_errors,
+    fourier_series,
+    predicted_variance,
+)
 from gbnbench.analysis.integration.variance import crossed_mean, variance_of
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import wrap
@@ -88,8 +93,8 @@ def test_foretold_variance_is_that_over_all_shifts(d):
     x = rng.random((2, 20, d))
     steps = 5  # > 2 reach: products of two waves of the band average to zero over the grid of shifts
     shifts = np.indices((steps,) * d).reshape(d, -1).T / steps
-    series = series_of(family, [integrand], d)
-    (foretold,) = foretold_variance(series, x)
+    series = fourier_series(family, [integrand], d)
+    (foretold,) = predicted_variance(series, x)
     for k in range(2):
         moved = wrap(x[k][None] + shifts[:, None, :])
         squares = estimate_errors([integrand], moved)[0] ** 2
@@ -101,11 +106,11 @@ def test_measured_and_foretold_agree_for_a_band_limited_family():
     family = Family(reach=4)
     rng = np.random.default_rng(5)
     drawn = [family.draw(2, rng) for _ in range(60)]
-    series = series_of(family, drawn, 2)
+    series = fourier_series(family, drawn, 2)
     for name in ("random", "jittered", "gbn[gradients=30]"):
         x = generate(name, n=64, d=2, seed=3, realizations=40)
         measured = variance_of(estimate_errors(drawn, x))
-        foretold = foretold_variance(series, x)
+        foretold = predicted_variance(series, x)
         assert foretold.shape == (60, 40)
         difference = crossed_mean(estimate_errors(drawn, x) ** 2 - foretold)
         assert abs(difference.value) < 3.5 * difference.standard_error, name
@@ -116,10 +121,10 @@ def test_a_family_that_is_not_periodic_has_no_series():
     class Plain(Family):
         periodic = False
 
-    assert series_of(Plain(), [], 2) is None
+    assert fourier_series(Plain(), [], 2) is None
 
 
 def test_dimensions_must_be_the_same():
-    series = Series(np.array([[1, 0]]), np.array([[1.0]]), 0.5)
+    series = FourierSeries(np.array([[1, 0]]), np.array([[1.0]]), 0.5)
     with pytest.raises(InputError, match="d=2"):
-        foretold_variance(series, np.zeros((4, 3)))
+        predicted_variance(series, np.zeros((4, 3)))

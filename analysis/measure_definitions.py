@@ -34,7 +34,7 @@ class Definition:
     source: str
 
 
-CATALOGUE: tuple[Definition, ...] = (
+DEFINITIONS: tuple[Definition, ...] = (
     Definition(
         "noise_floor",
         "noise floor",
@@ -212,10 +212,10 @@ CATALOGUE: tuple[Definition, ...] = (
     ),
 )
 
-BY_NAME: dict[str, Definition] = {definition.name: definition for definition in CATALOGUE}
+BY_NAME: dict[str, Definition] = {definition.name: definition for definition in DEFINITIONS}
 
 
-def judged(name: str, value: float, realizations: int) -> float:
+def comparable_value(name: str, value: float, realizations: int) -> float:
     """Return the value of a measure as sources of different numbers of sets can be compared by it.
 
     Anisotropy is taken over its reference line, -10 log10(realizations); the others are what they are.

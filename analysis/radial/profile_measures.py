@@ -20,7 +20,7 @@ FLOOR_NU = 0.25
 FIT_BAND = (0.05, 0.6)
 FIT_SHELLS = 3
 PEAK_BAND = (0.5, 2.0)
-ROUNDING = 1e-26  # power at or below which only rounding is left, as off a lattice's harmonics
+ROUNDING_POWER = 1e-26  # power at or below which only rounding is left, as off a lattice's harmonics
 DECIBELS = 10 / math.log(10)  # of a natural logarithm
 
 
@@ -86,7 +86,7 @@ def _fit(radial: RadialPower, *, logarithmic: bool) -> Fit:
             f"a profile fit needs three shells with 0.05 <= nu <= 0.6; this spectrum has {shells}"
         )
     power = radial.power[band]
-    if not (power > ROUNDING).all():
+    if not (power > ROUNDING_POWER).all():
         raise RefusalError("a profile fit needs power beyond rounding on every shell with 0.05 <= nu <= 0.6")
     abscissa = np.log(radial.nu[band]) if logarithmic else radial.nu[band] ** 2
     design = np.stack([np.ones(shells), abscissa], axis=1)
@@ -134,7 +134,7 @@ def evacuated_energy(power: FloatArray, n: int, d: int, fmax: int) -> float:
         )
     r2 = squared_radius(fmax, d)
     chosen = power.ravel()[(r2 > 0) & (r2 < edge * edge)]
-    if (chosen <= ROUNDING).any():
+    if (chosen <= ROUNDING_POWER).any():
         raise RefusalError("evacuated energy is unbounded: the power of some frequency is 0 to rounding")
     return float(-np.sum(np.log(chosen[chosen < 1])) / n)
 
