@@ -24,10 +24,11 @@ from gbnbench.analysis.radial.profile_measures import (
 from gbnbench.analysis.radial.psa import spectral_statistics
 from gbnbench.analysis.radial.radial_power import mean_over_groups
 from gbnbench.analysis.spatial.bond_order import bond_order, psi6
-from gbnbench.analysis.spatial.delaunay import Neighbours, neighbours, valence, valence6
+from gbnbench.analysis.spatial.delaunay import Neighbours, neighbours
 from gbnbench.analysis.spatial.discrepancy import discrepancies
 from gbnbench.analysis.spatial.distances import mean_distance, min_distance
 from gbnbench.analysis.spatial.rdf import rdf
+from gbnbench.analysis.spatial.valence import valence, valence6
 from gbnbench.analysis.spatial.zone_plate import zone_plate
 from gbnbench.analysis.spectrum.limits import check_fmax, default_fmax
 from gbnbench.analysis.spectrum.periodogram import each_power

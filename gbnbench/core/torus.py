@@ -130,30 +130,3 @@ def fixed_point(x: FloatArray, bits: int) -> NDArray[Any]:
     if bits == 64:  # the largest double below 1 gives 2**64 - 2**11: no overflow
         return np.rint(x * 2.0**64).astype(np.uint64)
     return np.rint(x * 2.0**32).astype(np.uint64).astype(np.uint32)
-
-
-def with_images(x: FloatArray, margin: float) -> tuple[FloatArray, NDArray[np.intp]]:
-    """Append to one point set the periodic images that lie within margin of the unit box.
-
-    Parameters
-    ----------
-    x : (n, d) float64
-        Points on the unit torus.
-    margin : float
-        Width of the border, in (0, 1].
-
-    Returns
-    -------
-    tiled : (m, d) float64
-        The n points first, then their images in [-margin, 1 + margin)^d.
-    owner : (m,) intp
-        Index in x of which each row is an image.
-    """
-    tiled, owner = x, np.arange(len(x), dtype=np.intp)
-    for axis in range(x.shape[1]):
-        low, high = tiled[:, axis] < margin, tiled[:, axis] >= 1 - margin
-        step = np.zeros(x.shape[1])
-        step[axis] = 1.0
-        tiled = np.concatenate([tiled, tiled[low] + step, tiled[high] - step])
-        owner = np.concatenate([owner, owner[low], owner[high]])
-    return tiled, owner

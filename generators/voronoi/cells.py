@@ -10,7 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.core.errors import InputError, RefusalError
-from gbnbench.core.torus import FloatArray, spacing, with_images, wrap
+from gbnbench.core.periodic_delaunay import (
+    circumcentre,
+    overhang,
+    triangulation,
+    voronoi_diagram,
+    with_images,
+)
+from gbnbench.core.torus import FloatArray, spacing, wrap
 
 COINCIDENT = "x must hold distinct points for Voronoi cells; at least two coincide"
 
@@ -28,7 +35,7 @@ class Cells:
     energy : (n,) float64
         Integral of |y - x|**2 over each cell; their sum is what Lloyd's method lowers.
     reach : float
-        Width of the border whose images bear on the cells.
+        Width of the border whose images may touch the cells.
     """
 
     volume: FloatArray
@@ -50,6 +57,7 @@ def toroidal_cells(x: FloatArray, margin: float | None = None) -> Cells:
     Returns
     -------
     Cells
+        Exact to rounding.
 
     Raises
     ------
@@ -106,19 +114,13 @@ def _intervals(x: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
 
 def _triangles(x: FloatArray, margin: float) -> tuple[NDArray[np.intp], FloatArray] | None:
     """In 2D a triangle for each side, which joins the circumcentres left and right of a Delaunay edge."""
-    from scipy.spatial import Delaunay, QhullError
-
     tiled, _ = with_images(x, margin)
-    try:
-        mesh = Delaunay(tiled)
-    except QhullError:  # too few images, or all on a line
+    mesh = triangulation(tiled)
+    if mesh is None:
         return None
     corner = tiled[mesh.simplices]
-    u, v = corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]
-    uu, vv = np.sum(u * u, axis=1), np.sum(v * v, axis=1)
-    normal = np.stack([v[:, 1] * uu - u[:, 1] * vv, u[:, 0] * vv - v[:, 0] * uu], axis=1)
-    with np.errstate(divide="ignore", invalid="ignore"):  # a flat triangle on the tiling's rim bounds no cell
-        centre = corner[:, 0] + normal / (2 * (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]))[:, None]
+    # A flat triangle on the tiling's rim has no centre, and bounds no cell.
+    centre = corner[:, 0] + circumcentre(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
     # Triangles run counterclockwise, so each edge a -> b is met once with its triangle on the left.
     a, right = np.roll(mesh.simplices, -1, axis=1), mesh.neighbors
     left = np.broadcast_to(np.arange(len(right))[:, None], right.shape)
@@ -131,12 +133,9 @@ def _triangles(x: FloatArray, margin: float) -> tuple[NDArray[np.intp], FloatArr
 
 def _tetrahedra(x: FloatArray, margin: float) -> tuple[NDArray[np.intp], FloatArray] | None:
     """In 3D a fan of tetrahedra over each face, the same for the points on both its sides."""
-    from scipy.spatial import QhullError, Voronoi
-
     tiled, _ = with_images(x, margin)
-    try:
-        diagram = Voronoi(tiled)
-    except QhullError:  # too few images, or all on a plane
+    diagram = voronoi_diagram(tiled)
+    if diagram is None:
         return None
     inner = np.flatnonzero(diagram.ridge_points.min(axis=1) < len(x))
     faces = [diagram.ridge_vertices[i] for i in inner]
@@ -183,11 +182,22 @@ def _moments(x: FloatArray, site: NDArray[np.intp], rays: FloatArray) -> Cells:
     if not (cell > 0).all():
         raise InputError(COINCIDENT)
     radius = np.sqrt(np.sum(rays * rays, axis=2))
-    vertex = x[site][:, None] + rays
-    beyond = np.maximum(-vertex, vertex - 1).max(axis=2) + radius
-    return Cells(cell, first / cell[:, None], second, float(beyond.max()))
+    return Cells(cell, first / cell[:, None], second, overhang(x[site][:, None] + rays, radius))
 
 
 def move_to_centroids(x: FloatArray, cells: Cells) -> FloatArray:
-    """Each point at its cell's centroid, back on the torus: one step of Lloyd's method."""
+    """Move each point to its cell's centroid, back on the torus: one step of Lloyd's method.
+
+    Parameters
+    ----------
+    x : (n, d) float64
+        Points on the unit torus.
+    cells : Cells
+        Their Voronoi cells.
+
+    Returns
+    -------
+    (n, d) float64
+        The centroids.
+    """
     return wrap(x + cells.offset)

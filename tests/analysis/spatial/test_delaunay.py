@@ -9,7 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import Voronoi
 
-from gbnbench.analysis.spatial.delaunay import Neighbours, neighbours, valence, valence6
+from gbnbench.analysis.spatial.delaunay import Neighbours, neighbours
+from gbnbench.analysis.spatial.valence import valence, valence6
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import wrap
 from tests.published_sets import grid, hexagonal, published
