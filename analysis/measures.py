@@ -1,4 +1,4 @@
-"""All measures of one source: spectra, curves, pictures, and scalars with standard errors or why there is none."""
+"""All measures of one source: spectra, curves, pictures and scalars with standard errors."""
 
 from __future__ import annotations
 

@@ -8,10 +8,11 @@ from functools import lru_cache
 
 import numpy as np
 
-from gbnbench.analysis.integration.estimator import estimate_errors, fourier_series, predicted_variance
+from gbnbench.analysis.integration.estimator import estimate_errors
 from gbnbench.analysis.integration.integrands.gaussians import Gaussians
 from gbnbench.analysis.integration.integrands.half_space import HalfSpaces
 from gbnbench.analysis.integration.integrands.protocol import Integrand
+from gbnbench.analysis.integration.spectral_variance import fourier_series, predicted_variance
 from gbnbench.analysis.integration.variance import Slope, Variance, crossed_mean, slope_of, variance_of
 from gbnbench.benchmarks.claims.claim import BESIDE, NO, PARTLY, Row, holds, reported
 from gbnbench.benchmarks.claims.sets import FAST, SEED, Drawn, Sets

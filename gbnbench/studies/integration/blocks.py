@@ -9,13 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.analysis.integration.estimator import (
-    FourierSeries,
-    estimate_errors,
-    fourier_series,
-    predicted_variance,
-)
+from gbnbench.analysis.integration.estimator import estimate_errors
 from gbnbench.analysis.integration.integrands.protocol import Family, Integrand
+from gbnbench.analysis.integration.spectral_variance import FourierSeries, fourier_series, predicted_variance
 from gbnbench.core.settings import specification
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.monitor import Watch, Watchable

@@ -8,12 +8,8 @@ from typing import ClassVar
 import numpy as np
 import pytest
 
-from gbnbench.analysis.integration.estimator import (
-    FourierSeries,
-    estimate_errors,
-    fourier_series,
-    predicted_variance,
-)
+from gbnbench.analysis.integration.estimator import estimate_errors
+from gbnbench.analysis.integration.spectral_variance import FourierSeries, fourier_series, predicted_variance
 from gbnbench.analysis.integration.variance import crossed_mean, variance_of
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import wrap
@@ -85,7 +81,7 @@ def test_a_constant_far_above_its_error_does_not_hide_it():
 
 
 @pytest.mark.parametrize("d", [1, 2, 3])
-def test_foretold_variance_is_that_over_all_shifts(d):
+def test_predicted_variance_is_that_over_all_shifts(d):
     """Over every shift of a grid finer than the band the mean square is exact, not sampled."""
     rng = np.random.default_rng(d)
     family = Family(reach=2)
@@ -94,14 +90,14 @@ def test_foretold_variance_is_that_over_all_shifts(d):
     steps = 5  # > 2 reach: products of two waves of the band average to zero over the grid of shifts
     shifts = np.indices((steps,) * d).reshape(d, -1).T / steps
     series = fourier_series(family, [integrand], d)
-    (foretold,) = predicted_variance(series, x)
+    (predicted,) = predicted_variance(series, x)
     for k in range(2):
         moved = wrap(x[k][None] + shifts[:, None, :])
         squares = estimate_errors([integrand], moved)[0] ** 2
-        assert foretold[k] == pytest.approx(squares.mean(), rel=1e-12)
+        assert predicted[k] == pytest.approx(squares.mean(), rel=1e-12)
 
 
-def test_measured_and_foretold_agree_for_a_band_limited_family():
+def test_measured_and_predicted_agree_for_a_band_limited_family():
     """The issue's demonstration: sets as they are, random integrands, agreement within the joint error."""
     family = Family(reach=4)
     rng = np.random.default_rng(5)
@@ -110,9 +106,9 @@ def test_measured_and_foretold_agree_for_a_band_limited_family():
     for name in ("random", "jittered", "gbn[gradients=30]"):
         x = generate(name, n=64, d=2, seed=3, realizations=40)
         measured = variance_of(estimate_errors(drawn, x))
-        foretold = predicted_variance(series, x)
-        assert foretold.shape == (60, 40)
-        difference = crossed_mean(estimate_errors(drawn, x) ** 2 - foretold)
+        predicted = predicted_variance(series, x)
+        assert predicted.shape == (60, 40)
+        difference = crossed_mean(estimate_errors(drawn, x) ** 2 - predicted)
         assert abs(difference.value) < 3.5 * difference.standard_error, name
         assert difference.standard_error < 0.1 * measured.value  # so that agreement means something
 
