@@ -17,7 +17,7 @@ from gbnbench.core.torus import FloatArray, as_realizations
 ROWS = 256
 # Frequencies evaluated first, in units of sqrt(n): the statistics of most sets need no more.
 FIRST_RANGE = 8.0
-# Some minutes of one core.
+# Some minutes on one core.
 MOST_POINTS = 200_000
 
 
@@ -28,11 +28,11 @@ class SpectralStatistics:
     Attributes
     ----------
     effective_nyquist, oscillations : float
-        Of the power averaged over realizations, as PSA's.
+        Statistics of the power averaged over realizations, as PSA computes them.
     effective_nyquist_error, oscillations_error : float
         Their standard errors by the jackknife over realizations; nan for a single one.
     effective_nyquist_by_set, oscillations_by_set : (realizations,) float64
-        Of each set's own power, whose noise counts as oscillation too: more than the mean power has.
+        Statistics of each set's own power. Its noise counts as oscillation too, so that they are larger.
     frequency : (k,) float64
         Left edges of PSA's bins, sqrt(n)/200 apart, as far as they were needed.
     power : (realizations, k) float64
@@ -119,7 +119,10 @@ def spectral_statistics(x: ArrayLike) -> SpectralStatistics:
 
 
 def effective_nyquist(x: ArrayLike) -> FloatArray:
-    """Effective Nyquist of each set, over sqrt(n)/2: (realizations,); see ``spectral_statistics``."""
+    """Effective Nyquist frequency of each set, over sqrt(n)/2: (realizations,).
+
+    ``spectral_statistics`` has the definition.
+    """
     return spectral_statistics(x).effective_nyquist_by_set
 
 
@@ -129,7 +132,7 @@ def oscillations(x: ArrayLike) -> FloatArray:
 
 
 def _excess_density(sets: FloatArray, total: int) -> FloatArray:
-    """2 pi n (g - 1) r dr on the bins the window can reach, trapezoid: (bins, realizations)."""
+    """2 pi n (g - 1) r dr on the bins that the window covers, trapezoid: (bins, realizations)."""
     n = sets.shape[1]
     width = 0.5 / total
     bins = total // 2 + 1
@@ -202,6 +205,6 @@ def _oscillations(power: FloatArray, frequency: FloatArray, n: int) -> float:
 
 
 def _suffices(power: FloatArray, frequency: FloatArray, n: int) -> bool:
-    """Whether both statistics are settled by the frequencies evaluated so far."""
+    """Tell whether the frequencies evaluated so far determine both statistics."""
     settled = (power >= 0.98).any() and frequency[_rise(power)] + 5 * math.sqrt(n) < frequency[-2]
     return bool(settled) and _first_high(power, frequency, n) is not None

@@ -23,7 +23,7 @@ class Valence:
     Attributes
     ----------
     degree : (k,) intp
-        Every degree from the smallest to the largest met.
+        Every degree from the smallest to the largest that occurs.
     share : (k,) float64
         Share of the points that have it, mean over realizations; sums to 1.
     share_by_set : (realizations, k) float64
@@ -35,7 +35,7 @@ class Valence:
     share_by_set: FloatArray
 
     def of(self, degree: int) -> FloatArray:
-        """Share of points of this degree in each set: (realizations,), 0 where none has it."""
+        """Share of the points that have this degree in each set: (realizations,), 0 where none has it."""
         return np.asarray(self.share_by_set[:, self.degree == degree].sum(axis=1), dtype=np.float64)
 
     def to_frame(self) -> pd.DataFrame:

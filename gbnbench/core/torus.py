@@ -1,4 +1,4 @@
-"""Points on the unit torus [0, 1)^d: validation, wrapping, distances, spacings and exact phases."""
+"""Points on the unit torus [0, 1)^d: validation, wrapping, distances, spacings and exact fractions."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ HERMITE = (1.0, 2 / math.sqrt(3), 2 ** (1 / 3), math.sqrt(2), 8**0.2, (64 / 3) *
 
 
 def check_points(x: ArrayLike) -> FloatArray:
-    """Return x as float64 points of the unit torus, or say what is wrong with it.
+    """Return x as float64 points of the unit torus, or raise an error that says why it is none.
 
     Parameters
     ----------
@@ -86,26 +86,67 @@ def wrap(x: ArrayLike) -> FloatArray:
 
 
 def displacement(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Shortest vector from b to a on the torus, each coordinate in [-1/2, 1/2]; shapes broadcast."""
+    """Shortest vector from b to a on the torus.
+
+    Parameters
+    ----------
+    a, b : (..., d) float64
+        Points on the unit torus; shapes broadcast.
+
+    Returns
+    -------
+    (..., d) float64
+        Each coordinate in [-1/2, 1/2].
+    """
     difference: FloatArray = a - b
     return difference - np.rint(difference)
 
 
 def toroidal_distance(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Length of the shortest vector from b to a; shapes broadcast, the last axis is summed."""
+    """Length of the shortest vector from b to a on the torus.
+
+    Parameters
+    ----------
+    a, b : (..., d) float64
+        Points on the unit torus; shapes broadcast.
+
+    Returns
+    -------
+    (...) float64
+        Distances, at most sqrt(d)/2.
+    """
     distance: FloatArray = np.sqrt(np.sum(displacement(a, b) ** 2, axis=-1))
     return distance
 
 
 def spacing(n: int, d: int) -> float:
-    """Nominal grid spacing n**(-1/d), the unit of sigma and the inverse unit of nu."""
+    """Nominal grid spacing n**(-1/d), the unit of sigma and the inverse of the unit of frequency in nu.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+
+    Returns
+    -------
+    float
+        In box sides.
+    """
     return math.pow(n, -1.0 / d)
 
 
 def densest_spacing(n: int, d: int) -> float:
-    """Minimum distance of the densest known lattice: sqrt(gamma_d) n**(-1/d); nan for d > 8.
+    """Minimum distance of the densest known lattice: sqrt(gamma_d) n**(-1/d).
 
-    In 2D this is d_hex = sqrt(2 / (sqrt(3) n)), the unit of PSA's distances.
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+
+    Returns
+    -------
+    float
+        In box sides; nan for d > 8. In 2D it is d_hex = sqrt(2 / (sqrt(3) n)), the unit of PSA's distances.
     """
     if d > len(HERMITE):
         return math.nan

@@ -87,7 +87,15 @@ def cells(x: FloatArray, side: float = 1.0) -> tuple[list[FloatArray], NDArray[n
 
 
 def panel(ax: Axes, source: SourceResult) -> None:
-    """Colour the first realization's cells by valence; in other dimensions say that there is no picture."""
+    """Colour the first realization's cells by valence; in other dimensions say that there is no picture.
+
+    Parameters
+    ----------
+    ax : Axes
+        Axes to draw in.
+    source : SourceResult
+        One source of a comparison.
+    """
     if source.d != 2:
         style.empty(ax, "the picture of valence needs d = 2")
         return
@@ -120,7 +128,15 @@ def panel(ax: Axes, source: SourceResult) -> None:
 
 
 def histogram_panel(ax: Axes, source: SourceResult) -> None:
-    """Share of points of each degree, over all realizations."""
+    """Draw the share of points of each degree, over all realizations.
+
+    Parameters
+    ----------
+    ax : Axes
+        Axes to draw in.
+    source : SourceResult
+        One source of a comparison.
+    """
     if source.valence is None:
         style.empty(ax, f"no Delaunay valence for d = {source.d}")
         return
@@ -151,7 +167,20 @@ def histogram_panel(ax: Axes, source: SourceResult) -> None:
 
 @style.styled
 def figure(run: Run, group: style.Group | None = None) -> Figure:
-    """Cells coloured by valence over the histogram of all realizations, a pair a source."""
+    """Draw cells coloured by valence above the histogram of all realizations, one pair for each source.
+
+    Parameters
+    ----------
+    run : Run
+        A comparison.
+    group : Group, optional
+        The sources to draw; by default all.
+
+    Returns
+    -------
+    Figure
+        With its caption.
+    """
     sources = style.members(run, group)
     flat = any(source.d == 2 for source in sources)
     caption = "Share of points, in percent, with each number of Delaunay neighbours on the torus. "
