@@ -251,18 +251,18 @@ class _Scalars:
             return [mean_over_sets(np.array(each))]
 
         def psa() -> list[Estimate]:
-            found = spectral_statistics(self.points)
+            statistics = spectral_statistics(self.points)
             return [
                 (
-                    found.effective_nyquist,
-                    math.hypot(found.effective_nyquist_error, NYQUIST_STEP / math.sqrt(12)),
+                    statistics.effective_nyquist,
+                    math.hypot(statistics.effective_nyquist_error, NYQUIST_STEP / math.sqrt(12)),
                 ),
-                (found.oscillations, found.oscillations_error),
+                (statistics.oscillations, statistics.oscillations_error),
             ]
 
         def discrepancy() -> list[Estimate]:
-            found = discrepancies(self.points, ("WD", "L2-star"))
-            return [mean_over_sets(found["WD"]), mean_over_sets(found["L2-star"])]
+            each = discrepancies(self.points, ("WD", "L2-star"))
+            return [mean_over_sets(each["WD"]), mean_over_sets(each["L2-star"])]
 
         return [
             (("evacuated_energy",), energy),

@@ -157,7 +157,8 @@ def _tile(x: FloatArray, margin: float) -> tuple[FloatArray, IndexArray]:
     """Points and their images to margin; beyond one ring, all of two rings, the set itself first."""
     if margin <= 1:
         return with_images(x, margin)
-    return copies(x, sorted(itertools.product((0, 1, -1, 2, -2), repeat=x.shape[1]), key=any))
+    shifts = sorted(itertools.product((0, 1, -1, 2, -2), repeat=x.shape[1]), key=any)
+    return copies(x, shifts)
 
 
 def _inner_simplices(tiled: FloatArray, n: int) -> IndexArray | None:

@@ -60,8 +60,8 @@ def rdf(x: ArrayLike) -> RadialDistribution:
     Returns
     -------
     RadialDistribution
-        int(0.125 n) bins over 0..8 densest spacings, of which those that end at or below 1/2 are kept:
-        beyond, shells do not fit the torus.
+        int(0.125 n) bins over 0..8 densest spacings, without those that end beyond 1/2, whose shells do not
+        fit the torus.
 
     Raises
     ------

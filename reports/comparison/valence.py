@@ -66,19 +66,19 @@ def cells(x: FloatArray, side: float = 1.0) -> tuple[list[FloatArray], NDArray[n
         diagram = voronoi_diagram(tiled)
         if diagram is None:
             raise RefusalError("these points have no Voronoi diagram")
-        wanted = np.flatnonzero(np.all((tiled >= -near) & (tiled <= side + near), axis=1))
-        wanted = wanted[diagram.point_region[wanted] >= 0]  # the twin of a coincident point has no cell
-        regions = [diagram.regions[region] for region in diagram.point_region[wanted]]
+        near_box = np.flatnonzero(np.all((tiled >= -near) & (tiled <= side + near), axis=1))
+        near_box = near_box[diagram.point_region[near_box] >= 0]  # the twin of a coincident point has no cell
+        regions = [diagram.regions[region] for region in diagram.point_region[near_box]]
         drawn = np.array([len(region) >= 3 and -1 not in region for region in regions])
-        inside = np.all((tiled[wanted] >= 0) & (tiled[wanted] < side), axis=1)
-        kept = [region for region, good in zip(regions, drawn, strict=True) if good]
-        sides = np.array([len(region) for region in kept], dtype=np.intp)
+        inside = np.all((tiled[near_box] >= 0) & (tiled[near_box] < side), axis=1)
+        closed = [region for region, good in zip(regions, drawn, strict=True) if good]
+        sides = np.array([len(region) for region in closed], dtype=np.intp)
         start = np.concatenate([[0], np.cumsum(sides)[:-1]])
-        corners = diagram.vertices[np.concatenate([np.array(region) for region in kept])]
+        corners = diagram.vertices[np.concatenate([np.array(region) for region in closed])]
         following = np.arange(1, len(corners) + 1)
         following[start + sides - 1] = start
         edge = np.hypot(*(corners - corners[following]).T)
-        radius = np.hypot(*(corners - np.repeat(tiled[wanted[drawn]], sides, axis=0)).T)
+        radius = np.hypot(*(corners - np.repeat(tiled[near_box[drawn]], sides, axis=0)).T)
         bounding = np.repeat(inside[drawn], sides)  # corners of the cells whose points lie in the square
         if not np.any(inside & ~drawn) and overhang(corners[bounding], radius[bounding], side) <= margin:
             break

@@ -49,7 +49,7 @@ class Balls:
             )
 
     def refusal(self, d: int) -> str | None:
-        """Say why there are none in d dimensions, else None."""
+        """Return the reason why there are no such integrands in d dimensions, or None."""
         return beyond_dimensions("balls", d)
 
     def radius(self, d: int) -> float:
@@ -114,11 +114,11 @@ class Balls:
         check_share(share, self.refusal(d))
         radius = self.radius(d)
         volume = ball_volume(d, radius)
-        wanted, longest = (1 - share) * volume * (1 - volume), 4
+        target, longest = (1 - share) * volume * (1 - volume), 4
         while True:
             squares, counts = shells(d, longest)
-            kept = np.cumsum(counts[1:] * _shell_energy(d, np.sqrt(squares[1:]), radius))
-            if kept[-1] > wanted:
+            energy = np.cumsum(counts[1:] * _shell_energy(d, np.sqrt(squares[1:]), radius))
+            if energy[-1] > target:
                 break
             check_count(
                 f"even a ball that leaves out more than {share:g} of the energy",
@@ -127,7 +127,7 @@ class Balls:
                 most=most,
             )
             longest *= 2
-        last = int(np.searchsorted(kept, wanted, side="right"))
+        last = int(np.searchsorted(energy, target, side="right"))
         check_count(
             f"the ball that leaves out {share:g} of the energy", d, counts[1 : last + 2].sum() / 2, most=most
         )

@@ -61,7 +61,7 @@ class Gaussians:
             raise InputError(f"points of gaussians must be at least 1; got {self.points}")
 
     def refusal(self, d: int) -> str | None:
-        """Say why there are none in d dimensions, else None."""
+        """Return the reason why there are no such integrands in d dimensions, or None."""
         return beyond_dimensions("sums of Gaussians", d)
 
     def width(self, d: int) -> float:

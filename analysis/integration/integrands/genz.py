@@ -73,7 +73,7 @@ class Genz:
             )
 
     def refusal(self, d: int) -> str | None:
-        """Say why there are none in d dimensions, else None."""
+        """Return the reason why there are no such integrands in d dimensions, or None."""
         return beyond_dimensions("Genz' families", d)
 
     def draw(self, d: int, rng: np.random.Generator) -> GenzIntegrand:

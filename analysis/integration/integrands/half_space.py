@@ -28,7 +28,7 @@ class HalfSpaces:
     periodic: ClassVar[bool] = False
 
     def refusal(self, d: int) -> str | None:
-        """Say why there are none in d dimensions, else None."""
+        """Return the reason why there are no such integrands in d dimensions, or None."""
         return beyond_dimensions("half spaces", d)
 
     def draw(self, d: int, rng: np.random.Generator) -> HalfSpace:
@@ -80,7 +80,7 @@ class HalfSpace:
     Attributes
     ----------
     point, normal : (d,) float64
-        Of the plane; of any length but 0.
+        A point of the plane, and its normal of any length but 0.
     """
 
     point: FloatArray

@@ -60,7 +60,7 @@ class Korobov:
             raise InputError(f"weight of korobov must be positive; got {self.weight}")
 
     def refusal(self, d: int) -> str | None:
-        """Say why there are none in d dimensions, else None."""
+        """Return the reason why there are no such integrands in d dimensions, or None."""
         return beyond_dimensions("Korobov's functions", d)
 
     def draw(self, d: int, rng: np.random.Generator) -> KorobovProduct:

@@ -43,10 +43,10 @@ class Family(Protocol):
 
     name: ClassVar[str]
     summary: ClassVar[str]  # one line with its source
-    periodic: ClassVar[bool]  # whether its integrands are ``Periodic`` and ``frequencies`` may be asked for
+    periodic: ClassVar[bool]  # whether its integrands are ``Periodic``
 
     def refusal(self, d: int) -> str | None:
-        """Say why there is none in d dimensions, else None."""
+        """Return the reason why there are no such integrands in d dimensions, or None."""
         ...
 
     def draw(self, d: int, rng: np.random.Generator) -> Integrand:

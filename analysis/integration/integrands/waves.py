@@ -41,8 +41,8 @@ class Waves:
 
     Notes
     -----
-    Of points shifted at random on the torus, the variance of the estimate is exactly the sum of energy times
-    P(f) / n over these frequencies: nothing is cut off.
+    For points shifted at random on the torus, the variance of the estimate is exactly the sum of energy times
+    P(f) / n over these frequencies, since the integrand has no others.
     """
 
     name: ClassVar[str] = "waves"
@@ -62,7 +62,7 @@ class Waves:
         return max(1, math.floor((self.reach * math.pow(POINTS, 1 / d)) ** 2 * (1 + 1e-12)))
 
     def refusal(self, d: int) -> str | None:
-        """Say why there are none in d dimensions, else None."""
+        """Return the reason why there are no such integrands in d dimensions, or None."""
         if reason := beyond_dimensions("sums of waves", d):
             return reason
         try:
