@@ -10,13 +10,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gbnbench.analysis.spectrum.limits import FLOOR_NU
 from gbnbench.analysis.spectrum.shells import EDGE, in_band, squared_radius
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.results import RadialPower
 from gbnbench.core.torus import FloatArray
 
 TIE = 1e-9  # relative difference at or below which two powers count as equal
-FLOOR_NU = 0.25  # upper end of the noise floor
 FIT_BAND = (0.05, 0.6)
 FIT_SHELLS = 3  # fewest shells of a fit
 PEAK_BAND = (0.5, 2.0)
