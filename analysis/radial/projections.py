@@ -39,7 +39,8 @@ class Projection:
     noise_floor_error, power_at_1_error : float
         Standard errors over realizations; nan for a single one.
     peak, peak_nu : float
-        Largest mean power over rings, and its nu (``profile_measures.peak``); nan where the spectrum ends below nu = 1.
+        Largest mean power over rings, and its nu (``profile_measures.peak``); nan where the spectrum ends
+        below nu = 1.
     """
 
     axes: tuple[int, ...]
