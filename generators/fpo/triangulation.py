@@ -1,4 +1,4 @@
-"""Delaunay triangulation of points on the flat 2-torus, whole as half-edges or only its farthest point."""
+"""Delaunay triangulation on the flat 2-torus as half-edges, and the farthest point from a set."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from gbnbench.core.torus import FloatArray, wrap
 if TYPE_CHECKING:
     from scipy.spatial import Delaunay
 
-# As long as every circumradius is below this, triangles of the unit torus have distinct corners and distinct
+# If every circumradius is below this, triangles of the unit torus have distinct corners and distinct
 # edges (Caroli & Teillaud 2009), and corners are less than 1/2 apart, so that the nearest image is right.
 WIDEST = 0.25
 

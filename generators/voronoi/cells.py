@@ -66,12 +66,11 @@ def toroidal_cells(x: FloatArray, margin: float | None = None) -> Cells:
     InputError
         If two points coincide.
 
-    Notes
-    -----
-    The points are tiled by a border of their images. A cell is right if, for each of its vertices v at
-    distance r from its point, the ball of radius r about v stays inside the tiled box, for then no image left
-    out can be nearer to v. Where that fails the border is widened; a border of 1 needs no check (Dolbilin &
-    Huson 1997). A cell is cut in simplices with their apex at its point.
+    Notes ----- The points are surrounded by a border of their images. A cell is proven right if, for each of
+    its vertices v at distance r from its point, the ball of radius r about v stays inside the tiled box, for
+    then no image left out can be nearer to v (``gbnbench.core.periodic_delaunay``). Otherwise the border is
+    widened; a border of 1 needs no check (Dolbilin & Huson 1997). Cells are cut into simplices with their
+    apex at the point.
 
     References
     ----------
@@ -104,7 +103,7 @@ def toroidal_cells(x: FloatArray, margin: float | None = None) -> Cells:
 
 
 def _intervals(x: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
-    """In 1D a cell is two segments, from its point to either midpoint."""
+    """Cut cells in 1D into two segments each, from the point to either midpoint."""
     order = np.argsort(x[:, 0])
     half = np.diff(x[order, 0], append=x[order[0], 0] + 1) / 2
     if not (half > 0).all():
@@ -113,7 +112,7 @@ def _intervals(x: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
 
 
 def _triangles(x: FloatArray, margin: float) -> tuple[NDArray[np.intp], FloatArray] | None:
-    """In 2D a triangle for each side, which joins the circumcentres left and right of a Delaunay edge."""
+    """Cut cells in 2D into a triangle for each side, which joins the circumcentres beside a Delaunay edge."""
     tiled, _ = with_images(x, margin)
     mesh = triangulation(tiled)
     if mesh is None:
@@ -132,7 +131,7 @@ def _triangles(x: FloatArray, margin: float) -> tuple[NDArray[np.intp], FloatArr
 
 
 def _tetrahedra(x: FloatArray, margin: float) -> tuple[NDArray[np.intp], FloatArray] | None:
-    """In 3D a fan of tetrahedra over each face, the same for the points on both its sides."""
+    """Cut cells in 3D into a fan of tetrahedra over each face, the same for the points on both its sides."""
     tiled, _ = with_images(x, margin)
     diagram = voronoi_diagram(tiled)
     if diagram is None:
@@ -158,17 +157,17 @@ def _tetrahedra(x: FloatArray, margin: float) -> tuple[NDArray[np.intp], FloatAr
 
 
 def _moments(x: FloatArray, site: NDArray[np.intp], rays: FloatArray) -> Cells:
-    """Sum simplices with their apex at the points.
+    """Volumes, centroids and energies of cells from the simplices they were cut into.
 
     Parameters
     ----------
     x : (n, d) float64
         The points.
     site : (m,) intp
-        The point each simplex belongs to.
+        Index of the point at the apex of each simplex.
     rays : (m, d, d) float64
-        Its other corners, from the point. In 2D they run counterclockwise, so that a side whose Delaunay edge
-        does not cross it counts right too.
+        Other corners of each simplex, from its apex. In 2D they run counterclockwise, so that a side whose
+        Delaunay edge does not cross it counts right too.
     """
     n, d = x.shape
     volume: FloatArray = np.linalg.det(rays) / math.factorial(d)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from gbnbench.analysis.integration.estimator import estimate_errors
-from tests.analysis.integration.cosines import CosineFamily
+from tests.analysis.integration.band_limited import CosineFamily
 
 
 def test_errors_are_means_less_the_integral():

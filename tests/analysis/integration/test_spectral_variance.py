@@ -11,7 +11,7 @@ from gbnbench.analysis.integration.variance import crossed_mean, variance_of
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import wrap
 from gbnbench.generators.registry import generate
-from tests.analysis.integration.cosines import CosineFamily
+from tests.analysis.integration.band_limited import CosineFamily
 
 
 @pytest.mark.parametrize("d", [1, 2, 3])
