@@ -66,8 +66,10 @@ def toroidal_cells(x: FloatArray, margin: float | None = None) -> Cells:
     InputError
         If two points coincide.
 
-    Notes ----- The points are surrounded by a border of their images. A cell is proven right if, for each of
-    its vertices v at distance r from its point, the ball of radius r about v stays inside the tiled box, for
+    Notes
+    -----
+    The points are surrounded by a border of their images. A cell is proven right if, for each of its
+    vertices v at distance r from its point, the ball of radius r about v stays inside the tiled box, for
     then no image left out can be nearer to v (``gbnbench.core.periodic_delaunay``). Otherwise the border is
     widened; a border of 1 needs no check (Dolbilin & Huson 1997). Cells are cut into simplices with their
     apex at the point.
