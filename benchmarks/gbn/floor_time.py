@@ -14,10 +14,11 @@ import numpy as np
 import pandas as pd
 
 from gbnbench.analysis.precision import PrecisionName
-from gbnbench.analysis.radial.profile import noise_floor, peak, power_at_1
+from gbnbench.analysis.radial.profile_measures import noise_floor, peak, power_at_1
 from gbnbench.analysis.radial.radial_power import radial
 from gbnbench.analysis.spatial.bond_order import psi6
-from gbnbench.analysis.spatial.delaunay import neighbours, valence6
+from gbnbench.analysis.spatial.delaunay import neighbours
+from gbnbench.analysis.spatial.valence import valence6
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.benchmarks.gbn.cutoffs import FORCES, forces
 from gbnbench.benchmarks.gbn.floor_cases import SIGMA, Case, Curve, Plan

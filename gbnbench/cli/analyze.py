@@ -127,7 +127,7 @@ def _explain(files: tuple[Path, ...]) -> None:
 
 def _table(rows: list[tuple[Path, int, int, int, Measures]]) -> None:
     """Print aligned columns: wide, so that each set keeps its line."""
-    from gbnbench.analysis.catalogue import BY_NAME
+    from gbnbench.analysis.measure_definitions import BY_NAME
 
     heads = ["file", "set", "n", "d", *(BY_NAME[name].title for name in rows[0][4])]
     cells = [heads]

@@ -1,4 +1,4 @@
-"""The OpenCL devices of this machine, and the one that does the work."""
+"""OpenCL devices that are present, and the choice of one by the user's selector."""
 
 from __future__ import annotations
 
@@ -35,11 +35,11 @@ class Device:
     Attributes
     ----------
     index : int
-        Position in ``devices()``; a selector.
+        Position in ``devices()``, by which the user may select it.
     name, platform, platform_version, version, driver : str
         As the runtime reports them; the platform version tells two PoCLs apart.
     is_cpu, has_double : bool
-        Kind, and whether it computes in double.
+        Whether it is a CPU, and whether it computes in double precision.
     compute_units : int
         Cores or multiprocessors.
     position : (int, int)
@@ -64,7 +64,7 @@ class Device:
 
     @property
     def fingerprint(self) -> str:
-        """Short digest of device, driver and version: what was learnt of one holds only for it."""
+        """Short digest of device, driver and version, under which measurements of the device are cached."""
         text = "|".join((self.platform, self.platform_version, self.name, self.version, self.driver))
         return hashlib.sha256(text.encode()).hexdigest()[:16]
 

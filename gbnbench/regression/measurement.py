@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from gbnbench.analysis.catalogue import CATALOGUE
+from gbnbench.analysis.measure_definitions import DEFINITIONS
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
 from gbnbench.regression.cases import Case, Values
@@ -16,7 +16,7 @@ BITS = 24  # of a fixed point's coordinates, so that float holds them exactly
 PERIODS = 3  # of a lattice's spectrum
 
 NAMES: dict[str, tuple[str, ...]] = {
-    "sets": tuple(definition.name for definition in CATALOGUE),
+    "sets": tuple(definition.name for definition in DEFINITIONS),
     "field": ("excess", "gradient", "gradient_norm"),
     "lattice": ("off_harmonics", "on_harmonics"),
 }
