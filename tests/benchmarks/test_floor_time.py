@@ -36,7 +36,7 @@ from gbnbench.execution.progress import Progress
 from gbnbench.generators.gbn.energy import field
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.protocol import realization_rng
-from tests.oracles import direct_power
+from tests.oracles.power import direct_power
 
 COMMAND = [sys.executable, "-m", "gbnbench", "bench", "gbn"]
 

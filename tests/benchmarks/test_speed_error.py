@@ -22,7 +22,7 @@ from gbnbench.benchmarks.timing import machine
 from gbnbench.benchmarks.timing.interleaved import Timing, interleave, timed
 from gbnbench.benchmarks.timing.machine import Rows
 from gbnbench.benchmarks.timing.threads import _libraries, one_blas_thread
-from tests.oracles import direct_power
+from tests.oracles.power import direct_power
 
 COMMAND = [sys.executable, "-m", "gbnbench", "bench", "periodogram"]
 

@@ -8,7 +8,7 @@ import pytest
 from gbnbench.core import cache_folder
 from gbnbench.core.errors import DeviceError
 from gbnbench.doctor import kernel_checks
-from tests.oracles import direct_power
+from tests.oracles.power import direct_power
 
 
 def test_its_numpy_twins_are_right_themselves():

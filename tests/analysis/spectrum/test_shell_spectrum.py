@@ -20,7 +20,7 @@ from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.request import shell_request
 from gbnbench.analysis.spectrum.shell_spectrum import shells
 from gbnbench.core.errors import InputError
-from tests.analysis.spectrum.exact_sums import lattice_of, mean_power, on_grid
+from tests.oracles.power import lattice_of, mean_power, on_grid
 
 
 def of_cube(spectrum, low, high):

@@ -19,7 +19,7 @@ from gbnbench.analysis.spectrum.evaluators.gridded_product import (
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.core.errors import InputError
 from gbnbench.opencl import Runtime
-from tests.oracles import direct_power
+from tests.oracles.power import direct_power
 
 UNIT = {"double": 2.0**-53, "float": 2.0**-24}
 
