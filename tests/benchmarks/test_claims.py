@@ -133,6 +133,7 @@ def test_exponents_of_times():
     assert error == pytest.approx(0, abs=1e-7)
 
 
+@pytest.mark.slow
 def test_claims_of_sets_at_a_small_share():
     sets = Sets(share=0.02)
     rows = {row.row: row for row in convergence.repeated(sets)}

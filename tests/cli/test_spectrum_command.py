@@ -229,6 +229,7 @@ def test_analyze_explains_each_size_in_each_file(said: Said, capsys: pytest.Capt
     assert run(["analyze", "--explain", "--json", "a.txt"]) == 2
 
 
+@pytest.mark.slow
 def test_pictures(said: Said) -> None:
     save("one.csv", np.random.default_rng(3).random((9, 1)))
     lattice = np.stack(np.meshgrid(*[np.arange(8) / 8] * 2), axis=-1).reshape(-1, 2)

@@ -7,11 +7,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from gbnbench import generate
 from gbnbench.analysis.spatial.delaunay import Neighbours, neighbours, valence, valence6
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import wrap
+from tests.oracles.lattices import grid, hexagonal
 from tests.oracles.neighbours import by_empty_circles, by_voronoi, rounded
-from tests.published_sets import grid, hexagonal, published
+from tests.published_sets import published
 
 
 def by_point(made: Neighbours) -> list[list[tuple[float, ...]]]:
@@ -150,6 +152,8 @@ def test_neighbours_do_not_know_the_origin_or_the_order(seed: int, n: int, d: in
         )
 
 
-def test_authors_set_is_mostly_six_valent() -> None:
-    share = valence6(published("gbn-1024/official-10k-f32-1.txt"))
+@pytest.mark.parametrize("made_by", ["the authors' program", "our generator"])
+def test_gaussian_blue_noise_is_mostly_six_valent(made_by: str) -> None:
+    ours = made_by == "our generator"
+    share = valence6(generate("gbn", n=1024) if ours else published("gbn-1024/official-10k-f32-1.txt"))
     assert 0.5 < share[0] < 0.7

@@ -96,6 +96,7 @@ def test_the_form_for_gpus_agrees(monkeypatch, precision):
     assert at.excess[0] == pytest.approx(excess, abs=ALLOWED[precision])
 
 
+@pytest.mark.slow
 def test_a_million_points_give_what_their_neighbours_say():
     """On a jittered million, ten points and their neighbours by distance, in long double."""
     side, d = 1000, 2

@@ -45,6 +45,7 @@ def assert_drawn(content: bytes) -> None:
     assert 0.001 < np.mean(np.any(picture < 0.98, axis=-1)) < 0.95
 
 
+@pytest.mark.slow
 def test_files_are_whole_named_and_repeatable(tmp_path: Path) -> None:
     run = samples.small_run()
     paths = write_figures(run, tmp_path / "figures")

@@ -23,6 +23,8 @@ from gbnbench.reports.paper.figure import Ask, compose
 from gbnbench.reports.paper.registry import find
 from tests.oracles.power import mean_power
 
+pytestmark = pytest.mark.slow
+
 NAMES = ("3", "4", "6", "7", "13", "depth")
 
 
