@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import os
-import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -20,6 +17,7 @@ from gbnbench.core.errors import InputError
 from gbnbench.core.results import resolvable_power
 from gbnbench.opencl import runtime
 from tests.oracles.power import mean_power, on_grid, root_distance
+from tests.processes import NO_DEVICE, python
 
 FLOORS = tuple(10.0**-k for k in range(0, 30, 2))
 EXACT = ("two-group product", "gridded product")
@@ -261,14 +259,7 @@ print(json.dumps({
 
 
 def test_without_a_device_numpy_finds_the_same():
-    done = subprocess.run(
-        [sys.executable, "-c", WITHOUT_DEVICE],
-        env={**os.environ, "OCL_ICD_VENDORS": "/nonexistent"},
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=False,
-    )
+    done = python(WITHOUT_DEVICE, **NO_DEVICE)
     assert done.returncode == 0, done.stderr
     got = json.loads(done.stdout)
     x = np.random.default_rng(1).integers(0, 2**53, (2, 60, 3)) / 2.0**53
