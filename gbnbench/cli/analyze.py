@@ -84,7 +84,7 @@ def _tables(x: FloatArray, projections: str | None, box: bool) -> dict[str, pd.D
     n, d = x.shape
     tables: dict[str, pd.DataFrame] = {}
     if projections is not None:
-        from gbnbench.analysis.spectrum import projections as projected
+        from gbnbench.analysis.radial import projections as projected
         from gbnbench.generators.gbn.projective import subsets
 
         found = projected.frame(projected.projections(x, subsets(projections, d)))

@@ -14,7 +14,8 @@ from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.plan import plan
 from gbnbench.core.errors import DeviceError, InputError
 from gbnbench.opencl import Runtime, runtime
-from tests.analysis.spectrum.exact_sums import gpu_form
+from tests.devices import gpu_form
+from tests.oracles.power import direct_power, lattice_of, root_distance
 
 
 @pytest.fixture
@@ -89,10 +90,8 @@ def test_a_device_without_double_computes_in_float(without_double):
     x = np.random.default_rng(2).integers(0, 2**32, (300, 2)) / 2.0**32
     got = periodogram(x, 6, "float")
     assert got.device == without_double.label
-    f = np.indices((13, 13)).reshape(2, -1).T - 6
-    amplitude = np.exp(-2j * np.pi * (x @ f.T)).sum(axis=0)
-    met = np.sqrt(got.power.ravel()) - np.abs(amplitude) / np.sqrt(300)
-    assert np.abs(met).max() <= got.error_bound
+    f = lattice_of(6, 2)
+    assert root_distance(got.power.ravel(), direct_power(x, f)).max() <= got.error_bound
     assert periodogram(x, 6, floor=1e-6).precision == "float"
     with pytest.raises(InputError, match="out of reach"):
         periodogram(x, 6, floor=1e-22)

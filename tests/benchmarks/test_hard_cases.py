@@ -12,6 +12,8 @@ from gbnbench.benchmarks.spectra.hard_cases import FAR, GRID, MOST, SHALLOW, har
 from gbnbench.benchmarks.spectra.hard_table import SLACK, TYPICAL, evaluate, judged, markdown, resolvable
 from gbnbench.benchmarks.spectra.reference import reference_roots
 
+pytestmark = pytest.mark.slow
+
 CASES = {f"{c.name}, n={c.n} d={c.d} F={c.reach}": c for c in hard_cases()}
 
 

@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import os
-import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -20,7 +17,8 @@ from gbnbench.analysis.spectrum.shell_spectrum import shells
 from gbnbench.core.errors import InputError
 from gbnbench.core.results import resolvable_power
 from gbnbench.opencl import runtime
-from tests.analysis.spectrum.exact_sums import distance, mean_power, on_grid
+from tests.oracles.power import mean_power, on_grid, root_distance
+from tests.processes import NO_DEVICE, python
 
 FLOORS = tuple(10.0**-k for k in range(0, 30, 2))
 EXACT = ("product", "gridded")
@@ -113,7 +111,7 @@ def test_what_is_chosen_has_the_error_that_the_floor_allows(name, floor):
     f = np.random.default_rng(n).integers(-fmax, fmax + 1, (100, d))
     f = f[f.any(axis=1)]
     cube = spectrum.whole().power
-    met = distance(cube[tuple((f + fmax).T)], mean_power(x[None], f))
+    met = root_distance(cube[tuple((f + fmax).T)], mean_power(x[None], f))
     assert np.sqrt(np.mean(met**2)) <= 1.3 * rms_for(floor)
     assert spectrum.resolvable <= floor * (1 + 1e-6)
 
@@ -172,7 +170,7 @@ def test_a_method_by_name_is_taken_or_refused_in_words(method, precision):
     spectrum = periodogram(x, 20, precision, method=method)
     assert spectrum.method == method
     assert spectrum.precision == precision
-    met = distance(spectrum.power[tuple((f + 20).T)], mean_power(x[None], f))
+    met = root_distance(spectrum.power[tuple((f + 20).T)], mean_power(x[None], f))
     assert met.max() <= spectrum.error_bound
 
 
@@ -262,14 +260,7 @@ print(json.dumps({
 
 
 def test_without_a_device_numpy_finds_the_same():
-    done = subprocess.run(
-        [sys.executable, "-c", WITHOUT_DEVICE],
-        env={**os.environ, "OCL_ICD_VENDORS": "/nonexistent"},
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=False,
-    )
+    done = python(WITHOUT_DEVICE, **NO_DEVICE)
     assert done.returncode == 0, done.stderr
     got = json.loads(done.stdout)
     x = np.random.default_rng(1).integers(0, 2**53, (2, 60, 3)) / 2.0**53
@@ -285,7 +276,7 @@ def test_without_a_device_numpy_finds_the_same():
     assert np.allclose(np.sqrt(cube), np.sqrt(ours.power), atol=1e-14)
     assert np.allclose(np.sqrt(got["half"]), np.sqrt(periodogram(x, 3).power[3:]), atol=1e-14)
     assert np.allclose(np.sqrt(got["single"]), np.sqrt(periodogram(x, 3).power), atol=1e-5)
-    assert distance(np.array(got["listed"]), mean_power(x, f, w)).max() <= got["errors"][2][1]
+    assert root_distance(np.array(got["listed"]), mean_power(x, f, w)).max() <= got["errors"][2][1]
     s = shells(x, 3, weights=w)
     count, power, deviation = got["shells"]
     assert count == s.count.tolist()

@@ -16,7 +16,7 @@ from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.plan import plan
 from gbnbench.analysis.spectrum.shell_spectrum import shells
 from gbnbench.core.errors import InputError
-from tests.oracles import direct_power
+from tests.oracles.power import direct_power
 
 
 @dataclass(frozen=True)

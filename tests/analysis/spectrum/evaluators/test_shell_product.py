@@ -21,7 +21,8 @@ from gbnbench.analysis.spectrum.shell_spectrum import shells
 from gbnbench.analysis.spectrum.sorted_groups import count_pairs, sorted_group, two_sorted_groups
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.opencl import runtime
-from tests.analysis.spectrum.exact_sums import gpu_form, lattice_of, mean_power, on_grid
+from tests.devices import gpu_form
+from tests.oracles.power import lattice_of, mean_power, on_grid
 
 FORMS = {
     "double": lambda: precision_of("double"),
