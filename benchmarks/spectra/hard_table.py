@@ -19,9 +19,9 @@ from gbnbench.analysis.spectrum.evaluators.evaluation import DIRECT, GRIDDED, NU
 from gbnbench.analysis.spectrum.evaluators.gridded_product import griddable
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.benchmarks.spectra.hard_cases import Frequencies, HardCase, hard_cases
+from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.results import Spectrum, resolvable_power
 from gbnbench.core.torus import FloatArray
-from gbnbench.io.atomic import write_whole
 from gbnbench.opencl import runtime
 
 PRECISIONS = ("double", "float")
