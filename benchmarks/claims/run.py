@@ -22,9 +22,9 @@ from gbnbench.benchmarks.claims.claim import COLUMNS, Claim
 from gbnbench.benchmarks.claims.registry import CLAIMS
 from gbnbench.benchmarks.claims.sets import MissingError, Sets
 from gbnbench.benchmarks.timing.machine import describe
+from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.errors import InputError
 from gbnbench.execution.worker_pool import ONE_THREAD
-from gbnbench.io.atomic import write_whole
 
 Table = dict[str, list[dict[str, str]]]
 

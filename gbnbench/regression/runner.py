@@ -23,7 +23,7 @@ ROUNDING = 1e-9  # relative spread below which seeds do not matter
 
 
 @dataclass(frozen=True)
-class Change:
+class ExpectationChange:
     """An expectation before and after an update."""
 
     case: str
@@ -77,7 +77,7 @@ def check(cases: Sequence[Case], *, jobs: int = 1, progress: Progress | None = N
 
 def update(
     cases: Sequence[Case], seeds: int, *, jobs: int = 1, progress: Progress | None = None
-) -> tuple[tuple[Case, ...], tuple[Change, ...]]:
+) -> tuple[tuple[Case, ...], tuple[ExpectationChange, ...]]:
     """Measure anew what cases expect, over several seeds; what has a reference stays.
 
     Parameters
@@ -93,7 +93,7 @@ def update(
     -------
     cases : tuple of Case
         With new values, spreads and tolerances.
-    changes : tuple of Change
+    changes : tuple of ExpectationChange
         Every expectation that was measured, in order.
 
     Raises
@@ -124,7 +124,7 @@ def update(
                 continue
             values = [found[case.name][case.seed + k][measure] for k in range(seeds)]
             renewed[measure] = expect(f"{case.name}: {title(measure)}", expectation, values)
-            changes.append(Change(case.name, measure, expectation, renewed[measure]))
+            changes.append(ExpectationChange(case.name, measure, expectation, renewed[measure]))
         made.append(replace(case, measures=renewed))
     return tuple(made), tuple(changes)
 

@@ -14,16 +14,16 @@ from typing import Any
 import numpy as np
 
 from gbnbench.analysis.measure_definitions import BY_NAME, DEFINITIONS
+from gbnbench.core import atomic_write
 from gbnbench.core.errors import FormatError, InputError
 from gbnbench.core.torus import FloatArray
-from gbnbench.io import atomic
 from gbnbench.runs import source_files
 from gbnbench.runs.comparison_result import Run, SourceResult
-from gbnbench.runs.resumable_folder import FORMAT, MANIFEST, SETTINGS, KeptFolder, read_json
+from gbnbench.runs.resumable_folder import FORMAT, MANIFEST, SETTINGS, ResumableFolder, read_json
 
 
 @dataclass(frozen=True)
-class Part:
+class Realization:
     """One generated realization.
 
     Attributes
@@ -41,27 +41,27 @@ class Part:
     first: bool
 
 
-class RunFolder(KeptFolder):
+class ComparisonFolder(ResumableFolder):
     """One comparison on disk."""
 
     kind = "run"
 
-    def write_part(self, key: str, k: int, part: Part) -> None:
+    def write_realization(self, key: str, k: int, part: Realization) -> None:
         """Keep realization k of a source."""
         cost = {"cpu_seconds": np.asarray(part.cpu_seconds), "first": np.asarray(part.first)}
-        atomic.write_whole(self._part(key, k), source_files.to_npz(points=part.x, **cost))
+        atomic_write.write_whole(self._part(key, k), source_files.to_npz(points=part.x, **cost))
 
-    def read_part(self, key: str, k: int) -> Part | None:
+    def read_realization(self, key: str, k: int) -> Realization | None:
         """Realization k of a source, None where it has still to be made."""
         try:
             arrays = source_files.reading(self._part(key, k), source_files.read_npz)
-            return Part(arrays["points"], float(arrays["cpu_seconds"]), bool(arrays["first"]))
+            return Realization(arrays["points"], float(arrays["cpu_seconds"]), bool(arrays["first"]))
         except (FormatError, KeyError):  # absent, or spoilt after it was written: made again
             return None
 
     def write_source(self, result: SourceResult) -> None:
         """Keep everything of one source; its parts are then no longer needed."""
-        atomic.write_folder_whole(self.path / "sources" / result.key, source_files.encode(result))
+        atomic_write.write_folder_whole(self.path / "sources" / result.key, source_files.encode(result))
         shutil.rmtree(self.path / "parts" / result.key, ignore_errors=True)
 
     def read_source(self, key: str) -> SourceResult | None:
@@ -74,7 +74,7 @@ class RunFolder(KeptFolder):
     def write_tables(self, run: Run) -> None:
         """Write ``measures.csv`` (a row a source and measure) and ``table.csv`` (a row a source)."""
         for name, rows in (("measures.csv", long_table(run)), ("table.csv", wide_table(run))):
-            atomic.write_whole(self.path / name, _csv(rows))
+            atomic_write.write_whole(self.path / name, _csv(rows))
 
     def finish(self, manifest: Mapping[str, Any]) -> None:
         """Declare it whole: checksums of the data, and the manifest as the very last file."""

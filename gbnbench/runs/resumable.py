@@ -8,20 +8,20 @@ from typing import Any
 
 from numpy.typing import NDArray
 
+from gbnbench.core import atomic_write
 from gbnbench.core.errors import DeviceError, FormatError, UnfinishedError
 from gbnbench.execution.progress import Progress
 from gbnbench.execution.worker_pool import Pool
 from gbnbench.execution.worker_tasks import prove_device
-from gbnbench.io import atomic
 from gbnbench.runs import source_files
-from gbnbench.runs.resumable_folder import KeptFolder
+from gbnbench.runs.resumable_folder import ResumableFolder
 
 FOLDER = "pieces"
 Arrays = Mapping[str, NDArray[Any]]
 
 
 @dataclass(frozen=True)
-class Piece:
+class Task:
     """One call in a worker.
 
     Attributes
@@ -42,12 +42,12 @@ class Piece:
     arguments: tuple[Any, ...] = ()
 
 
-class PieceFolder(KeptFolder):
+class TaskFolder(ResumableFolder):
     """A folder that keeps pieces as ``pieces/KEY.npz``."""
 
     def write(self, key: str, arrays: Arrays) -> None:
         """Keep a piece."""
-        atomic.write_whole(self.path / FOLDER / f"{key}.npz", source_files.to_npz(**arrays))
+        atomic_write.write_whole(self.path / FOLDER / f"{key}.npz", source_files.to_npz(**arrays))
 
     def read(self, key: str) -> dict[str, NDArray[Any]] | None:
         """Return a piece; None where it is absent, or was spoilt and has to be made again."""
@@ -57,14 +57,14 @@ class PieceFolder(KeptFolder):
             return None
 
 
-def carry_out(folder: PieceFolder, pieces: Sequence[Piece], jobs: int, progress: Progress) -> int:
+def run_tasks(folder: TaskFolder, pieces: Sequence[Task], jobs: int, progress: Progress) -> int:
     """Do the pieces that the folder lacks.
 
     Parameters
     ----------
-    folder : PieceFolder
+    folder : TaskFolder
         Open for work.
-    pieces : sequence of Piece
+    pieces : sequence of Task
         All of them; the longest first leaves the least idle at the end.
     jobs : int
         Most worker processes, each with one thread.

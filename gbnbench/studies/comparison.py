@@ -21,7 +21,7 @@ from gbnbench.runs import comparison_folder
 from gbnbench.runs.baseline import Change, judge
 from gbnbench.runs.comparison_result import Run, SourceResult
 from gbnbench.runs.provenance import versions
-from gbnbench.runs.resumable_folder import said_where
+from gbnbench.runs.resumable_folder import explain_interruption
 from gbnbench.runs.sources import Source
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Outcome:
+class ComparisonOutcome:
     """What one call of ``compare`` came to.
 
     Attributes
@@ -62,7 +62,7 @@ class Outcome:
         return any(change.verdict == "worse" for change in self.changes)
 
 
-def compare(
+def run_comparison(
     sources: Sequence[Source],
     folder: Path | None = None,
     *,
@@ -73,7 +73,7 @@ def compare(
     skipped: Sequence[str] = (),
     progress: Progress | None = None,
     draw: Callable[[Run, Path], None] | None = None,
-) -> Outcome:
+) -> ComparisonOutcome:
     """Make and measure every source, in a run folder that the same call can resume.
 
     Parameters
@@ -99,7 +99,7 @@ def compare(
 
     Returns
     -------
-    Outcome
+    ComparisonOutcome
         With the run as it was written.
 
     Raises
@@ -129,14 +129,18 @@ def compare(
         "device": device,
         "sources": [source.identity() for source in sources],
     }
-    keeper = comparison_folder.RunFolder(folder or comparison_folder.default_folder(settings), settings)
+    keeper = comparison_folder.ComparisonFolder(
+        folder or comparison_folder.default_folder(settings), settings
+    )
     pieces = sum(_pieces(source) for source in sources)
-    with keeper.lock(), said_where(keeper.path):
+    with keeper.lock(), explain_interruption(keeper.path):
         if keeper.whole:
             run = comparison_folder.read_run(keeper.path)
             changes, notes = ((), ()) if earlier is None else judge(run, earlier)
             if run.verdicts == _verdicts(changes):
-                return Outcome(run, keeper.path, changes, notes, pieces, pieces, time.monotonic() - began)
+                return ComparisonOutcome(
+                    run, keeper.path, changes, notes, pieces, pieces, time.monotonic() - began
+                )
         keeper.begin()
         results, reused = _work(keeper, sources, seed, jobs or os.cpu_count() or 1, progress)
         run = Run({}, tuple(results[source.key] for source in sources))
@@ -169,7 +173,7 @@ def compare(
             progress.advance("drawing", 0)
             draw(run, keeper.path)
         keeper.finish(manifest)
-    return Outcome(run, keeper.path, changes, notes, reused, pieces, time.monotonic() - began)
+    return ComparisonOutcome(run, keeper.path, changes, notes, reused, pieces, time.monotonic() - began)
 
 
 def _require_common(sources: Sequence[Source], earlier: Run, baseline: Path | None) -> None:
@@ -189,7 +193,11 @@ def _pieces(source: Source) -> int:
 
 
 def _work(
-    keeper: comparison_folder.RunFolder, sources: Sequence[Source], seed: int, jobs: int, progress: Progress
+    keeper: comparison_folder.ComparisonFolder,
+    sources: Sequence[Source],
+    seed: int,
+    jobs: int,
+    progress: Progress,
 ) -> tuple[dict[str, SourceResult], int]:
     """Do what the folder does not hold yet; return all results and how many pieces were there."""
     results: dict[str, SourceResult] = {}
@@ -202,7 +210,7 @@ def _work(
             missing[source.key] = []
         else:
             missing[source.key] = [
-                k for k in range(source.realizations) if keeper.read_part(source.key, k) is None
+                k for k in range(source.realizations) if keeper.read_realization(source.key, k) is None
             ]
     by_key = {source.key: source for source in sources if source.key in missing}
     steps = sum(len(lacking) + 1 for lacking in missing.values())
@@ -236,7 +244,7 @@ def _work(
                 keeper.write_source(results[key])
                 progress.advance(f"measured {source.label}, n={source.n}, d={source.d}")
             else:
-                keeper.write_part(key, k, comparison_folder.Part(*done.value))
+                keeper.write_realization(key, k, comparison_folder.Realization(*done.value))
                 missing[key].remove(k)
                 progress.advance(f"made {source.label}, n={source.n}, d={source.d}")
                 if not missing[key]:
@@ -254,18 +262,18 @@ def _describe(source: Source, k: int | None, done: Finished) -> str:
     return f"{source.label} (n={source.n}, d={source.d}), {what}: {done.failure}"
 
 
-def _parts(keeper: comparison_folder.RunFolder, source: Source) -> list[comparison_folder.Part]:
-    parts = [keeper.read_part(source.key, k) for k in range(source.realizations)]
+def _parts(keeper: comparison_folder.ComparisonFolder, source: Source) -> list[comparison_folder.Realization]:
+    parts = [keeper.read_realization(source.key, k) for k in range(source.realizations)]
     return [part for part in parts if part is not None]
 
 
-def _sets(keeper: comparison_folder.RunFolder, source: Source) -> FloatArray:
+def _sets(keeper: comparison_folder.ComparisonFolder, source: Source) -> FloatArray:
     if source.sets is not None:
         return source.sets
     return np.stack([part.x for part in _parts(keeper, source)])
 
 
-def _result(keeper: comparison_folder.RunFolder, source: Source, analysis: Analysis) -> SourceResult:
+def _result(keeper: comparison_folder.ComparisonFolder, source: Source, analysis: Analysis) -> SourceResult:
     return SourceResult(
         key=source.key,
         label=source.label,
@@ -285,7 +293,7 @@ def _result(keeper: comparison_folder.RunFolder, source: Source, analysis: Analy
     )
 
 
-def _cpu_seconds(parts: Sequence[comparison_folder.Part]) -> float:
+def _cpu_seconds(parts: Sequence[comparison_folder.Realization]) -> float:
     """Mean cost of a set, without each worker's first where there are others: set-up is not the method's."""
     warm = [part.cpu_seconds for part in parts if not part.first]
     return float(np.mean(warm or [part.cpu_seconds for part in parts]))

@@ -12,9 +12,9 @@ from gbnbench.analysis.integration.integrands.protocol import Family
 from gbnbench.analysis.integration.variance import crossed_mean, slope_of, variance_of
 from gbnbench.core.settings import specification
 from gbnbench.core.torus import FloatArray
-from gbnbench.runs.resumable import PieceFolder
+from gbnbench.runs.resumable import TaskFolder
 from gbnbench.runs.sources import Source
-from gbnbench.studies.integration.blocks import blocks, piece_key
+from gbnbench.studies.integration.blocks import blocks, task_key
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -39,10 +39,10 @@ class Gathered:
     beyond: float
 
 
-def gather(keeper: PieceFolder, source: Source, family: Family) -> Gathered:
+def gather(keeper: TaskFolder, source: Source, family: Family) -> Gathered:
     """All blocks of one source and family."""
     text = specification(family)
-    pieces = [keeper.read(piece_key(source, first)) or {} for first, _ in blocks(source)]
+    pieces = [keeper.read(task_key(source, first)) or {} for first, _ in blocks(source)]
     errors = np.concatenate([piece[f"{text} errors"] for piece in pieces], axis=1)
     if f"{text} foretold" not in pieces[0]:
         return Gathered(errors, None, float("nan"))
@@ -71,7 +71,7 @@ def tables(
     Returns
     -------
     variance, slopes : DataFrame
-        As ``gbnbench.studies.integration.study.Integration`` has them.
+        As ``gbnbench.studies.integration.study.IntegrationStudy`` has them.
     """
     import pandas as pd
 

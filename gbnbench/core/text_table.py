@@ -8,7 +8,7 @@ from typing import Any
 
 def number(value: Any) -> str:
     """Three significant digits."""
-    from gbnbench.reports.numbers import number
+    from gbnbench.core.number_text import number
 
     return number(float(value))
 
