@@ -1,4 +1,4 @@
-"""The sources of a study as Python gives them: names, paths, arrays and generators, alone, listed or by name."""
+"""The sources of a study in Python: names, paths, arrays and generators, alone, listed or with labels."""
 
 from __future__ import annotations
 
@@ -78,11 +78,8 @@ def _source(item: SourceLike, label: str) -> str | Path | Generator | Source:
 
 def _is_one(given: object) -> bool:
     """Whether this is one source, not a collection of them."""
-    return (
-        isinstance(given, (str, Path, Source))
-        or hasattr(given, "__array__")
-        or not isinstance(given, Iterable)
-    )
+    one = isinstance(given, (str, Path, Source)) or hasattr(given, "__array__")
+    return one or not isinstance(given, Iterable)
 
 
 def _is_array(item: object) -> bool:

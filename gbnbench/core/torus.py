@@ -57,7 +57,7 @@ def check_points(x: ArrayLike) -> FloatArray:
         where = tuple(int(i) for i in np.argwhere(~inside)[0])
         raise InputError(
             f"points must lie in [0, 1); got {float(points[where])!r} at index {where}. "
-            "On a torus, gbnbench.wrap(x) brings them inside; gbnbench.scale(x, low, high) maps a box onto [0, 1)"
+            "On a torus, gbnbench.wrap(x) brings them inside; gbnbench.scale(x, low, high) does it for a box"
         )
     return points
 
