@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import gbnbench
-from gbnbench.analysis.catalogue import BY_NAME, CATALOGUE
+from gbnbench.analysis.measure_definitions import BY_NAME, DEFINITIONS
 from gbnbench.analysis.measures import analyse, measures
 from gbnbench.analysis.spectrum.limits import default_fmax
 from gbnbench.core.errors import InputError
@@ -23,9 +23,9 @@ PROMISED = {
 
 def test_the_catalogue_defines_every_promised_measure_once():
     assert set(BY_NAME) >= PROMISED
-    assert len(BY_NAME) == len(CATALOGUE)
-    assert {d.better for d in CATALOGUE} == {"lower", "higher"}
-    assert all(d.text and d.source and d.title for d in CATALOGUE)
+    assert len(BY_NAME) == len(DEFINITIONS)
+    assert {d.better for d in DEFINITIONS} == {"lower", "higher"}
+    assert all(d.text and d.source and d.title for d in DEFINITIONS)
 
 
 @pytest.mark.parametrize(
@@ -33,7 +33,7 @@ def test_the_catalogue_defines_every_promised_measure_once():
 )
 def test_every_key_is_there_and_what_is_undefined_has_a_reason(shape):
     found = measures(np.random.default_rng(1).random(shape))
-    assert list(found) == [d.name for d in CATALOGUE]
+    assert list(found) == [d.name for d in DEFINITIONS]
     for name, value in found.items():
         assert math.isnan(value) == (name in found.reasons)
         assert not math.isinf(value)

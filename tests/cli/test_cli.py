@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 
 import gbnbench.studies.comparison
-from gbnbench.analysis.catalogue import BY_NAME
+from gbnbench.analysis.measure_definitions import BY_NAME
 from gbnbench.io.points import load, save
 from gbnbench.runs.comparison_folder import read_run
 from gbnbench.runs.sources import resolve

@@ -19,6 +19,7 @@ from matplotlib.image import imread
 import gbnbench
 import gbnbench.cli.spectrum_run
 from gbnbench.analysis.measures import default_fmax
+from gbnbench.analysis.radial.anisotropy import anisotropy
 from gbnbench.cli import run
 from gbnbench.io.points import save
 from gbnbench.reports.comparison import single_spectrum
@@ -135,7 +136,7 @@ def test_shells_bands_and_corners(said: Said, sets: np.ndarray) -> None:
         for name in ("frequency", "nu", "power", "count", "deviation"):
             np.testing.assert_array_equal(table[name], getattr(expected, name))
             np.testing.assert_array_equal(kept[name], getattr(expected, name))
-        rings = expected.anisotropy()
+        rings = anisotropy(expected)
         np.testing.assert_array_equal(kept["ring"], rings["frequency"])
         np.testing.assert_array_equal(kept["anisotropy_db"], rings["anisotropy_db"])
         np.testing.assert_array_equal(table["ring"], np.round(table["frequency"]))
@@ -205,8 +206,8 @@ def test_explain_computes_and_writes_nothing(
     def forbidden(*_: object, **__: object) -> None:
         raise AssertionError("evaluated")
 
-    monkeypatch.setattr("gbnbench.analysis.spectrum.spectrum_request.periodogram", forbidden)
-    monkeypatch.setattr("gbnbench.analysis.spectrum.spectrum_request.shells", forbidden)
+    monkeypatch.setattr("gbnbench.analysis.spectrum.settings.periodogram", forbidden)
+    monkeypatch.setattr("gbnbench.analysis.spectrum.settings.shells", forbidden)
     plan = gbnbench.plan(40, 2, 3, realizations=2, half=True)
     assert said("s.npz", "--half", "--fmax", 3, "--explain", "-o", "x.npz") == (f"s.npz:\n{plan}\n", "")
     assert not Path("x.npz").exists()
@@ -335,7 +336,7 @@ def test_each_never_replaces_what_is_read(said: Said, sets: np.ndarray) -> None:
 
 
 def test_a_run_that_is_stopped_says_what_it_keeps(said: Said, monkeypatch: pytest.MonkeyPatch) -> None:
-    find, calls = gbnbench.analysis.spectrum.spectrum_request.Asked.find, []
+    find, calls = gbnbench.analysis.spectrum.settings.SpectrumSettings.evaluate, []
 
     def stopped(*arguments: Any) -> Any:
         calls.append(1)
@@ -343,7 +344,7 @@ def test_a_run_that_is_stopped_says_what_it_keeps(said: Said, monkeypatch: pytes
             raise KeyboardInterrupt
         return find(*arguments)
 
-    monkeypatch.setattr(gbnbench.analysis.spectrum.spectrum_request.Asked, "find", stopped)
+    monkeypatch.setattr(gbnbench.analysis.spectrum.settings.SpectrumSettings, "evaluate", stopped)
     _, err = said("s.npz", "a.txt", "b.csv", "--each", "--fmax", 2, "-o", "q.npy", code=130)
     assert err == "gbnbench: stopped; 2 of 4 files are written and kept\n"
     assert sorted(path.name for path in Path().glob("q*")) == ["q_0.npy", "q_1.npy"]

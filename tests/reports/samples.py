@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from gbnbench.analysis.catalogue import CATALOGUE
+from gbnbench.analysis.measure_definitions import DEFINITIONS
 from gbnbench.core.results import Measures, RadialPower, Spectrum
 from gbnbench.runs.comparison_result import Run, SourceResult
 from tests.oracles.power import lattice_of, mean_power
@@ -79,7 +79,7 @@ def source(
     count, n, d = sets.shape
     power = cube_power(sets, fmax)
     radial, anisotropy = shells(power, n, fmax, count)
-    values = {definition.name: math.nan for definition in CATALOGUE}
+    values = {definition.name: math.nan for definition in DEFINITIONS}
     low = (radial.nu <= 0.25) | (radial.frequency == radial.frequency[0])
     values["noise_floor"] = float(np.sum((radial.power * radial.count)[low]) / radial.count[low].sum())
     values["power_at_1"] = float(radial.power[0])

@@ -7,13 +7,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gbnbench import generate
-from gbnbench.analysis.spatial.delaunay import Neighbours, neighbours, valence, valence6
+from gbnbench.analysis.spatial.delaunay import Neighbours, neighbours, plane_neighbours
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import wrap
-from tests.oracles.lattices import grid, hexagonal
+from tests.oracles.lattices import grid
 from tests.oracles.neighbours import by_empty_circles, by_voronoi, rounded
-from tests.published_sets import published
 
 
 def by_point(made: Neighbours) -> list[list[tuple[float, ...]]]:
@@ -56,13 +54,6 @@ def test_cycles_turn_once_and_lead_to_their_points() -> None:
         assert turns.sum() == pytest.approx(2 * math.pi)
 
 
-def test_hexagonal_lattice_has_valence_six() -> None:
-    histogram = valence(hexagonal(26, 15))
-    assert histogram.degree.tolist() == [6]
-    assert histogram.share.tolist() == [1.0]
-    assert valence6(hexagonal(26, 15)).tolist() == [1.0]
-
-
 @pytest.mark.parametrize("shift", [0.0, 0.1, 1 / 3])
 @pytest.mark.parametrize(("m", "d"), [(1, 2), (2, 2), (13, 2), (32, 2), (1, 3), (5, 3)])
 def test_grid_counts_no_diagonal(m: int, d: int, shift: float) -> None:
@@ -102,28 +93,6 @@ def test_cubic_lattices(cell: list[tuple[float, float, float]], degree: int) -> 
     assert set(neighbours(x)[0].degree.tolist()) == {degree}
 
 
-def test_random_points_have_the_known_mean_degrees() -> None:
-    rng = np.random.default_rng(4)
-    plane = valence(rng.random((6, 1500, 2)))
-    assert plane.share @ plane.degree == pytest.approx(6, abs=1e-12)
-    assert plane.of(6).mean() == pytest.approx(0.2947, abs=0.015)  # Calka 2003
-    space = valence(rng.random((1500, 3)))
-    assert space.share @ space.degree == pytest.approx(48 * math.pi**2 / 35 + 2, abs=0.2)  # Meijering 1953
-
-
-def test_histogram_averages_the_sets() -> None:
-    x = np.random.default_rng(5).random((3, 60, 2))
-    made = valence(x)
-    np.testing.assert_allclose(made.share, made.share_by_set.mean(axis=0))
-    np.testing.assert_allclose(made.share_by_set.sum(axis=1), 1)
-    for k, points in enumerate(x):
-        degrees = neighbours(points)[0].degree
-        for degree in range(3, 12):
-            assert made.of(degree)[k] == np.mean(degrees == degree)
-    assert list(made.to_frame().columns) == ["degree", "share"]
-    np.testing.assert_array_equal(valence(neighbours(x)).share, made.share)
-
-
 def test_refusals_name_the_reason() -> None:
     x = np.random.default_rng(6).random((50, 2))
     with pytest.raises(RefusalError, match="distinct"):
@@ -135,7 +104,7 @@ def test_refusals_name_the_reason() -> None:
     with pytest.raises(RefusalError, match="too near"):
         neighbours(0.5 + 1e-9 * np.random.default_rng(7).random((50, 2)))
     with pytest.raises(RefusalError, match="d=3"):
-        valence6(np.random.default_rng(7).random((50, 3)))
+        plane_neighbours(np.random.default_rng(7).random((50, 3)), "psi6")
 
 
 @settings(deadline=None, max_examples=25)
@@ -150,10 +119,3 @@ def test_neighbours_do_not_know_the_origin_or_the_order(seed: int, n: int, d: in
         np.testing.assert_allclose(
             sorted(np.linalg.norm(part, axis=1)), sorted(np.linalg.norm(one[k], axis=1))
         )
-
-
-@pytest.mark.parametrize("made_by", ["the authors' program", "our generator"])
-def test_gaussian_blue_noise_is_mostly_six_valent(made_by: str) -> None:
-    ours = made_by == "our generator"
-    share = valence6(generate("gbn", n=1024) if ours else published("gbn-1024/official-10k-f32-1.txt"))
-    assert 0.5 < share[0] < 0.7

@@ -167,7 +167,7 @@ def test_the_mean_of_many_sets_is_within_the_bound_of_one(precision):
 @pytest.mark.parametrize("precision", PRECISIONS)
 def test_a_dyadic_lattice_has_nothing_off_its_harmonics_but_the_stated_error(d, m, fmax, precision):
     x = np.stack(np.meshgrid(*[np.arange(m) / m] * d, indexing="ij"), axis=-1).reshape(-1, d)
-    spectrum = periodogram(x, fmax, precision, method="two-group product")
+    spectrum = periodogram(x, fmax, precision, method="product")
     harmonic = ((np.indices(spectrum.shape) - fmax) % m == 0).all(axis=0)
     off = np.sqrt(spectrum.power[~harmonic])
     assert off.max() <= spectrum.error_bound
@@ -179,7 +179,7 @@ def test_a_dyadic_lattice_has_nothing_off_its_harmonics_but_the_stated_error(d, 
 def test_cancellation_of_points_and_their_copies_moved_by_one_half(precision):
     first = np.random.default_rng(9).integers(0, 2**53, (500, 3))
     x = np.concatenate([first, (first + 2**52) % 2**53]) / 2.0**53
-    spectrum = periodogram(x, 5, precision, method="two-group product")
+    spectrum = periodogram(x, 5, precision, method="product")
     odd = (np.indices(spectrum.shape) - 5).sum(axis=0) % 2 == 1
     met = np.sqrt(spectrum.power[odd])
     assert met.max() <= spectrum.error_bound

@@ -12,7 +12,7 @@ import pytest
 
 from gbnbench.analysis.radial.anisotropy import anisotropy
 from gbnbench.analysis.radial.radial_power import radial
-from gbnbench.analysis.spectrum import limits
+from gbnbench.analysis.spectrum import request
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.request import shell_request
 from gbnbench.analysis.spectrum.shell_spectrum import shells
@@ -70,7 +70,7 @@ def test_radial_and_anisotropy_are_those_of_the_cube(d, fmax, n):
     cube, got = periodogram(x, fmax), shells(x, fmax)
     for one, other in (
         (radial(cube).to_frame(), got.radial().to_frame()),
-        (anisotropy(cube), got.anisotropy()),
+        (anisotropy(cube), anisotropy(got)),
     ):
         pd.testing.assert_frame_equal(one, other, rtol=1e-9)
     pd.testing.assert_frame_equal(anisotropy(periodogram(x, fmax, half=True)), anisotropy(cube))
@@ -177,9 +177,8 @@ def test_the_largest_harmonic_of_32_bits_is_the_one_that_is_named(d, corners):
 
 @pytest.mark.parametrize(("d", "fmax"), [(2, 8000), (3, 300)])
 def test_shells_and_groups_that_would_fill_the_memory_are_refused(monkeypatch, d, fmax):
-    monkeypatch.setattr(
-        limits, "memory", lambda: 8 << 20
-    )  # 6.4e7 shells; 2.8e5 frequencies in a group's ball
+    # There are 6.4e7 shells, or 2.8e5 frequencies in a group's ball.
+    monkeypatch.setattr(request, "physical_memory", lambda: 8 << 20)
     with pytest.raises(InputError, match="memory"):
         shell_request(10, d, fmax, 1, None, False)
 

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from gbnbench import generate, periodogram, radial, save, shells
-from gbnbench.analysis.radial.profile import noise_floor
+from gbnbench.analysis.radial.profile_measures import noise_floor
 from gbnbench.cli import gbnbench
 from gbnbench.execution.progress import Progress
 from gbnbench.generators.monitor import Trace, Watch

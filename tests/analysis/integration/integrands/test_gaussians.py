@@ -7,14 +7,9 @@ import numpy as np
 import pytest
 
 from gbnbench.analysis.integration.integrands import kernel_values
-from gbnbench.analysis.integration.integrands.gaussians import (
-    NEAREST,
-    Gaussians,
-    GaussianSum,
-    circle,
-    polynomial,
-)
+from gbnbench.analysis.integration.integrands.gaussians import Gaussians, GaussianSum
 from gbnbench.analysis.integration.integrands.integer_frequencies import half_ball
+from gbnbench.analysis.integration.integrands.theta_polynomial import NEAREST, circle, theta_polynomial
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray
 from tests.oracles.theta import image_sum
@@ -73,7 +68,7 @@ def test_the_nearest_image_is_all_there_is_up_to_the_switch() -> None:
 
 @pytest.mark.parametrize("width", [0.058, 0.0625, 0.125, 0.3, 0.7, 2.0])
 def test_the_polynomial_is_theta(width: float) -> None:
-    coefficients = polynomial(width)
+    coefficients = theta_polynomial(width)
     with mpmath.workdps(30):
         mean = mpmath.sqrt(2 * mpmath.pi) * mpmath.mpf(width)
         largest = float(image_sum(0, width) / mean)

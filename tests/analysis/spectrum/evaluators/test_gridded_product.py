@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from gbnbench.analysis.precision import Precision, precision_of
-from gbnbench.analysis.spectrum.evaluators import gridded_product
 from gbnbench.analysis.spectrum.evaluators.cube_product import cube_powers
-from gbnbench.analysis.spectrum.evaluators.gridded_product import (
+from gbnbench.analysis.spectrum.evaluators.gridded import product as gridded_product
+from gbnbench.analysis.spectrum.evaluators.gridded.product import (
     griddable,
     gridded_powers,
     node_turns,
@@ -126,11 +126,11 @@ def test_cells_and_places_are_exact():
 def test_it_is_chosen_where_it_is_cheaper_and_by_name():
     rng = np.random.default_rng(7)
     x = rng.random((4096, 2))
-    assert periodogram(x, 128).method == "gridded product"
-    assert periodogram(x[:100], 20).method == "two-group product"
-    assert periodogram(x[:100], 20, method="gridded product").method == "gridded product"
+    assert periodogram(x, 128).method == "gridded"
+    assert periodogram(x[:100], 20).method == "product"
+    assert periodogram(x[:100], 20, method="gridded").method == "gridded"
     assert not griddable(1, 1000, "double")
-    with pytest.raises(InputError, match="two-group product"):
+    with pytest.raises(InputError, match="product"):
         periodogram(x[:100], 20, method="FFT")
 
 

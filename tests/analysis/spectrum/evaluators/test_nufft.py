@@ -9,8 +9,8 @@ import time
 import numpy as np
 import pytest
 
-from gbnbench.analysis.spectrum.evaluators import nufft
-from gbnbench.analysis.spectrum.evaluators.nufft import (
+from gbnbench.analysis.spectrum.evaluators.nufft import transform as nufft
+from gbnbench.analysis.spectrum.evaluators.nufft.transform import (
     available,
     nufft_bytes,
     nufft_errors,
@@ -128,7 +128,9 @@ def test_without_finufft_it_says_so(monkeypatch):
 
 
 def test_finufft_is_loaded_only_when_asked():
-    code = "import sys, gbnbench.analysis.spectrum.evaluators.nufft\nprint('finufft' in sys.modules)"
+    code = (
+        "import sys, gbnbench.analysis.spectrum.evaluators.nufft.transform\nprint('finufft' in sys.modules)"
+    )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "False"
 

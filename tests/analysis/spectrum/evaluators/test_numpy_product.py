@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gbnbench.analysis.spectrum.evaluators import numpy_product
-from gbnbench.analysis.spectrum.evaluators.numpy_product import (
+from gbnbench.analysis.spectrum.evaluators.numpy_product import product as numpy_product
+from gbnbench.analysis.spectrum.evaluators.numpy_product.product import (
     separable_errors,
     separable_power,
     separable_selected,

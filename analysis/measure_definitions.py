@@ -1,4 +1,4 @@
-"""Every scalar measure: name, unit, direction, definition and source, said once for all tables and pages."""
+"""Definitions of all scalar measures, with unit, direction and source, for every table and page."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Definition:
-    """What one scalar measure is.
+    """Definition of one scalar measure.
 
     Attributes
     ----------
@@ -17,9 +17,9 @@ class Definition:
     title : str
         Column head, short.
     unit : str
-        Empty for pure numbers.
+        Unit of the value; empty for pure numbers.
     better : {"lower", "higher"}
-        Direction in which blue noise improves; what "best" and a baseline's verdict go by.
+        Direction in which blue noise improves, by which "best" and a baseline's verdict are decided.
     text : str
         The definition in a sentence or two.
     source : str
@@ -34,7 +34,7 @@ class Definition:
     source: str
 
 
-CATALOGUE: tuple[Definition, ...] = (
+DEFINITIONS: tuple[Definition, ...] = (
     Definition(
         "noise_floor",
         "noise floor",
@@ -212,12 +212,24 @@ CATALOGUE: tuple[Definition, ...] = (
     ),
 )
 
-BY_NAME: dict[str, Definition] = {definition.name: definition for definition in CATALOGUE}
+BY_NAME: dict[str, Definition] = {definition.name: definition for definition in DEFINITIONS}
 
 
-def judged(name: str, value: float, realizations: int) -> float:
-    """Return the value of a measure as sources of different numbers of sets can be compared by it.
+def comparable_value(name: str, value: float, realizations: int) -> float:
+    """Value by which sources of different numbers of sets can be compared.
 
-    Anisotropy is taken over its reference line, -10 log10(realizations); the others are what they are.
+    Parameters
+    ----------
+    name : str
+        Name of the measure.
+    value : float
+        Its value.
+    realizations : int
+        Sets that were averaged.
+
+    Returns
+    -------
+    float
+        Anisotropy over its reference line, -10 log10(realizations); every other measure unchanged.
     """
     return value + 10 * math.log10(realizations) if name == "anisotropy_db" else value

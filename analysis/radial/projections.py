@@ -1,4 +1,4 @@
-"""Spectra of a set's projections on coordinate subsets, each at its own spacing n^(-1/|S|)."""
+"""Spectra of a set's projections on coordinate subsets S, each with its own spacing n^(-1/|S|)."""
 
 from __future__ import annotations
 
@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gbnbench.analysis.radial import profile
-from gbnbench.analysis.radial.radial_power import radial_power
+from gbnbench.analysis.radial import profile_measures
+from gbnbench.analysis.radial.radial_power import mean_over_groups
 from gbnbench.analysis.spectrum.limits import default_fmax
 from gbnbench.analysis.spectrum.periodogram import each_power
 from gbnbench.analysis.spectrum.shells import exact_shells
+from gbnbench.analysis.standard_errors import mean_over_sets
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.results import RadialPower
 from gbnbench.core.torus import FloatArray, as_realizations, spacing
@@ -25,20 +26,21 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Projection:
-    """One projection's spectrum.
+    """Spectrum of one projection, and the measures of its profile.
 
     Attributes
     ----------
     axes : tuple of int
-        Coordinates kept.
+        Coordinates onto which the points are projected.
     radial : RadialPower
         Mean over realizations; nu in the projection's own spacings.
     noise_floor, power_at_1 : float
-        As of any set; see ``measures``.
+        Means over realizations of ``profile_measures.noise_floor`` and ``power_at_1``.
     noise_floor_error, power_at_1_error : float
-        Standard errors over realizations; nan for one.
+        Standard errors over realizations; nan for a single one.
     peak, peak_nu : float
-        Largest mean power over rings, and where; nan where the spectrum ends below nu = 1.
+        Largest mean power over rings, and its nu (``profile_measures.peak``); nan where the spectrum ends
+        below nu = 1.
     """
 
     axes: tuple[int, ...]
@@ -61,9 +63,14 @@ def projections(
     x : (n, d) or (realizations, n, d) array_like
         Points on the unit torus.
     chosen : sequence of sequences of int
-        Coordinates of each, such as ``gbnbench.generators.gbn.projective.subsets("1/0+1", d)``.
+        Coordinates of each projection, such as ``gbnbench.generators.gbn.projective.subsets("1/0+1", d)``.
     fmax : int, optional
         Largest harmonic; by default to nu = 2 of each projection, or as affordable.
+
+    Returns
+    -------
+    tuple of Projection
+        In the order of ``chosen``.
 
     Raises
     ------
@@ -73,7 +80,8 @@ def projections(
 
     Notes
     -----
-    The projection's power at f is the whole set's at the frequency that is f on those axes and 0 elsewhere.
+    The power of a projection at f is that of the whole set at the frequency which is f on those axes and 0 on
+    the others.
 
     Examples
     --------
@@ -91,8 +99,8 @@ def projections(
     return tuple(_measured(points, tuple(axes), fmax) for axes in chosen)
 
 
-def frame(found: Sequence[Projection]) -> pd.DataFrame:
-    """Return a row a projection: its coordinates (as 0+1), noise_floor, power_at_1, errors, peak, peak_nu."""
+def frame(projected: Sequence[Projection]) -> pd.DataFrame:
+    """Table of one row a projection: its coordinates (as 0+1) and its measures with their errors."""
     import pandas as pd
 
     names = (
@@ -100,28 +108,25 @@ def frame(found: Sequence[Projection]) -> pd.DataFrame:
     )  # fmt: skip
     rows = [
         {"projection": "+".join(map(str, p.axes)), **{name: getattr(p, name) for name in names}}
-        for p in found
+        for p in projected
     ]
     return pd.DataFrame(rows, columns=["projection", *names])
 
 
 def _measured(points: FloatArray, axes: tuple[int, ...], fmax: int | None) -> Projection:
-    seen = np.ascontiguousarray(points[:, :, axes])
-    sets, n, m = seen.shape
-    reach = default_fmax(n, m, sets) if fmax is None else fmax
-    powers, spectrum = each_power(seen, reach)
-    shells = exact_shells(reach, m)
-    radials = [radial_power(power, shells, spacing(n, m)) for power in powers]
-    mean = radial_power(spectrum.power, shells, spacing(n, m))
-    floors, firsts = (np.array([of(r) for r in radials]) for of in (profile.noise_floor, profile.power_at_1))
+    projected = np.ascontiguousarray(points[:, :, axes])
+    sets, n, m = projected.shape
+    fmax = default_fmax(n, m, sets) if fmax is None else fmax
+    powers, spectrum = each_power(projected, fmax)
+    shells = exact_shells(fmax, m)
+    radials = [mean_over_groups(power, shells, spacing(n, m)) for power in powers]
+    mean = mean_over_groups(spectrum.power, shells, spacing(n, m))
+    floor, first = (
+        mean_over_sets(np.array([measure(r) for r in radials]))
+        for measure in (profile_measures.noise_floor, profile_measures.power_at_1)
+    )
     try:
-        peak, peak_nu = profile.peak(mean)
+        peak, peak_nu = profile_measures.peak(mean)
     except RefusalError:
         peak, peak_nu = math.nan, math.nan
-    return Projection(
-        axes, mean, float(floors.mean()), _error(floors), float(firsts.mean()), _error(firsts), peak, peak_nu
-    )
-
-
-def _error(values: FloatArray) -> float:
-    return float(values.std(ddof=1) / math.sqrt(len(values))) if len(values) > 1 else math.nan
+    return Projection(axes, mean, *floor, *first, peak, peak_nu)

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from gbnbench.analysis.measures import measures
+from gbnbench.analysis.radial.projections import frame, projections
 from gbnbench.analysis.spectrum.periodogram import periodogram
-from gbnbench.analysis.spectrum.projections import frame, projections
 from gbnbench.core.errors import InputError
 from gbnbench.generators.registry import generate
 

@@ -1,4 +1,4 @@
-"""Scalars of the radial profile: noise floor, power at 1, the two fits, evacuated energy and peak.
+"""Scalar measures of the radial profile: noise floor, power at 1, two fits, evacuated energy and peak.
 
 Ahmed, Ren & Wonka 2022: Sec. 3 (exponential and power-law families), Sec. 4.3 (evacuated energy), Fig. 1(g).
 """
@@ -10,18 +10,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gbnbench.analysis.spectrum.limits import FLOOR_NU
 from gbnbench.analysis.spectrum.shells import EDGE, in_band, squared_radius
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.results import RadialPower
 from gbnbench.core.torus import FloatArray
 
-TIE = 1e-9  # relative difference of powers that are equal
-FLOOR_NU = 0.25
+TIE = 1e-9  # relative difference at or below which two powers count as equal
 FIT_BAND = (0.05, 0.6)
-FIT_SHELLS = 3
+FIT_SHELLS = 3  # fewest shells of a fit
 PEAK_BAND = (0.5, 2.0)
-ROUNDING = 1e-26  # power at or below which only rounding is left, as off a lattice's harmonics
-DECIBELS = 10 / math.log(10)  # of a natural logarithm
+ROUNDING_POWER = 1e-26  # power at or below which only rounding is left, as off a lattice's harmonics
+DECIBELS = 10 / math.log(10)  # one unit of the natural logarithm in dB
 
 
 def reach(radial: RadialPower) -> float:
@@ -30,7 +30,22 @@ def reach(radial: RadialPower) -> float:
 
 
 def require(radial: RadialPower, nu: float, what: str) -> None:
-    """Refuse where the spectrum ends within the band that a measure is of."""
+    """Refuse a measure whose band goes beyond the end of the spectrum.
+
+    Parameters
+    ----------
+    radial : RadialPower
+        Power of exact shells.
+    nu : float
+        Upper end of the measure's band.
+    what : str
+        Name of the measure, for the message.
+
+    Raises
+    ------
+    RefusalError
+        If the last whole shell lies below nu.
+    """
     if reach(radial) < nu * (1 - EDGE):
         needed = math.ceil(nu * float(radial.frequency[0] / radial.nu[0]) * (1 - EDGE))
         raise RefusalError(
@@ -41,6 +56,8 @@ def require(radial: RadialPower, nu: float, what: str) -> None:
 
 def noise_floor(radial: RadialPower) -> float:
     """Mean power over the frequencies with 0 < nu <= 0.25; over the lowest shell where there are none.
+
+    The mean is over frequencies, not over shells (Ahmed, Ren & Wonka 2022, Sec. 3).
 
     Raises
     ------
@@ -56,7 +73,7 @@ def noise_floor(radial: RadialPower) -> float:
 
 
 def power_at_1(radial: RadialPower) -> float:
-    """Mean power at |f| = 1, the lowest shell of any cube."""
+    """Mean power at |f| = 1, the lowest shell of any cube (Ahmed, Ren & Wonka 2022, Fig. 1(g))."""
     return float(radial.power[0])
 
 
@@ -69,7 +86,7 @@ class Fit:
     intercept, slope : float
         ln P = intercept + slope * abscissa.
     residual_db : float
-        Root mean square departure, dB.
+        Root mean square departure of ln P from the line, in dB.
     """
 
     intercept: float
@@ -86,7 +103,7 @@ def _fit(radial: RadialPower, *, logarithmic: bool) -> Fit:
             f"a profile fit needs three shells with 0.05 <= nu <= 0.6; this spectrum has {shells}"
         )
     power = radial.power[band]
-    if not (power > ROUNDING).all():
+    if not (power > ROUNDING_POWER).all():
         raise RefusalError("a profile fit needs power beyond rounding on every shell with 0.05 <= nu <= 0.6")
     abscissa = np.log(radial.nu[band]) if logarithmic else radial.nu[band] ** 2
     design = np.stack([np.ones(shells), abscissa], axis=1)
@@ -97,30 +114,45 @@ def _fit(radial: RadialPower, *, logarithmic: bool) -> Fit:
 
 
 def exponential_fit(radial: RadialPower) -> Fit:
-    """Fit ln P = ln epsilon + c nu^2 over 0.05 <= nu <= 0.6 (Eq. 19: c = 4 pi^2 where sigma = 1).
+    """Fit the exponential profile ln P = ln epsilon + c nu^2 to the exact shells with 0.05 <= nu <= 0.6.
+
+    Shells count alike, however many frequencies they have. Ahmed, Ren & Wonka (2022), Eq. (19): an ideal
+    Gaussian blue noise of sigma = 1 has c = 4 pi^2.
 
     Raises
     ------
     RefusalError
-        Below three shells, where the spectrum ends within the band, or a shell holds only rounding.
+        If the band holds fewer than three shells, the spectrum ends within it, or a shell holds only
+        rounding.
     """
     return _fit(radial, logarithmic=False)
 
 
 def powerlaw_fit(radial: RadialPower) -> Fit:
-    """Fit ln P = a + b ln nu over the same shells; raises likewise."""
+    """Fit the power law ln P = a + b ln nu to the same shells as ``exponential_fit`` (Pilleboue et al. 2015).
+
+    Raises
+    ------
+    RefusalError
+        As ``exponential_fit``.
+    """
     return _fit(radial, logarithmic=True)
 
 
 def evacuated_energy(power: FloatArray, n: int, d: int, fmax: int) -> float:
-    """-sum of ln P / n over all frequencies with 0 < nu < 1 and P < 1, of one realization, nats a point.
+    """Evacuated energy of one set: -(1/n) sum of ln P(f) over all f with 0 < nu < 1 and P(f) < 1.
 
     Parameters
     ----------
     power : (2*fmax+1,)*d float64
-        Of one set.
+        Power of that set alone, the whole cube.
     n, d, fmax : int
         Its points, dimension and largest harmonic.
+
+    Returns
+    -------
+    float
+        Nats a point (Ahmed, Ren & Wonka 2022, Sec. 4.3).
 
     Raises
     ------
@@ -134,13 +166,15 @@ def evacuated_energy(power: FloatArray, n: int, d: int, fmax: int) -> float:
         )
     r2 = squared_radius(fmax, d)
     chosen = power.ravel()[(r2 > 0) & (r2 < edge * edge)]
-    if (chosen <= ROUNDING).any():
+    if (chosen <= ROUNDING_POWER).any():
         raise RefusalError("evacuated energy is unbounded: the power of some frequency is 0 to rounding")
     return float(-np.sum(np.log(chosen[chosen < 1])) / n)
 
 
 def peak(radial: RadialPower) -> tuple[float, float]:
     """Largest mean power over the whole rings round(|f|) = k < fmax with 0.5 <= nu <= 2, and that ring's nu.
+
+    Rings one cycle wide, as in PSA (Schlömer & Deussen 2011), are less noisy than exact shells.
 
     Raises
     ------
