@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import gbnbench
+from gbnbench.analysis.precision import PrecisionName
 from gbnbench.core.cache_folder import recall, remember
 from gbnbench.core.errors import DeviceError, GbnbenchError
 from gbnbench.core.torus import FloatArray, displacement, spacing
@@ -118,8 +119,8 @@ def numpy_gradient(x: FloatArray, sigma: float) -> FloatArray:
     return np.stack([(slope[..., a] * others[a]).sum(axis=1) for a in range(d)], axis=1)
 
 
-def _periodogram(n: int, d: int, fmax: int, precision: str) -> Iterator[Check]:
-    from gbnbench.analysis.spectrum.evaluators.gridded_product import griddable
+def _periodogram(n: int, d: int, fmax: int, precision: PrecisionName) -> Iterator[Check]:
+    from gbnbench.analysis.spectrum.evaluators.gridded.product import griddable
     from gbnbench.analysis.spectrum.periodogram import periodogram
     from gbnbench.analysis.spectrum.shell_spectrum import shells
 
@@ -129,11 +130,11 @@ def _periodogram(n: int, d: int, fmax: int, precision: str) -> Iterator[Check]:
     expected = np.sqrt(numpy_power(x, f))
     size = f"n={n} d={d} F={fmax}"
     found = {
-        "two-group product": periodogram(x, fmax, precision, method="two-group product").power.ravel(),
+        "two-group product": periodogram(x, fmax, precision, method="product").power.ravel(),
         "listed frequencies": periodogram(x, precision=precision, frequencies=f).power,
     }
     if griddable(d, fmax, precision):
-        found["gridded product"] = periodogram(x, fmax, precision, method="gridded product").power.ravel()
+        found["gridded product"] = periodogram(x, fmax, precision, method="gridded").power.ravel()
     for kernel, power in found.items():
         error = float(np.max(np.abs(np.sqrt(power) - expected)))
         yield Check(kernel, size, precision, error, AMPLITUDE[precision])

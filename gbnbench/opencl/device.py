@@ -5,6 +5,9 @@ from __future__ import annotations
 import hashlib
 import os
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -17,6 +20,7 @@ if TYPE_CHECKING:
     import pyopencl as cl
 
 DEVICE_VARIABLE = "GBNBENCH_DEVICE"
+_selector: ContextVar[str | None] = ContextVar("selector", default=None)
 
 INSTALL = (
     'Install one: pip install "pyopencl[pocl]" brings a CPU device on Linux x86-64; elsewhere install the '
@@ -144,6 +148,35 @@ def devices_present() -> bool:
         return False
 
 
+@contextmanager
+def use_device(selector: str | None) -> Iterator[None]:
+    """Let ``choose`` pick a device within a ``with`` block, and in the worker processes that start there.
+
+    Parameters
+    ----------
+    selector : str or None
+        As in ``choose``; None changes nothing.
+
+    Raises
+    ------
+    DeviceError
+        At once, if there is no device, or the selector fits none or several.
+    """
+    if selector is None:
+        yield
+        return
+    token = _selector.set(str(choose(selector).index))
+    try:
+        yield
+    finally:
+        _selector.reset(token)
+
+
+def selected() -> str:
+    """Return the selector in force: that of ``use_device``, else ``$GBNBENCH_DEVICE``, else an empty text."""
+    return _selector.get() or os.environ.get(DEVICE_VARIABLE, "")
+
+
 def choose(selector: str | None = None) -> Device:
     """Pick a device.
 
@@ -151,7 +184,12 @@ def choose(selector: str | None = None) -> Device:
     ----------
     selector : str, optional
         An index of ``devices()``, or part of a device's name, platform or platform version, in any case;
-        without it ``$GBNBENCH_DEVICE``, else the best found: double precision first, then GPUs.
+        without it that of ``use_device`` or ``$GBNBENCH_DEVICE``, else the best found: double precision
+        first, then GPUs.
+
+    Returns
+    -------
+    Device
 
     Raises
     ------
@@ -161,7 +199,7 @@ def choose(selector: str | None = None) -> Device:
     present = devices()
     if not present:
         raise DeviceError(f"no OpenCL device found. {INSTALL}")
-    wanted = selector if selector is not None else os.environ.get(DEVICE_VARIABLE, "")
+    wanted = selected() if selector is None else selector
     if not wanted.strip():
         return min(present, key=lambda d: (not d.has_double, d.is_cpu, d.index))
     fitting = [d for d in present if wanted.strip() == str(d.index)] or [

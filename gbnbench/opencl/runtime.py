@@ -228,15 +228,15 @@ def _open(device: Device) -> Runtime:
     return Runtime(device)
 
 
-def runtime(selector: str | None = None) -> Runtime:
-    """Open the chosen device, once a process; see ``choose`` for selectors.
+def runtime() -> Runtime:
+    """Open the device that ``choose`` picks, once a process.
 
     Raises
     ------
     DeviceError
         If there is no such device, or it was opened before this process was forked.
     """
-    opened = _open(choose(selector))
+    opened = _open(choose())
     if os.getpid() != opened.process:
         raise DeviceError(
             "an OpenCL device that was used before a fork cannot be used after it: start workers by spawn, "

@@ -106,7 +106,7 @@ def _lattice(case: Case, seed: int) -> Mapping[str, Values]:  # noqa: ARG001 - t
 
     x, m = lattice(case.n, case.d)
     fmax = PERIODS * m
-    power = periodogram(x, fmax, case.precision).power
+    power = periodogram(x, fmax, "double" if case.precision == "double" else "float").power
     on = (np.indices(power.shape) % m == fmax % m).all(axis=0)
     farthest = int(np.argmax(np.abs(power[on] - case.n)))
     return {"off_harmonics": (float(power[~on].max()),), "on_harmonics": (float(power[on][farthest]),)}

@@ -18,6 +18,8 @@ from gbnbench.cli import run
 from gbnbench.generators.gbn import energy, generator
 from gbnbench.generators.gbn.protocol import Gradient
 
+pytestmark = pytest.mark.slow
+
 met = []
 
 def alter(pattern, replacement):

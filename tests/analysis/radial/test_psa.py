@@ -11,7 +11,8 @@ from scipy.special import jv
 from gbnbench.analysis.radial.psa import spectral_statistics
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import wrap
-from tests.published_sets import grid, published
+from tests.oracles.lattices import grid
+from tests.published_sets import published
 
 
 def slow(sets: np.ndarray) -> tuple[float, float, np.ndarray]:

@@ -1,64 +1,21 @@
 from __future__ import annotations
 
-import itertools
 import math
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.spatial import Voronoi
 
 from gbnbench.analysis.spatial.delaunay import Neighbours, neighbours, plane_neighbours
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import wrap
-from tests.published_sets import grid
-
-
-def rounded(vectors: np.ndarray) -> list[tuple[float, ...]]:
-    return sorted(tuple(row) for row in np.round(vectors, 9) + 0.0)
+from tests.oracles.lattices import grid
+from tests.oracles.neighbours import by_empty_circles, by_voronoi, rounded
 
 
 def by_point(made: Neighbours) -> list[list[tuple[float, ...]]]:
     return [rounded(part) for part in np.split(made.vector, made.indptr[1:-1])]
-
-
-def tiling(x: np.ndarray, rings: int) -> np.ndarray:
-    shifts = sorted(itertools.product(range(-rings, rings + 1), repeat=x.shape[1]), key=lambda s: any(s))
-    return np.concatenate([x + np.array(shift) for shift in shifts])
-
-
-def by_voronoi(x: np.ndarray, rings: int) -> list[list[tuple[float, ...]]]:
-    """Neighbours as pairs of cells with a common ridge in the Voronoi diagram of the whole tiling."""
-    tiled = tiling(x, rings)
-    found: list[list[np.ndarray]] = [[] for _ in x]
-    for p, q in Voronoi(tiled).ridge_points:
-        if p < len(x):
-            found[p].append(tiled[q] - tiled[p])
-        if q < len(x):
-            found[q].append(tiled[p] - tiled[q])
-    return [rounded(np.array(vectors)) for vectors in found]
-
-
-def by_empty_circles(x: np.ndarray) -> list[list[tuple[float, ...]]]:
-    """Neighbours from every triangle of the tiling whose circumscribed circle holds no point."""
-    tiled = tiling(x, 2)
-    found = []
-    for p in x:
-        rest = tiled[np.any(tiled != p, axis=1)] - p
-        i, j = np.triu_indices(len(rest), 1)
-        a, b = rest[i], rest[j]
-        twice = 2 * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
-        proper = np.abs(twice) > 1e-12
-        a, b, i, j, twice = a[proper], b[proper], i[proper], j[proper], twice[proper]
-        aa, bb = (a**2).sum(1), (b**2).sum(1)
-        centre = np.column_stack([b[:, 1] * aa - a[:, 1] * bb, a[:, 0] * bb - b[:, 0] * aa]) / twice[:, None]
-        gap = np.full(len(centre), np.inf)
-        for q in rest:
-            np.minimum(gap, ((q - centre) ** 2).sum(1) - (centre**2).sum(1), out=gap)
-        empty = gap > -1e-12
-        found.append(rounded(rest[np.unique(np.concatenate([i[empty], j[empty]]))]))
-    return found
 
 
 @pytest.mark.parametrize("n", [2, 3, 4, 7])

@@ -10,7 +10,8 @@ import pytest
 from gbnbench.analysis.spatial.delaunay import neighbours
 from gbnbench.analysis.spatial.valence import valence, valence6
 from gbnbench.core.errors import RefusalError
-from tests.published_sets import hexagonal, published
+from tests.oracles.lattices import hexagonal
+from tests.published_sets import published
 
 
 def test_hexagonal_lattice_has_valence_six() -> None:

@@ -148,6 +148,7 @@ def test_file_is_replaced_whole(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == [path]
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(shutil.which("chromium") is None, reason="no chromium on PATH to open the page with")
 def test_chromium_renders_the_page(run: Run, tmp_path: Path) -> None:
     write_report(run, tmp_path / "report.html")

@@ -19,9 +19,14 @@ from numpy.typing import NDArray
 from gbnbench.analysis.precision import SUM_POINTS, Precision, padded
 from gbnbench.analysis.spectrum.digits import Division, whole_axes
 from gbnbench.analysis.spectrum.error_model import BITS, UNIT, Coordinates, Errors, coordinates, sum_errors
-from gbnbench.analysis.spectrum.evaluators.cube_product import CubeWriter, cube_powers, norms_of
-from gbnbench.analysis.spectrum.evaluators.kaiser_bessel import Window, nodes_for, window
-from gbnbench.analysis.spectrum.evaluators.two_group_product import Points, Slots, whole_frequencies
+from gbnbench.analysis.spectrum.evaluators.cube_product import CubeWriter, cube_powers
+from gbnbench.analysis.spectrum.evaluators.gridded.kaiser_bessel import Window, nodes_for, window
+from gbnbench.analysis.spectrum.evaluators.two_group_product import (
+    Points,
+    Slots,
+    norms_of,
+    whole_frequencies,
+)
 from gbnbench.core.torus import FloatArray
 
 WIDTH = {"double": 16, "float": 8}
