@@ -9,8 +9,8 @@ import pytest
 
 from gbnbench.analysis.radial import profile_measures
 from gbnbench.analysis.radial.radial_power import radial
-from gbnbench.analysis.spatial.delaunay import valence6
 from gbnbench.analysis.spatial.distances import min_distance
+from gbnbench.analysis.spatial.valence import valence6
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.core.errors import InputError
 from gbnbench.generators.gbn.energy import field
