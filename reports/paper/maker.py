@@ -14,6 +14,7 @@ from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.errors import DeviceError, GbnbenchError, UnfinishedError
 from gbnbench.execution.progress import Progress
 from gbnbench.io import data_files
+from gbnbench.opencl import choose
 from gbnbench.reports import style
 from gbnbench.reports.comparison.figure_files import pdf, png
 from gbnbench.reports.paper.data import FigureData, folder_name, obtain
@@ -106,8 +107,6 @@ class FigureFolder(ResumableFolder):
 
 def _device() -> str:
     """Name the device, or say that there is none: some figures are of closed forms alone."""
-    from gbnbench.opencl import choose
-
     try:
         return str(choose().describe().get("name", "an OpenCL device"))
     except DeviceError:

@@ -24,6 +24,7 @@ from gbnbench.core.settings import specification
 from gbnbench.core.torus import as_realizations
 from gbnbench.execution.progress import Progress
 from gbnbench.io import data_files
+from gbnbench.opencl import choose
 from gbnbench.runs import comparison_folder
 from gbnbench.runs.provenance import versions
 from gbnbench.runs.resumable import run_tasks
@@ -306,8 +307,6 @@ def _refuse(family: Family, d: int) -> None:
 
 def _device() -> dict[str, Any] | str:
     """Name the device, or what stands in for it: spectra and integrands have forms in numpy."""
-    from gbnbench.opencl import choose
-
     try:
         return dict(choose().describe())
     except DeviceError:
