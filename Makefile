@@ -3,13 +3,22 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: compare test docs lint types wheel clean
+.PHONY: compare test test-slow test-all docs lint types wheel clean
 
 compare: $(VENV)/.installed
 	$(BIN)/gbnbench compare $(ARGS)
 
+PYTEST := $(BIN)/python -m pytest -n auto --dist loadfile
+
+# The everyday loop; test-slow is the rest, and test-all is both.
 test: $(VENV)/.installed
-	$(BIN)/python -m pytest -n auto --dist loadfile $(ARGS)
+	$(PYTEST) -m "not slow" $(ARGS)
+
+test-slow: $(VENV)/.installed
+	$(PYTEST) -m slow $(ARGS)
+
+test-all: $(VENV)/.installed
+	$(PYTEST) $(ARGS)
 
 # Every cross reference must resolve, and any warning fails.
 docs: $(VENV)/.installed
@@ -19,9 +28,11 @@ docs: $(VENV)/.installed
 lint: $(VENV)/.installed
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
+	$(BIN)/lint-imports
 
 types: $(VENV)/.installed
 	$(BIN)/mypy
+	$(BIN)/pyright
 
 wheel: $(VENV)/.installed
 	$(BIN)/python -m build --no-isolation --outdir dist . > build.log 2>&1 || { cat build.log; exit 1; }

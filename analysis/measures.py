@@ -1,4 +1,4 @@
-"""All measures of one source: spectra, pictures and scalars, with standard errors or the reason why not."""
+"""All measures of one source: spectra, curves, pictures and scalars with standard errors."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gbnbench.analysis.catalogue import CATALOGUE
+from gbnbench.analysis.measure_definitions import DEFINITIONS
 from gbnbench.analysis.radial.anisotropy import anisotropy, anisotropy_db
-from gbnbench.analysis.radial.profile import (
-    ROUNDING,
+from gbnbench.analysis.radial.border_warning import border_warnings
+from gbnbench.analysis.radial.profile_measures import (
     evacuated_energy,
     exponential_fit,
     noise_floor,
@@ -22,16 +22,18 @@ from gbnbench.analysis.radial.profile import (
     powerlaw_fit,
 )
 from gbnbench.analysis.radial.psa import spectral_statistics
-from gbnbench.analysis.radial.radial_power import radial_power
+from gbnbench.analysis.radial.radial_power import mean_over_groups
 from gbnbench.analysis.spatial.bond_order import bond_order, psi6
-from gbnbench.analysis.spatial.delaunay import Neighbours, neighbours, valence, valence6
+from gbnbench.analysis.spatial.delaunay import Neighbours, neighbours
 from gbnbench.analysis.spatial.discrepancy import discrepancies
 from gbnbench.analysis.spatial.distances import mean_distance, min_distance
 from gbnbench.analysis.spatial.rdf import rdf
+from gbnbench.analysis.spatial.valence import valence, valence6
 from gbnbench.analysis.spatial.zone_plate import zone_plate
 from gbnbench.analysis.spectrum.limits import check_fmax, default_fmax
 from gbnbench.analysis.spectrum.periodogram import each_power
 from gbnbench.analysis.spectrum.shells import Shells, exact_shells
+from gbnbench.analysis.standard_errors import Estimate, jackknife, mean_over_sets
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.results import Measures, RadialPower, Spectrum
 from gbnbench.core.torus import FloatArray, as_realizations
@@ -41,10 +43,7 @@ if TYPE_CHECKING:
 
 NYQUIST_STEP = 0.005  # resolution of the effective Nyquist frequency, part of its error
 Result = TypeVar("Result")
-_Estimate = tuple[float, float]  # value, standard error
-_Entry = tuple[tuple[str, ...], Callable[[], list[_Estimate]]]
-
-EDGE_RATIO = 5.0  # power at |f| = 1 and 2 over the diagonals beside them that only a border explains
+_Entry = tuple[tuple[str, ...], Callable[[], list[Estimate]]]
 
 
 @dataclass(frozen=True)
@@ -82,7 +81,7 @@ class Analysis:
 
 
 def measures(x: ArrayLike, fmax: int | None = None) -> Measures:
-    """Every scalar measure of one or several sets.
+    """Compute every scalar measure of one or several sets.
 
     Parameters
     ----------
@@ -95,20 +94,52 @@ def measures(x: ArrayLike, fmax: int | None = None) -> Measures:
     Returns
     -------
     Measures
-        Every name of the catalogue; nan where undefined, with the reason in ``reasons``. ``standard_error``
+        Every name of ``DEFINITIONS``; nan where undefined, with the reason in ``reasons``. ``standard_error``
         is over realizations: the standard deviation of the mean, or the jackknife's where the measure is of
         the mean spectrum (for the peak, a maximum, that errs on the large side).
 
     Raises
     ------
     InputError
-        If x is not points of the unit torus.
+        If x is not points of the unit torus, or fmax is no harmonic that can be evaluated.
+
+    Notes
+    -----
+    ``gbnbench.analysis.measure_definitions.DEFINITIONS`` says what each measure is and whose definition it
+    follows; formulas stand with the functions of ``gbnbench.analysis.radial`` and ``.spatial``.
+
+    Examples
+    --------
+    >>> import gbnbench
+    >>> m = measures(gbnbench.generate("jittered", n=64, seed=1, realizations=4))
+    >>> 0 < m["noise_floor"] < 1 and m.standard_error["noise_floor"] > 0
+    True
+    >>> measures(gbnbench.generate("random", n=64, d=3, seed=1)).reasons["psi6"]
+    'psi6 is defined in the plane; got d=3'
     """
     return _Scalars(as_realizations(x), fmax).measures()
 
 
 def analyse(x: ArrayLike, fmax: int | None = None) -> Analysis:
-    """Measure everything, pictures included; parameters as those of ``measures``."""
+    """Measure everything of one or several sets, curves and pictures included.
+
+    Parameters
+    ----------
+    x : (n, d) or (realizations, n, d) array_like
+        Points on the unit torus.
+    fmax : int, optional
+        Largest harmonic on each axis; by default that of ``measures``.
+
+    Returns
+    -------
+    Analysis
+        None stands for each curve or picture that means nothing for these sets.
+
+    Raises
+    ------
+    InputError
+        As ``measures``.
+    """
     scalars = _Scalars(as_realizations(x), fmax)
     points = scalars.points
     return Analysis(
@@ -119,12 +150,16 @@ def analyse(x: ArrayLike, fmax: int | None = None) -> Analysis:
         valence=_unless_refused(lambda: valence(scalars.neighbours()).to_frame()),
         zone_plate=_unless_refused(lambda: zone_plate(points)),
         measures=scalars.measures(),
-        warnings=_warnings(scalars.radial, points.shape[2]),
+        warnings=border_warnings(scalars.radial, points.shape[2]),
     )
 
 
 class _Scalars:
-    """The powers of all sets and what is made of them."""
+    """Power of every set, from which the scalars are computed.
+
+    A new measure is one more entry of ``_of_spectrum`` or ``_of_sets``: its names and a function that gives a
+    value and a standard error for each.
+    """
 
     def __init__(self, points: FloatArray, fmax: int | None) -> None:
         self.points = points
@@ -132,7 +167,7 @@ class _Scalars:
         self.fmax = check_fmax(default_fmax(n, d, realizations) if fmax is None else fmax, d)
         self.powers, self.spectrum = each_power(points, self.fmax)
         self.shells: Shells = exact_shells(self.fmax, d)
-        self.radial = radial_power(self.spectrum.power, self.shells, self.spectrum.spacing)
+        self.radial = mean_over_groups(self.spectrum.power, self.shells, self.spectrum.spacing)
         self._neighbours: Sequence[Neighbours] | None = None
 
     def neighbours(self) -> Sequence[Neighbours]:
@@ -142,7 +177,7 @@ class _Scalars:
         return self._neighbours
 
     def measures(self) -> Measures:
-        """Assemble values, standard errors and reasons in the catalogue's order."""
+        """Assemble values, standard errors and reasons in the order of ``DEFINITIONS``."""
         values: dict[str, float] = {}
         errors: dict[str, float] = {}
         reasons: dict[str, str] = {}
@@ -157,7 +192,7 @@ class _Scalars:
                 for name in names:
                     values[name] = errors[name] = math.nan
                     reasons[name] = str(refusal)
-        order = [definition.name for definition in CATALOGUE]
+        order = [definition.name for definition in DEFINITIONS]
         return Measures({m: values[m] for m in order}, {m: errors[m] for m in order}, reasons)
 
     def _of_spectrum(self) -> list[_Entry]:
@@ -165,16 +200,16 @@ class _Scalars:
         rows = np.stack([self.shells.mean(power) for power in self.powers])
         realizations = len(rows)
 
-        def profile(compute: Callable[[RadialPower], Sequence[float]]) -> Callable[[], list[_Estimate]]:
+        def profile(compute: Callable[[RadialPower], Sequence[float]]) -> Callable[[], list[Estimate]]:
             def with_power(power: FloatArray) -> RadialPower:
                 return RadialPower(self.radial.frequency, self.radial.nu, power, self.radial.count)
 
             def left_out(k: int) -> Sequence[float]:
                 return compute(with_power((rows.sum(axis=0) - rows[k]) / (realizations - 1)))
 
-            return lambda: _jackknife(compute(self.radial), left_out, realizations)
+            return lambda: jackknife(compute(self.radial), left_out, realizations)
 
-        def directional() -> list[_Estimate]:
+        def directional() -> list[Estimate]:
             spacing, total = self.spectrum.spacing, self.powers.sum(axis=0)
 
             def left_out(k: int) -> Sequence[float]:
@@ -183,7 +218,7 @@ class _Scalars:
 
             whole = [anisotropy_db(self.spectrum.power, self.shells, realizations, spacing)]
             # Left-out spectra read -10 log10(M - 1): the same shift for each, so the spread is not touched.
-            return _jackknife(whole, left_out, realizations)
+            return jackknife(whole, left_out, realizations)
 
         def exponential(radial: RadialPower) -> Sequence[float]:
             fit = exponential_fit(radial)
@@ -193,7 +228,7 @@ class _Scalars:
             fit = powerlaw_fit(radial)
             return fit.slope, fit.residual_db
 
-        def summit() -> list[_Estimate]:
+        def summit() -> list[Estimate]:
             (value, error), (nu, spread) = profile(peak)()
             # Left-out spectra often peak on the same ring: its width is part of the error.
             return [(value, error), (nu, math.hypot(spread, self.spectrum.spacing / math.sqrt(12)))]
@@ -211,53 +246,34 @@ class _Scalars:
         """Measures of each set, averaged."""
         _, n, d = self.points.shape
 
-        def energy() -> list[_Estimate]:
+        def energy() -> list[Estimate]:
             each = [evacuated_energy(power, n, d, self.fmax) for power in self.powers]
-            return [_mean(np.array(each))]
+            return [mean_over_sets(np.array(each))]
 
-        def psa() -> list[_Estimate]:
-            found = spectral_statistics(self.points)
+        def psa() -> list[Estimate]:
+            statistics = spectral_statistics(self.points)
             return [
                 (
-                    found.effective_nyquist,
-                    math.hypot(found.effective_nyquist_error, NYQUIST_STEP / math.sqrt(12)),
+                    statistics.effective_nyquist,
+                    math.hypot(statistics.effective_nyquist_error, NYQUIST_STEP / math.sqrt(12)),
                 ),
-                (found.oscillations, found.oscillations_error),
+                (statistics.oscillations, statistics.oscillations_error),
             ]
 
-        def discrepancy() -> list[_Estimate]:
-            found = discrepancies(self.points, ("WD", "L2-star"))
-            return [_mean(found["WD"]), _mean(found["L2-star"])]
+        def discrepancy() -> list[Estimate]:
+            each = discrepancies(self.points, ("WD", "L2-star"))
+            return [mean_over_sets(each["WD"]), mean_over_sets(each["L2-star"])]
 
         return [
             (("evacuated_energy",), energy),
-            (("min_distance",), lambda: [_mean(min_distance(self.points))]),
-            (("mean_distance",), lambda: [_mean(mean_distance(self.points))]),
-            (("bond_order",), lambda: [_mean(bond_order(self.neighbours()))]),
-            (("psi6",), lambda: [_mean(psi6(self.neighbours()))]),
-            (("valence6",), lambda: [_mean(valence6(self.neighbours()))]),
+            (("min_distance",), lambda: [mean_over_sets(min_distance(self.points))]),
+            (("mean_distance",), lambda: [mean_over_sets(mean_distance(self.points))]),
+            (("bond_order",), lambda: [mean_over_sets(bond_order(self.neighbours()))]),
+            (("psi6",), lambda: [mean_over_sets(psi6(self.neighbours()))]),
+            (("valence6",), lambda: [mean_over_sets(valence6(self.neighbours()))]),
             (("effective_nyquist", "oscillations"), psa),
             (("discrepancy_wd", "discrepancy_star"), discrepancy),
         ]
-
-
-def _mean(each: FloatArray) -> _Estimate:
-    """Mean over sets and its standard error, nan for a single set."""
-    error = float(each.std(ddof=1) / math.sqrt(len(each))) if len(each) > 1 else math.nan
-    return float(each.mean()), error
-
-
-def _jackknife(
-    whole: Sequence[float], left_out: Callable[[int], Sequence[float]], realizations: int
-) -> list[_Estimate]:
-    """Values of the whole with the jackknife's standard errors (Efron 1982), nan for a single set."""
-    if realizations < 2:
-        return [(float(value), math.nan) for value in whole]
-    rest = np.array([left_out(k) for k in range(realizations)])
-    with np.errstate(invalid="ignore"):  # an infinite value has no spread
-        departure = rest - rest.mean(axis=0)
-    spread = np.sqrt((realizations - 1) / realizations * np.sum(departure**2, axis=0))
-    return [(float(value), float(error)) for value, error in zip(whole, spread, strict=True)]
 
 
 def _unless_refused(compute: Callable[[], Result]) -> Result | None:
@@ -266,20 +282,3 @@ def _unless_refused(compute: Callable[[], Result]) -> Result | None:
         return compute()
     except RefusalError:
         return None
-
-
-def _warnings(radial: RadialPower, d: int) -> tuple[str, ...]:
-    """Say where a set is not toroidal: a cut at the border puts power on the axes, not on the diagonals."""
-    by_square = dict(
-        zip(np.rint(radial.frequency**2).astype(int).tolist(), radial.power.tolist(), strict=True)
-    )
-    if d < 2 or not {1, 2, 4, 5} <= set(by_square):
-        return ()
-    axes, diagonals = min(by_square[1], by_square[4]), (by_square[2] + by_square[5]) / 2
-    if axes < max(EDGE_RATIO * diagonals, ROUNDING):
-        return ()
-    return (
-        f"not toroidal? power on the axes, {by_square[1]:.2g} at |f| = 1, is {axes / diagonals:.2g} times "
-        "that of the diagonals beside them, as when points keep away from the border of a box: low-frequency "
-        "numbers then measure the border",
-    )

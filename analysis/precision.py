@@ -1,10 +1,10 @@
-"""A precision on the device at hand: its types, its lanes and the programs built for them."""
+"""A precision on the OpenCL device: its types, its vector width and the programs built for them."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,7 @@ from gbnbench.opencl import Program, Runtime, runtime
 
 SUM_POINTS = 128  # points a lane sums in registers before the sum goes on in double
 PACKAGE = "gbnbench.analysis"
+PrecisionName = Literal["double", "float"]
 
 
 @dataclass(frozen=True)

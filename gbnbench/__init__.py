@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from gbnbench.analysis.measures import measures
     from gbnbench.analysis.radial.radial_power import radial
     from gbnbench.analysis.spectrum.periodogram import periodogram
-    from gbnbench.analysis.spectrum.plan import Plan, plan
+    from gbnbench.analysis.spectrum.plan import SpectrumPlan, plan
     from gbnbench.analysis.spectrum.shell_spectrum import shells
     from gbnbench.core.errors import GbnbenchError
     from gbnbench.core.results import ShellSpectrum, Spectrum
@@ -31,7 +31,7 @@ __version__ = "0.1.0"
 _HOMES = {
     "GbnbenchError": "gbnbench.core.errors",
     "generate": "gbnbench.generators.registry",
-    "Plan": "gbnbench.analysis.spectrum.plan",
+    "SpectrumPlan": "gbnbench.analysis.spectrum.plan",
     "ShellSpectrum": "gbnbench.core.results",
     "Spectrum": "gbnbench.core.results",
     "load": "gbnbench.io.points",
@@ -45,9 +45,9 @@ _HOMES = {
 
 __all__ = [
     "GbnbenchError",
-    "Plan",
     "ShellSpectrum",
     "Spectrum",
+    "SpectrumPlan",
     "generate",
     "load",
     "measures",

@@ -33,6 +33,7 @@ def tracked() -> set[str]:
     return {f"{INSTALLED[f.parts[0]]}/{'/'.join(f.parts[1:])}" for f in files}
 
 
+@pytest.mark.slow
 def test_the_wheel_holds_every_file_of_the_tree_and_nothing_else(tmp_path):
     subprocess.run(
         [sys.executable, "-m", "build", "--wheel", "--no-isolation", "--outdir", str(tmp_path), str(ROOT)],

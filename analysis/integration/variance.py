@@ -1,4 +1,4 @@
-"""Variance of estimates over sets and integrands, with its standard error, and slopes over n with theirs."""
+"""Variance of estimates over sets and integrands, and its slope over n, with standard errors."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from scipy.stats import t
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
 
-BENT = 0.3  # decades from the fitted line beyond which a slope is no law
+MOST_SCATTER = 0.3  # decades; variances that scatter more about their line follow no power law
 BAND = 0.975  # quantile at the upper end of a 95% band
 
 
@@ -26,11 +26,11 @@ class Variance:
     value : float
         Mean over all integrands and sets.
     standard_error : float
-        Over both, each counted as drawn at random; over one of them alone where the other has a single
-        member, nan where both have.
+        Standard error over integrands and sets, both counted as drawn at random. With a single integrand, or
+        a single set, it is over the other alone; with both single it is nan.
     low, high : float
-        95% band, of ln value by Student's t; nan where the standard error is. It covers less where few
-        integrands or sets decide: docs/integration.md has figures.
+        95% band of ln value by Student's t; nan where the standard error is. It covers less if a few
+        integrands or sets dominate: docs/integration.md has figures.
     bias, bias_error : float
         Mean error and its standard error.
     """
@@ -49,12 +49,13 @@ def variance_of(errors: ArrayLike) -> Variance:
     Parameters
     ----------
     errors : (integrands, sets) or (integrands, sets, shifts) float64
-        Estimate less integral: every integrand with every set. Shifts of one set are averaged before anything
-        is said of the spread over sets.
+        Estimate minus integral, of every integrand with every set. Shifts of one set are averaged before the
+        spread over sets is taken.
 
     Returns
     -------
     Variance
+        Their mean square, with its standard error.
 
     Raises
     ------
@@ -65,8 +66,8 @@ def variance_of(errors: ArrayLike) -> Variance:
     -----
     Squares e^2 of integrand i and set k are crossed random effects: their mean over I and K of them has
     variance s_I^2 / I + s_K^2 / K - s_R^2 / (I K), s_I^2 and s_K^2 being the variances of the row and column
-    means and s_R^2 that of what these leave (two-way analysis of variance without repetition). The estimate
-    is unbiased, and raised to s_R^2 / (I K) where it falls below what independence alone would give.
+    means and s_R^2 the residual variance (two-way analysis of variance without repetition). That estimate is
+    unbiased; where it falls below s_R^2 / (I K), the value for independent squares, it is raised to it.
     """
     crossed = _crossed(errors)
     mean, bias = crossed_mean((crossed**2).mean(axis=2)), crossed_mean(crossed.mean(axis=2))
@@ -84,10 +85,10 @@ class Slope:
     Attributes
     ----------
     value, standard_error : float
-        d ln variance / d ln n and what the choice of integrands and sets leaves it uncertain by.
+        d ln variance / d ln n, and its standard error over the choice of integrands and sets.
     scatter : float
-        Root mean square distance of the variances from the line, in decades: where it is far above their own
-        errors the line is a summary, not a law (the sigmoid of smooth integrands).
+        Root mean square distance of the variances from the line, in decades. Far above their own errors, the
+        variances follow no power law (as the sigmoid of smooth integrands).
     """
 
     value: float
@@ -103,12 +104,12 @@ def slope_of(n: Sequence[int], errors: Sequence[ArrayLike]) -> Slope:
     n : sequence of int
         At least two different sizes.
     errors : sequence of (integrands, sets) or (integrands, sets, shifts) float64
-        At each size, the same integrands at all of them; numbers of sets may differ.
+        Errors at each size, of the same integrands; numbers of sets may differ.
 
     Returns
     -------
     Slope
-        Each size weighs the same. nan where a variance is 0.
+        Least-squares line, every size weighing the same; nan if a variance is 0.
 
     Raises
     ------
@@ -118,9 +119,9 @@ def slope_of(n: Sequence[int], errors: Sequence[ArrayLike]) -> Slope:
     Notes
     -----
     To first order the slope is the mean of a_n e^2 / V_n over integrands and sets, a_n being the weights of
-    the straight line and V_n the variance at n: what an integrand adds is summed over n before its spread is
-    taken, so that integrands hard at every n do not pass for uncertainty of the slope. Sets are drawn anew at
-    each n.
+    the straight line and V_n the variance at n. The terms of one integrand are summed over n before the
+    spread over integrands is taken, since an integrand that is hard at every n does not change the slope.
+    Sets are independent at each n.
     """
     sizes = np.log(np.asarray(n, dtype=np.float64))
     if len(set(n)) < 2:
@@ -153,7 +154,7 @@ def slope_of(n: Sequence[int], errors: Sequence[ArrayLike]) -> Slope:
 
 
 def _crossed(errors: ArrayLike) -> FloatArray:
-    """As (integrands, sets, shifts)."""
+    """Bring errors to the shape (integrands, sets, shifts)."""
     array = np.asarray(errors, dtype=np.float64)
     if array.ndim == 2:
         array = array[:, :, None]
@@ -165,15 +166,15 @@ def _crossed(errors: ArrayLike) -> FloatArray:
 
 
 @dataclass(frozen=True)
-class Mean:
+class CrossedMean:
     """Mean of crossed values.
 
     Attributes
     ----------
     value, standard_error : float
-        The latter nan for a single value.
+        The mean and its standard error, nan for a single value.
     freedom : float
-        Degrees of freedom of the standard error, by Satterthwaite's rule; 0 where there is none.
+        Degrees of freedom of the standard error, by Satterthwaite's rule; 0 for a single value.
     """
 
     value: float
@@ -181,8 +182,8 @@ class Mean:
     freedom: float
 
 
-def crossed_mean(values: FloatArray) -> Mean:
-    """Average values of every integrand with every set, (integrands, sets); see ``variance_of``."""
+def crossed_mean(values: FloatArray) -> CrossedMean:
+    """Mean of values (integrands, sets) with its standard error over both, as ``variance_of`` has it."""
     rows, columns = values.shape
     parts, freedom, least = [], [], 0.0
     if rows > 1:
@@ -196,15 +197,15 @@ def crossed_mean(values: FloatArray) -> Mean:
         parts.append(-least)
         freedom.append((rows - 1) * (columns - 1))
     if not parts:
-        return Mean(float(values.mean()), math.nan, 0.0)
+        return CrossedMean(float(values.mean()), math.nan, 0.0)
     variance = max(sum(parts), least)
     spread = sum(part**2 / count for part, count in zip(parts, freedom, strict=True))
     degrees = min(max(variance**2 / spread, min(freedom)), sum(freedom)) if spread > 0 else sum(freedom)
-    return Mean(float(values.mean()), math.sqrt(variance), float(degrees))
+    return CrossedMean(float(values.mean()), math.sqrt(variance), float(degrees))
 
 
 def _residual(values: FloatArray) -> float:
-    """Variance of what row and column means leave."""
+    """Residual variance after row and column means are subtracted."""
     rest = values - values.mean(axis=1, keepdims=True) - values.mean(axis=0, keepdims=True) + values.mean()
     rows, columns = values.shape
     return float(np.sum(rest**2) / ((rows - 1) * (columns - 1)))

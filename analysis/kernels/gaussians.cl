@@ -2,8 +2,8 @@
  * sum over j of exp(-(u + j)^2 / 2 width^2); needs vector.cl, turns.cl and exp2.cl.
  *
  * DEGREE 0: of each axis the nearest image alone, so that one power of two serves all axes: 2^(scale |u|^2) with
- * scale = -1 / (2 width^2 ln 2). Else theta over its mean as a polynomial of that degree in cos 2 pi u (integrands/gaussians.py), whose
- * cosine comes from those of points and centres: neither exp nor cos a pair. Points are doubles or turns, [axis][point];
+ * scale = -1 / (2 width^2 ln 2). Else theta over its mean as a polynomial of that degree in cos 2 pi u
+ * (integrands/theta_polynomial.py), whose cosine comes from those of points and centres: neither exp nor cos a pair. Points are doubles or turns, [axis][point];
  * centres their coordinates, or cos and sin of each, [centre][axis]. One work-item takes LANES points.
  */
 #if DEGREE

@@ -17,24 +17,24 @@ from gbnbench.core.torus import FloatArray, as_realizations
 ROWS = 256
 # Frequencies evaluated first, in units of sqrt(n): the statistics of most sets need no more.
 FIRST_RANGE = 8.0
-# Some minutes of one core.
+# Some minutes on one core.
 MOST_POINTS = 200_000
 
 
 @dataclass(frozen=True)
 class SpectralStatistics:
-    """Effective Nyquist frequency and oscillations.
+    """Effective Nyquist frequency and oscillations of a source, with their errors.
 
     Attributes
     ----------
     effective_nyquist, oscillations : float
-        Of the power averaged over realizations, as PSA's.
+        Statistics of the power averaged over realizations, as PSA computes them.
     effective_nyquist_error, oscillations_error : float
         Their standard errors by the jackknife over realizations; nan for a single one.
     effective_nyquist_by_set, oscillations_by_set : (realizations,) float64
-        Of each set's own power, whose noise counts as oscillation too: more than the mean power has.
+        Statistics of each set's own power. Its noise counts as oscillation too, so that they are larger.
     frequency : (k,) float64
-        Left edges of PSA's bins, sqrt(n)/200 apart, as far as they were needed.
+        Left edges of PSA's bins, sqrt(n)/200 apart, as far as both statistics needed them.
     power : (realizations, k) float64
         Radial power of each set, derived from its radial distribution function.
     """
@@ -69,19 +69,29 @@ def spectral_statistics(x: ArrayLike) -> SpectralStatistics:
 
     Notes
     -----
-    Power is P(v) = |1 + 2 pi n sum (g - 1) J0(2 pi v r) r w(r) dr|, g the radial distribution function in
-    M = int(100 sqrt(n)) bins over [0, 1/2], v on M left edges of [0, n/2], w(r) = 0.43 + 0.5 cos(pi r/X) +
-    0.08 cos(2 pi r/X) up to X = 0.5 clamp(4 v/sqrt(n), 0.2, 0.5) and zero beyond.
+    Radial power at frequency v is
 
-    Effective Nyquist: with C(v) = sum over v' <= v of 2 v' P dv / v^2, from v = sqrt(n)/2 the first C > 0.5,
-    back to the first C < 0.1; v/2 there over sqrt(n)/2. It moves in steps of 0.005.
+        P(v) = |1 + 2 pi n sum over r of (g(r) - 1) J0(2 pi v r) r w(r) dr|,
 
-    Oscillations: 10 sqrt(2 pi Int (P - 1)^2 v dv / (pi (v1^2 - v0^2))) over v0..v1, v0 where P first reaches
-    0.98 (its maximum, where it never does), v1 = min(v0 + 5 sqrt(n), n/2).
+    g being the radial distribution function in M = int(100 sqrt(n)) bins over [0, 1/2], and v the M left
+    edges of bins over [0, n/2]. The window is w(r) = 0.43 + 0.5 cos(pi r/X) + 0.08 cos(2 pi r/X) up to X =
+    0.5 clamp(4 v/sqrt(n), 0.2, 0.5) and zero beyond.
 
-    The window ends at r = 1/4 at the latest, so pairs farther apart are not counted. Integrals are the plain
-    trapezoid rule; PSA's drops one sample where their number is odd, and reads coordinates as float32, so its
-    figures may differ by 0.001.
+    Effective Nyquist frequency: let C(v) = sum over v' <= v of 2 v' P(v') dv / v^2. From v = sqrt(n)/2
+    upwards find the first C > 0.5, and from there downwards the first C < 0.1. The result is v there over
+    sqrt(n), in steps of 0.005.
+
+    Oscillations: 10 sqrt(2 pi Int (P - 1)^2 v dv / (pi (v1^2 - v0^2))) over v0..v1. P first reaches 0.98 at
+    v0, or has its maximum there if it never does; v1 = min(v0 + 5 sqrt(n), n/2).
+
+    The window ends at r = 1/4 at the latest, so pairs farther apart are not counted. Integrals are by the
+    trapezoidal rule. PSA drops one sample if their number is odd and reads coordinates as float32, so that
+    its figures may differ by 0.001.
+
+    References
+    ----------
+    Heck, Schlömer & Deussen, "Blue noise sampling with controlled aliasing", ACM Transactions on Graphics
+    32(3), 2013.
     """
     sets = as_realizations(x)
     n, d = sets.shape[1:]
@@ -118,18 +128,8 @@ def spectral_statistics(x: ArrayLike) -> SpectralStatistics:
     )
 
 
-def effective_nyquist(x: ArrayLike) -> FloatArray:
-    """Effective Nyquist of each set, over sqrt(n)/2: (realizations,); see ``spectral_statistics``."""
-    return spectral_statistics(x).effective_nyquist_by_set
-
-
-def oscillations(x: ArrayLike) -> FloatArray:
-    """PSA's Omega of each set: (realizations,); see ``spectral_statistics``."""
-    return spectral_statistics(x).oscillations_by_set
-
-
 def _excess_density(sets: FloatArray, total: int) -> FloatArray:
-    """2 pi n (g - 1) r dr on the bins the window can reach, trapezoid: (bins, realizations)."""
+    """2 pi n (g - 1) r dr on the bins that the window covers, trapezoid: (bins, realizations)."""
     n = sets.shape[1]
     width = 0.5 / total
     bins = total // 2 + 1
@@ -202,6 +202,6 @@ def _oscillations(power: FloatArray, frequency: FloatArray, n: int) -> float:
 
 
 def _suffices(power: FloatArray, frequency: FloatArray, n: int) -> bool:
-    """Whether both statistics are settled by the frequencies evaluated so far."""
+    """Tell whether the frequencies evaluated so far determine both statistics."""
     settled = (power >= 0.98).any() and frequency[_rise(power)] + 5 * math.sqrt(n) < frequency[-2]
     return bool(settled) and _first_high(power, frequency, n) is not None

@@ -16,12 +16,12 @@ def radial(spectrum: Spectrum | ShellSpectrum, by: str = "shells", width: float 
     Parameters
     ----------
     spectrum : Spectrum or ShellSpectrum
-        A cube or its half; or shells, which are exact ones already.
+        A cube or its half; or exact shells, which hold their means already.
     by : {"shells", "digits", "annuli"}
         Exact shells of integer |f|^2; classes of sorted |digits| (finer, for d > 2; Ahmed, Ren & Wonka 2022,
         App. C); or PSA's annuli floor(|f| / width), so that numbers can be laid beside PSA's.
     width : float
-        Of an annulus, cycles per unit length.
+        Width of an annulus, cycles per unit length.
 
     Returns
     -------
@@ -31,7 +31,12 @@ def radial(spectrum: Spectrum | ShellSpectrum, by: str = "shells", width: float 
     Raises
     ------
     InputError
-        If the spectrum is none or holds listed frequencies, or by or width is not one of the above.
+        If the spectrum is neither of the two or holds listed frequencies, or by or width is not one of the
+        above.
+
+    Notes
+    -----
+    P(r) = (1 / N_r) * sum of P(f) over the N_r frequencies of the shell |f| = r.
 
     Examples
     --------
@@ -49,11 +54,11 @@ def radial(spectrum: Spectrum | ShellSpectrum, by: str = "shells", width: float 
         raise InputError(
             f"radial takes a spectrum, radial(periodogram(x, fmax)); got {type(spectrum).__name__}"
         )
-    return radial_power(spectrum.whole().power, groups_of(spectrum, by, width), spectrum.spacing)
+    return mean_over_groups(spectrum.whole().power, _groups(spectrum, by, width), spectrum.spacing)
 
 
-def groups_of(spectrum: Spectrum, by: str = "shells", width: float = 2.0) -> Shells:
-    """Return the grouping that ``radial`` averages over; raises as it does."""
+def _groups(spectrum: Spectrum, by: str, width: float) -> Shells:
+    """Return the groups of frequencies that ``radial`` averages over."""
     if spectrum.frequencies is not None:
         raise InputError("radial power needs a whole cube: periodogram(x, fmax), not listed frequencies")
     if by not in GROUPINGS:
@@ -65,6 +70,44 @@ def groups_of(spectrum: Spectrum, by: str = "shells", width: float = 2.0) -> She
     return (digit_classes if by == "digits" else exact_shells)(spectrum.fmax, spectrum.d)
 
 
-def radial_power(power: FloatArray, shells: Shells, spacing: float) -> RadialPower:
-    """Radial power of a bare cube over a given grouping."""
-    return RadialPower(shells.radius, shells.radius * spacing, shells.mean(power), shells.count)
+def mean_over_groups(power: FloatArray, groups: Shells, spacing: float) -> RadialPower:
+    """Average the power of a cube over groups of its frequencies.
+
+    Parameters
+    ----------
+    power : (2*fmax+1,)*d float64
+        Power of the whole cube.
+    groups : Shells
+        Shells, digit classes or annuli of that cube.
+    spacing : float
+        n**(-1/d), so that nu = |f| * spacing.
+
+    Returns
+    -------
+    RadialPower
+        One row a group.
+    """
+    return RadialPower(groups.radius, groups.radius * spacing, groups.mean(power), groups.count)
+
+
+def shells_from_cube(spectrum: Spectrum) -> ShellSpectrum:
+    """Mean and spread of a cube's exact shells; ``gbnbench.shells`` computes them without the cube."""
+    whole = spectrum.whole()
+    groups = exact_shells(whole.fmax, whole.d)
+    mean, deviation = groups.moments(whole.power)
+    return ShellSpectrum(
+        frequency=groups.radius,
+        nu=groups.radius * whole.spacing,
+        power=mean,
+        count=groups.count,
+        deviation=deviation,
+        n=whole.n,
+        d=whole.d,
+        realizations=whole.realizations,
+        fmax=whole.fmax,
+        precision=whole.precision,
+        method=whole.method,
+        device=whole.device,
+        error_rms=whole.error_rms,
+        error_bound=whole.error_bound,
+    )

@@ -31,8 +31,9 @@ def bond_order(x: ArrayLike | Sequence[Neighbours]) -> FloatArray:
 
     Notes
     -----
-    Sum over points of |sum exp(6 i theta)| over the total number of neighbours, theta being the direction of
-    the edge between consecutive Delaunay neighbours of the point.
+    Q6 = sum over points of |sum over its neighbours of exp(6 i theta)| / total number of neighbours, theta
+    being the direction of the edge between consecutive Delaunay neighbours of the point (Heck, Schlömer &
+    Deussen 2013, as in PSA).
     """
     values = []
     for each in plane_neighbours(x, "bond order"):
@@ -43,7 +44,7 @@ def bond_order(x: ArrayLike | Sequence[Neighbours]) -> FloatArray:
 
 
 def psi6(x: ArrayLike | Sequence[Neighbours]) -> FloatArray:
-    """Mean over points of |mean over Delaunay neighbours of exp(6 i angle of the bond)| of each set.
+    """Sixfold order psi6 of each set: mean over points of |mean over neighbours of exp(6 i theta)|.
 
     Parameters
     ----------
@@ -59,6 +60,10 @@ def psi6(x: ArrayLike | Sequence[Neighbours]) -> FloatArray:
     ------
     RefusalError
         If d is not 2, or two points of a set coincide.
+
+    Notes
+    -----
+    theta is the direction from the point to its Delaunay neighbour (Halperin & Nelson 1978).
     """
     values = [
         np.mean(np.abs(each.sum_over_points(_sixfold(_complex(each.vector)))) / each.degree)

@@ -20,20 +20,20 @@ MOST_TERMS = 10**9
 def discrepancies(
     x: ArrayLike, kinds: Sequence[Discrepancy] = get_args(Discrepancy)
 ) -> dict[Discrepancy, FloatArray]:
-    """Centred, wrap-around, mixture and star L2 discrepancies of each set.
+    """Centred, wrap-around, mixture and star L2 discrepancies of each set, by ``scipy.stats.qmc``.
 
     Parameters
     ----------
     x : (n, d) or (realizations, n, d) float64
         Points in [0, 1)^d.
     kinds : sequence of {"CD", "WD", "MD", "L2-star"}
-        Which; all by default.
+        The discrepancies to compute; all by default.
 
     Returns
     -------
     dict
-        Kind -> (realizations,) float64. As SciPy has them, the first three are squares
-        and the last is not. Only WD belongs to the torus: the others change when the set is shifted.
+        Kind -> (realizations,) float64. As SciPy defines them, the first three are squares and the last is
+        not. Only WD does not change when the set is shifted on the torus.
 
     Raises
     ------

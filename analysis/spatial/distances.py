@@ -47,6 +47,8 @@ def nearest_distances(x: ArrayLike) -> FloatArray:
 def min_distance(x: ArrayLike) -> FloatArray:
     """Smallest toroidal distance between two points of each set, in densest spacings: (realizations,).
 
+    Lagae & Dutré (2008) call it the relative radius: min over i != j of |x_i - x_j| / densest_spacing(n, d).
+
     Raises
     ------
     RefusalError
@@ -57,6 +59,9 @@ def min_distance(x: ArrayLike) -> FloatArray:
 
 def mean_distance(x: ArrayLike) -> FloatArray:
     """Mean toroidal distance to the nearest neighbour of each set, in densest spacings: (realizations,).
+
+    (1/n) sum over i of min over j of |x_i - x_j| / densest_spacing(n, d), as in PSA (Schlömer & Deussen
+    2011).
 
     Raises
     ------

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class EdgeDensity:
-    """Density profile of one source's sets near the faces of the box.
+    """Density of the points of one source against their depth in the box.
 
     Attributes
     ----------
@@ -27,9 +27,9 @@ class EdgeDensity:
     density : (bins,) float64
         Mean over sets of the share of points in the bin over the bin's volume: 1 for uniform points.
     standard_error : (bins,) float64
-        Of that mean, over sets; nan for a single set.
+        Standard error of that mean over sets; nan for a single set.
     cumulative : (bins,) float64
-        The same within all of the bins so far, whose last is 1 where the bins reach the centre.
+        Density within all bins up to this one; the last is 1 where the bins reach the centre.
     extreme : float
         Mean over sets and faces of the depth of the point nearest to a face, spacings.
     extreme_error : float
@@ -69,13 +69,14 @@ def edge_density(x: ArrayLike, width: float = 0.25, depth: float = 8.0) -> EdgeD
     x : (n, d) or (realizations, n, d) array_like
         Points of the box [0, 1)^d.
     width : float
-        Of a bin, spacings.
+        Width of a bin, spacings.
     depth : float
-        Of the last bin's end, spacings; the centre of the box where that is nearer.
+        End of the last bin, spacings; the centre of the box where that is nearer.
 
     Returns
     -------
     EdgeDensity
+        Mean over the sets with standard errors.
 
     Raises
     ------

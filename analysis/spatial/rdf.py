@@ -20,7 +20,7 @@ RANGE = 8.0  # densest spacings
 BINS_PER_POINT = 0.125
 # Pairs worked on at once: a few arrays of this many doubles stay in a core's cache.
 BLOCK = 1 << 16
-# Windows are wider than reach by this much, so that rounding loses no pair; the bins decide what counts.
+# Windows are wider than the longest distance by this much, so that rounding loses no pair.
 SLACK = 1e-12
 
 
@@ -60,8 +60,8 @@ def rdf(x: ArrayLike) -> RadialDistribution:
     Returns
     -------
     RadialDistribution
-        int(0.125 n) bins over 0..8 densest spacings, of which those that end at or below 1/2 are kept:
-        beyond, shells do not fit the torus.
+        int(0.125 n) bins over 0..8 densest spacings, without those that end beyond 1/2, whose shells do not
+        fit the torus.
 
     Raises
     ------
@@ -92,7 +92,27 @@ def rdf(x: ArrayLike) -> RadialDistribution:
 
 
 def pair_density(sets: FloatArray, bins: int, width: float) -> FloatArray:
-    """Density g of pairs in bins of equal width from 0 on: (realizations, n, d) -> (realizations, bins)."""
+    """Radial distribution function in bins of equal width from 0 on.
+
+    Parameters
+    ----------
+    sets : (realizations, n, d) float64
+        Points on the unit torus, n >= 2.
+    bins : int
+        Number of bins; they end at 1/2 at most.
+    width : float
+        Width of a bin, in box sides.
+
+    Returns
+    -------
+    (realizations, bins) float64
+        g of each set: pairs counted over pairs expected of uniform points; see ``rdf``.
+
+    Raises
+    ------
+    RefusalError
+        If n = 1.
+    """
     n, d = sets.shape[1:]
     if n < 2:
         raise RefusalError("pairs need n >= 2; got n=1")
@@ -112,7 +132,7 @@ def pair_counts(x: FloatArray, bins: int, width: float) -> NDArray[np.int64]:
     bins : int
         Equal bins from 0 on, closed on the left; farther pairs are not counted.
     width : float
-        Of a bin, over 0; all together they reach 1/2 at most.
+        Width of a bin, > 0; bins * width is 1/2 at most.
 
     Returns
     -------
@@ -126,8 +146,8 @@ def pair_counts(x: FloatArray, bins: int, width: float) -> NDArray[np.int64]:
 
     Notes
     -----
-    Points are cut in strips at least as wide as reach and sorted along another axis, so that only pairs in a
-    window are looked at; memory does not grow with their number.
+    Points are cut in strips at least as wide as the longest distance and sorted along another axis, so that
+    only pairs within a window are examined. Memory does not grow with their number.
     """
     reach = bins * width
     if not 0 < reach <= 0.5 * (1 + 1e-12):

@@ -3,26 +3,22 @@
 from __future__ import annotations
 
 import math
-import os
 
 import numpy as np
 
-from gbnbench.analysis.radial.profile import FLOOR_NU
 from gbnbench.analysis.spectrum.shells import EDGE
 from gbnbench.core.errors import InputError
+from gbnbench.core.memory import physical_memory
 
 MEMORY_SHARE = 0.5  # of the machine's memory that one cube may take
 BYTES = 24  # a frequency: on the device, on the host, and room to work with it
 LARGEST_COUNT = 1 << 63
+FLOOR_NU = 0.25  # end of the band whose mean power is the noise floor
 LARGEST_NU = 2.0  # what the peak and the pictures need
+FLOOR_NU = 0.25  # end of the band whose mean power is the noise floor
 MOST_FREQUENCIES = 6_000_000  # of one cube, 48 MB: F = 3 in d = 8
 MOST_TERMS = 1e11  # frequencies times points of one set: about ten seconds of one core
 MOST_KEPT = 1 << 27  # powers of all sets together, 1 GB
-
-
-def memory() -> int:
-    """Bytes of this machine's memory."""
-    return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
 
 
 def check_fmax(fmax: object, d: int) -> int:
@@ -35,7 +31,7 @@ def check_fmax(fmax: object, d: int) -> int:
     """
     f = check_harmonic(fmax, d)
     count = (2 * f + 1) ** d
-    room = int(MEMORY_SHARE * memory()) // BYTES
+    room = int(MEMORY_SHARE * physical_memory()) // BYTES
     if count > room:
         fitting = largest_fmax(room, d) if room >= 3**d else 0
         way_out = (
@@ -48,6 +44,25 @@ def check_fmax(fmax: object, d: int) -> int:
             f"{way_out}"
         )
     return f
+
+
+def cube_fits(fmax: int, d: int) -> bool:
+    """Tell whether a whole cube of frequencies fits in memory.
+
+    Parameters
+    ----------
+    fmax, d : int
+        Largest harmonic on each axis, and dimension.
+
+    Returns
+    -------
+    bool
+    """
+    try:
+        check_fmax(fmax, d)
+    except InputError:
+        return False
+    return True
 
 
 def check_harmonic(fmax: object, d: int) -> int:
@@ -90,7 +105,7 @@ def default_fmax(n: int, d: int, realizations: int = 1) -> int:
     edge = math.pow(n, 1 / d)
     wanted = math.floor(LARGEST_NU * edge * (1 + EDGE)) + 1
     most = min(MOST_FREQUENCIES, MOST_TERMS / n, MOST_KEPT / realizations)
-    floor = math.ceil(FLOOR_NU * edge)  # the least that anyone asks for
+    floor = math.ceil(FLOOR_NU * edge)  # the noise floor is always wanted
     return max(1, min(wanted, max(floor, largest_fmax(int(most), d))))
 
 

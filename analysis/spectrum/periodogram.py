@@ -7,26 +7,30 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gbnbench.analysis.precision import PrecisionName
 from gbnbench.analysis.spectrum.error_model import Errors
-from gbnbench.analysis.spectrum.evaluators.evaluation import Evaluation
+from gbnbench.analysis.spectrum.evaluators.protocol import Evaluator
+from gbnbench.analysis.spectrum.evaluators.registry import Method
 from gbnbench.analysis.spectrum.limits import check_fmax
 from gbnbench.analysis.spectrum.plan import choose
-from gbnbench.analysis.spectrum.request import Request
+from gbnbench.analysis.spectrum.request import SpectrumRequest
 from gbnbench.core.errors import InputError
 from gbnbench.core.results import Spectrum
 from gbnbench.core.torus import FloatArray, as_realizations
+from gbnbench.opencl import use_device
 
 
 def periodogram(
     x: ArrayLike,
     fmax: int | None = None,
-    precision: str | None = None,
+    precision: PrecisionName = "double",
     frequencies: ArrayLike | None = None,
     *,
     weights: ArrayLike | None = None,
     half: bool = False,
     floor: float | None = None,
-    method: str | None = None,
+    method: Method | None = None,
+    device: str | None = None,
 ) -> Spectrum:
     """Exact power at every integer frequency with |f_a| <= fmax, or at those listed.
 
@@ -36,23 +40,24 @@ def periodogram(
         Points on the unit torus; power is averaged over realizations.
     fmax : int
         Largest harmonic on each axis, cycles per unit length, at least 1.
-    precision : {"double", "float"}, optional
-        Of the phases, tables and sums of 128 points; those sums are added in double where the device has it.
-        Double unless said.
+    precision : {"double", "float"}
+        Precision of the phases, tables and sums of 128 points; those sums are added in double where the
+        device has it. With a floor, "double" stands for whichever precision resolves it.
     frequencies : (m, d) array_like of int, optional
         Frequencies instead of a cube; any int64.
     weights : (n,) or (realizations, n) array_like, optional
-        Of the points: F = sum_k w_k exp(-2 pi i f.x_k) and P = |F|^2 / sum_k w_k^2, so that white noise still
-        has power 1 in expectation.
+        Weights of the points: F = sum_k w_k exp(-2 pi i f.x_k) and P = |F|^2 / sum_k w_k^2, so that white
+        noise still has power 1 in expectation.
     half : bool
         Only the half of the cube with f_0 >= 0; the other is its mirror image.
     floor : float, optional
         Smallest power that must be known to 1%: lets the cheapest evaluation be chosen that resolves it,
         float or, in up to three dimensions, a non-uniform FFT (``gbnbench.plan`` tells which and why).
-
-    method : str, optional
-        An evaluation by name instead of the cheapest: "two-group product", "gridded product",
-        "non-uniform FFT", "numpy product", or "direct sum" for listed frequencies.
+    method : {"product", "gridded", "nufft", "numpy", "direct"}, optional
+        An evaluator instead of the cheapest: the two-group product, the gridded product, the non-uniform FFT,
+        the product in plain numpy, or the direct sum for listed frequencies.
+    device : str, optional
+        Part of the name of the OpenCL device, or its position, as in ``GBNBENCH_DEVICE``, which it overrides.
 
     Returns
     -------
@@ -66,7 +71,7 @@ def periodogram(
     ------
     InputError
         If x is not points of [0, 1)^d, fmax is not a positive integer, both or neither of fmax and
-        frequencies are given, weights do not fit, floor is below what any evaluation resolves, or the cube
+        frequencies are given, weights do not fit, floor is below what any evaluator resolves, or the cube
         does not fit in memory (the text says what would).
     DeviceError
         If the OpenCL device lacks the precision. Without any device numpy computes.
@@ -95,16 +100,19 @@ def periodogram(
     if frequencies is not None:
         if half:
             raise InputError("half is of a cube; list only the frequencies wanted")
-        return _listed(points, check_frequencies(frequencies, d), precision, w, floor, method)
+        wanted = check_frequencies(frequencies, d)
+        with use_device(device):
+            return _listed(points, wanted, precision, w, floor, method)
     f = check_fmax(fmax, d)
-    request = Request("half cube" if half else "cube", n, d, f, sets, (2 * f + 1) ** d)
-    evaluation = choose(request, precision, floor, method)
-    power, errors = evaluation.cube(points, f, w, half=half, mean=True)
-    errors = errors.averaged(sets, n)
-    return _spectrum(power, request, evaluation, errors, half=half, weighted=w is not None)
+    request = SpectrumRequest("half cube" if half else "cube", n, d, f, sets, (2 * f + 1) ** d)
+    with use_device(device):
+        evaluator = choose(request, precision, floor, method)
+        power, errors = evaluator.cube(points, f, w, half=half, mean=True)
+        errors = errors.averaged(sets, n)
+        return _spectrum(power, request, evaluator, errors, half=half, weighted=w is not None)
 
 
-def each_power(x: FloatArray, fmax: int, precision: str | None = None) -> tuple[FloatArray, Spectrum]:
+def each_power(x: FloatArray, fmax: int, precision: PrecisionName = "double") -> tuple[FloatArray, Spectrum]:
     """Power of every realization, and their mean.
 
     Parameters
@@ -113,7 +121,7 @@ def each_power(x: FloatArray, fmax: int, precision: str | None = None) -> tuple[
         Checked points.
     fmax : int
         Checked by ``check_fmax``.
-    precision : {"double", "float"}, optional
+    precision : {"double", "float"}
         As in ``periodogram``.
 
     Returns
@@ -122,32 +130,32 @@ def each_power(x: FloatArray, fmax: int, precision: str | None = None) -> tuple[
     spectrum : Spectrum
     """
     sets, n, d = x.shape
-    request = Request("cube", n, d, fmax, sets, (2 * fmax + 1) ** d)
-    evaluation = choose(request, precision, None)
-    powers, errors = evaluation.cube(x, fmax, None, half=False, mean=False)
-    return powers, _spectrum(powers.mean(axis=0), request, evaluation, errors.averaged(sets, n))
+    request = SpectrumRequest("cube", n, d, fmax, sets, (2 * fmax + 1) ** d)
+    evaluator = choose(request, precision, None)
+    powers, errors = evaluator.cube(x, fmax, None, half=False, mean=False)
+    return powers, _spectrum(powers.mean(axis=0), request, evaluator, errors.averaged(sets, n))
 
 
 def _listed(
     x: FloatArray,
     frequencies: NDArray[np.int64],
-    precision: str | None,
+    precision: str,
     weights: FloatArray | None,
     floor: float | None,
     method: str | None,
 ) -> Spectrum:
     sets, n, d = x.shape
     fmax = max(abs(int(frequencies.max())), abs(int(frequencies.min())))
-    request = Request("listed", n, d, fmax, sets, len(frequencies))
-    evaluation = choose(request, precision, floor, method)
-    power, errors = evaluation.listed(x, frequencies, weights)
+    request = SpectrumRequest("listed", n, d, fmax, sets, len(frequencies))
+    evaluator = choose(request, precision, floor, method)
+    power, errors = evaluator.listed(x, frequencies, weights)
     errors = errors.averaged(sets, n)
     weighted = weights is not None
-    return _spectrum(power, request, evaluation, errors, frequencies=frequencies, weighted=weighted)
+    return _spectrum(power, request, evaluator, errors, frequencies=frequencies, weighted=weighted)
 
 
 def _spectrum(
-    power: FloatArray, request: Request, evaluation: Evaluation, errors: Errors, **more: Any
+    power: FloatArray, request: SpectrumRequest, evaluator: Evaluator, errors: Errors, **more: Any
 ) -> Spectrum:
     return Spectrum(
         power=power,
@@ -155,9 +163,9 @@ def _spectrum(
         d=request.d,
         realizations=request.realizations,
         fmax=request.fmax,
-        precision=evaluation.precision,
-        method=evaluation.method,
-        device=evaluation.device,
+        precision=evaluator.precision,
+        method=evaluator.method,
+        device=evaluator.device,
         error_rms=errors.rms,
         error_bound=errors.bound,
         **more,

@@ -1,39 +1,42 @@
-"""What a spectrum may be asked for: a cube of frequencies or its half, shells of |f|, or a list."""
+"""The request for a spectrum: which frequencies, of how many points; it is planned before they exist."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
 from gbnbench.analysis.spectrum import limits
-from gbnbench.analysis.spectrum.evaluators.shell_product import pairs, two_groups
 from gbnbench.analysis.spectrum.limits import check_harmonic
+from gbnbench.analysis.spectrum.sorted_groups import count_pairs, two_sorted_groups
 from gbnbench.core.errors import InputError
+from gbnbench.core.memory import physical_memory
 
+Frequencies = Literal["cube", "half cube", "shells", "listed"]
 SHELL_BYTES = 96  # a shell: on the device, twice on the host, and what they are merged in
 GROUP_BYTES = 64  # a frequency of a group of axes while it is listed and sorted
 
 
 @dataclass(frozen=True)
-class Request:
-    """What is asked for.
+class SpectrumRequest:
+    """Which frequencies are wanted, of sets of how many points.
 
     Attributes
     ----------
     what : {"cube", "half cube", "shells", "listed"}
         Which frequencies.
     n, d, fmax, realizations : int
-        Points a set, dimension, largest harmonic on an axis, sets.
+        Points in a set, dimension, largest harmonic on each axis, number of sets.
     frequencies : int
-        How many are wanted, over the whole space.
+        Number of frequencies wanted, over the whole space.
     low, high : int
-        Of |f|^2, for shells.
+        Smallest and largest |f|^2, for shells.
     """
 
-    what: str
+    what: Frequencies
     n: int
     d: int
     fmax: int
@@ -55,8 +58,21 @@ class Request:
 
 def shell_request(
     n: int, d: int, fmax: int, realizations: int, band: Sequence[float] | None, corners: bool
-) -> Request:
-    """Request for the shells of a ball, a band or, with its corners, of a whole cube.
+) -> SpectrumRequest:
+    """Request the shells of a ball, of a band or, with its corners, of a whole cube.
+
+    Parameters
+    ----------
+    n, d, fmax, realizations : int
+        Points in a set, dimension, largest harmonic on each axis, number of sets.
+    band : (float, float) or None
+        Smallest and largest |f|, cycles per unit length.
+    corners : bool
+        Every frequency of the cube, where otherwise |f| <= fmax.
+
+    Returns
+    -------
+    SpectrumRequest
 
     Raises
     ------
@@ -92,16 +108,29 @@ def shell_request(
     count = _count(d, f, low, high)
     if count == 0:
         raise InputError(f"no integer frequency has |f| in {band!r}")
-    return Request("shells", n, d, f, realizations, count, low, high)
+    return SpectrumRequest("shells", n, d, f, realizations, count, low, high)
 
 
 def check_room(d: int, fmax: int, low: int, high: int) -> None:
-    """Refuse shells or groups of axes that do not fit in memory, before they are listed."""
+    """Refuse shells or groups of axes that do not fit in memory, before they are listed.
+
+    Parameters
+    ----------
+    d, fmax : int
+        Dimension and largest harmonic on each axis.
+    low, high : int
+        Smallest and largest |f|^2.
+
+    Raises
+    ------
+    InputError
+        If they take more than half of this machine's memory.
+    """
     axes = d - d // 2
     ball = math.pi ** (axes / 2) / math.gamma(axes / 2 + 1) * (math.sqrt(high) + math.sqrt(axes) / 2) ** axes
     listed = min(ball, float(2 * fmax + 1) ** axes)
     needed = max(SHELL_BYTES * (high - low + 1), GROUP_BYTES * listed)
-    room = limits.MEMORY_SHARE * limits.memory()
+    room = limits.MEMORY_SHARE * physical_memory()
     if needed > room:
         raise InputError(
             f"shells of |f|^2 from {low} to {high} in d={d} take {needed / 1e9:.3g} GB, more than half "
@@ -113,7 +142,7 @@ def _count(d: int, fmax: int, low: int, high: int) -> int:
     """Frequencies with low <= |f|^2 <= high, over the whole space."""
     if d == 1:
         return 2 * (math.isqrt(high) - math.isqrt(low - 1))
-    a, b = two_groups(d, fmax, high)
+    a, b = two_sorted_groups(d, fmax, high)
     # A pair stands for (fa, fb), (fa, -fb) and their mirror images, which are two where either is 0.
     alone = sum(int(np.count_nonzero((g.square >= low) & (g.square <= high))) for g in (a, b))
-    return 4 * pairs(a, b, low, high) - 2 * alone
+    return 4 * count_pairs(a, b, low, high) - 2 * alone

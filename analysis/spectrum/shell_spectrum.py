@@ -8,29 +8,27 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gbnbench.analysis.precision import precision_of
-from gbnbench.analysis.spectrum.error_model import Errors
-from gbnbench.analysis.spectrum.evaluators.evaluation import PRODUCT, SEPARABLE, Evaluation
-from gbnbench.analysis.spectrum.evaluators.shell_product import Moments, shell_moments
+from gbnbench.analysis.precision import PrecisionName
 from gbnbench.analysis.spectrum.limits import default_shell_fmax
 from gbnbench.analysis.spectrum.periodogram import check_weights
 from gbnbench.analysis.spectrum.plan import choose
-from gbnbench.analysis.spectrum.request import Request, shell_request
-from gbnbench.analysis.spectrum.shells import squared_radius
+from gbnbench.analysis.spectrum.request import shell_request
 from gbnbench.core.results import ShellSpectrum
-from gbnbench.core.torus import FloatArray, as_realizations, spacing
+from gbnbench.core.torus import as_realizations, spacing
+from gbnbench.opencl import use_device
 
 
 def shells(
     x: ArrayLike,
     fmax: int | None = None,
-    precision: str | None = None,
+    precision: PrecisionName = "double",
     *,
     band: Sequence[float] | None = None,
     corners: bool = False,
     weights: ArrayLike | None = None,
     floor: float | None = None,
     progress: Callable[[float], None] | None = None,
+    device: str | None = None,
 ) -> ShellSpectrum:
     """Mean and spread of power on every exact shell of |f|, and nothing else.
 
@@ -41,7 +39,7 @@ def shells(
     fmax : int, optional
         Shells up to |f| = fmax, all of which the cube |f_a| <= fmax holds whole; by default as far as nu = 2,
         or as affordable (``default_shell_fmax``).
-    precision : {"double", "float"}, optional
+    precision : {"double", "float"}
         As in ``periodogram``.
     band : (low, high), optional
         Only shells with low <= |f| <= high, cycles per unit length.
@@ -53,6 +51,8 @@ def shells(
         Smallest power of a frequency that must be known to 1%; lets float be chosen where it does.
     progress : callable, optional
         Called now and then with the share done.
+    device : str, optional
+        The OpenCL device, as in ``periodogram``.
 
     Returns
     -------
@@ -84,14 +84,10 @@ def shells(
     if fmax is None:
         fmax = default_shell_fmax(n, d) if band is None else max(1, math.ceil(band[1]))
     request = shell_request(n, d, fmax, sets, band, corners)
-    evaluation = choose(request, precision, floor)
-    if d > 1 and evaluation.method != SEPARABLE:
-        p = precision_of(evaluation.precision)
-        moments, errors = shell_moments(p, points, request.fmax, request.low, request.high, w, progress)
-    else:
-        if evaluation.method != SEPARABLE:
-            evaluation = Evaluation(PRODUCT, evaluation.precision)
-        moments, errors = _of_cube(evaluation, points, request, w)
+    with use_device(device):
+        evaluator = choose(request, precision, floor)
+        moments, errors = evaluator.shells(points, request, w, progress)
+        ran_on = evaluator.device
     errors = errors.averaged(sets, n)
     return ShellSpectrum(
         frequency=np.sqrt(moments.square.astype(np.float64)),
@@ -103,24 +99,9 @@ def shells(
         d=d,
         realizations=sets,
         fmax=request.fmax,
-        precision=evaluation.precision,
-        method=evaluation.method,
-        device=evaluation.device,
+        precision=evaluator.precision,
+        method=evaluator.method,
+        device=ran_on,
         error_rms=errors.rms,
         error_bound=errors.bound,
     )
-
-
-def _of_cube(
-    evaluation: Evaluation, x: FloatArray, request: Request, weights: FloatArray | None
-) -> tuple[Moments, Errors]:
-    """Moments from a whole cube: one dimension, where that is as cheap, and plain numpy."""
-    reach = min(request.fmax, math.isqrt(request.high))
-    power, errors = evaluation.cube(x, reach, weights, half=False, mean=True)
-    square, flat = squared_radius(reach, request.d), power.ravel()
-    wanted = (square >= request.low) & (square <= request.high)
-    wanted[: len(wanted) // 2 + 1] = False  # one half space
-    present, label, count = np.unique(square[wanted], return_inverse=True, return_counts=True)
-    mean = np.bincount(label, flat[wanted]) / count
-    deviation = np.bincount(label, (flat[wanted] - mean[label]) ** 2).astype(np.float64, copy=False)
-    return Moments(present, count.astype(np.int64), mean, deviation), errors

@@ -107,8 +107,3 @@ EDGE = (
 def in_band(nu: FloatArray, low: float, high: float) -> NDArray[np.bool_]:
     """Whether low <= nu <= high, both edges included whatever nu rounded to."""
     return (nu >= low * (1 - EDGE)) & (nu <= high * (1 + EDGE))
-
-
-def ring_of(shells: Shells) -> NDArray[np.int64]:
-    """Ring k = round(|f|) of each shell: (size,) int64."""
-    return np.rint(shells.radius).astype(np.int64)

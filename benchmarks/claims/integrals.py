@@ -8,10 +8,11 @@ from functools import lru_cache
 
 import numpy as np
 
-from gbnbench.analysis.integration.estimator import estimate_errors, foretold_variance, series_of
+from gbnbench.analysis.integration.estimator import estimate_errors
 from gbnbench.analysis.integration.integrands.gaussians import Gaussians
 from gbnbench.analysis.integration.integrands.half_space import HalfSpaces
 from gbnbench.analysis.integration.integrands.protocol import Integrand
+from gbnbench.analysis.integration.spectral_variance import fourier_series, predicted_variance
 from gbnbench.analysis.integration.variance import Slope, Variance, crossed_mean, slope_of, variance_of
 from gbnbench.benchmarks.claims.claim import BESIDE, NO, PARTLY, Row, holds, reported
 from gbnbench.benchmarks.claims.sets import FAST, SEED, Drawn, Sets
@@ -148,10 +149,10 @@ def predicted(sets: Sets) -> Iterator[Row]:
     for n in (64, 256, 512, 1024):
         drawn = draw(sets, FAST, n, 2)
         some = integrands(SMOOTH, 2)
-        series = series_of(SMOOTH, some, 2)
+        series = fourier_series(SMOOTH, some, 2)
         if series is None:
             raise TypeError("sums of Gaussians have a series")
-        told = foretold_variance(series, drawn.x)
+        told = predicted_variance(series, drawn.x)
         found = variance(sets, SMOOTH, FAST, n, 2)
         joint = crossed_mean(estimate_errors(some, drawn.x) ** 2 - told).standard_error
         yield reported(

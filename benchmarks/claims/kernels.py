@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from gbnbench.analysis.radial.profile import noise_floor
+from gbnbench.analysis.radial.profile_measures import noise_floor
 from gbnbench.benchmarks.claims.claim import BESIDE, PARTLY, Row, holds, reported
 from gbnbench.benchmarks.claims.sets import FAST, SEED, Drawn, Sets
 from gbnbench.core.torus import wrap

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from gbnbench.analysis.radial.profile import exponential_fit
+from gbnbench.analysis.radial.profile_measures import exponential_fit
 from gbnbench.benchmarks.claims.claim import BESIDE, NO, PARTLY, UNTRIED, Row, holds, reported
 from gbnbench.benchmarks.claims.sets import FAST, MILLION, PAPER, Drawn, Sets
 from gbnbench.generators.gbn import kernel

@@ -14,12 +14,13 @@ from typing import Any
 import numpy as np
 
 from gbnbench.analysis.radial.anisotropy import anisotropy
-from gbnbench.analysis.radial.profile import noise_floor, peak
+from gbnbench.analysis.radial.profile_measures import noise_floor, peak
 from gbnbench.analysis.radial.radial_power import radial
 from gbnbench.analysis.spatial.bond_order import psi6
-from gbnbench.analysis.spatial.delaunay import neighbours, valence6
+from gbnbench.analysis.spatial.delaunay import neighbours
 from gbnbench.analysis.spatial.distances import mean_distance, min_distance
 from gbnbench.analysis.spatial.rdf import rdf
+from gbnbench.analysis.spatial.valence import valence6
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.benchmarks.experiments.depth_order import beyond
 from gbnbench.benchmarks.timing.machine import Rows

@@ -19,11 +19,12 @@ from typing import Any, Self
 import numpy as np
 
 from gbnbench.analysis.radial.anisotropy import anisotropy_db
-from gbnbench.analysis.radial.profile import evacuated_energy, noise_floor, peak, power_at_1
+from gbnbench.analysis.radial.profile_measures import evacuated_energy, noise_floor, peak, power_at_1
 from gbnbench.analysis.radial.radial_power import radial
 from gbnbench.analysis.spatial.bond_order import psi6
-from gbnbench.analysis.spatial.delaunay import neighbours, valence6
+from gbnbench.analysis.spatial.delaunay import neighbours
 from gbnbench.analysis.spatial.distances import mean_distance, min_distance
+from gbnbench.analysis.spatial.valence import valence6
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.shells import exact_shells
 from gbnbench.benchmarks.timing.machine import Rows, describe

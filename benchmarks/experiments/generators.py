@@ -12,7 +12,7 @@ from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
 
-from gbnbench.analysis.radial.profile import noise_floor, power_at_1
+from gbnbench.analysis.radial.profile_measures import noise_floor, power_at_1
 from gbnbench.analysis.radial.radial_power import radial
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.benchmarks.timing.interleaved import timed

@@ -17,7 +17,8 @@ from typing import Any
 import numpy as np
 
 from gbnbench.analysis.measures import measures
-from gbnbench.analysis.radial.anisotropy import shell_variance, shells_of
+from gbnbench.analysis.radial.anisotropy import shell_variance
+from gbnbench.analysis.radial.radial_power import shells_from_cube
 from gbnbench.analysis.spectrum.limits import default_fmax
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.shell_spectrum import shells as shells_alone
@@ -113,7 +114,7 @@ def measure(case: Case) -> dict[str, Any]:
     if case.n > LARGE:
         found = shells_alone(x, math.ceil(0.7 * case.n ** (1 / case.d)))
     else:
-        found = shells_of(periodogram(x, default_fmax(case.n, case.d, case.sets)))
+        found = shells_from_cube(periodogram(x, default_fmax(case.n, case.d, case.sets)))
         told = measures(x)
         for column, name in (
             ("evacuated energy", "evacuated_energy"), ("peak", "peak"), ("v6", "valence6"), ("psi6", "psi6"),

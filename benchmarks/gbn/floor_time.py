@@ -13,10 +13,12 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from gbnbench.analysis.radial.profile import noise_floor, peak, power_at_1
+from gbnbench.analysis.precision import PrecisionName
+from gbnbench.analysis.radial.profile_measures import noise_floor, peak, power_at_1
 from gbnbench.analysis.radial.radial_power import radial
 from gbnbench.analysis.spatial.bond_order import psi6
-from gbnbench.analysis.spatial.delaunay import neighbours, valence6
+from gbnbench.analysis.spatial.delaunay import neighbours
+from gbnbench.analysis.spatial.valence import valence6
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.benchmarks.gbn.cutoffs import FORCES, forces
 from gbnbench.benchmarks.gbn.floor_cases import SIGMA, Case, Curve, Plan
@@ -183,7 +185,7 @@ def measured(x: FloatArray) -> dict[str, float]:
     excess is that of the whole kernel; the peak is looked for up to nu = 1.5, in three dimensions at most.
     """
     n, d = x.shape
-    precision = "double" if runtime().device.has_double else "float"
+    precision: PrecisionName = "double" if runtime().device.has_double else "float"
     shells = radial(periodogram(x, math.ceil(1.5 * n ** (1 / d)) if d <= 3 else 1, precision=precision))
     try:
         summit = peak(shells)[0]

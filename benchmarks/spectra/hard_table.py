@@ -14,9 +14,10 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from gbnbench.analysis.spectrum.evaluators import nufft
-from gbnbench.analysis.spectrum.evaluators.evaluation import DIRECT, GRIDDED, NUFFT, PRODUCT, SEPARABLE
-from gbnbench.analysis.spectrum.evaluators.gridded_product import griddable
+from gbnbench.analysis.precision import PrecisionName
+from gbnbench.analysis.spectrum.evaluators.gridded.product import griddable
+from gbnbench.analysis.spectrum.evaluators.nufft import transform as nufft
+from gbnbench.analysis.spectrum.evaluators.registry import Method, title_of
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.benchmarks.spectra.hard_cases import Frequencies, HardCase, hard_cases
 from gbnbench.core.atomic_write import write_whole
@@ -24,12 +25,12 @@ from gbnbench.core.results import Spectrum, resolvable_power
 from gbnbench.core.torus import FloatArray
 from gbnbench.opencl import runtime
 
-PRECISIONS = ("double", "float")
+PRECISIONS: tuple[PrecisionName, ...] = ("double", "float")
 SLACK = 100  # a bound may exceed the largest error met at its n by so much
 TYPICAL = 10  # the stated rms may be off by so much on scattered points
 IDLE = 1e4  # a ratio from which on only its magnitude is told
 NEAR = 1024  # |f_a| up to which float's coordinates hardly count; beyond, errors are compared apart
-LISTED = {SEPARABLE: "numpy direct sum"}  # what an evaluation is called where frequencies are listed
+LISTED = {"numpy": "numpy direct sum"}  # what an evaluation is called where frequencies are listed
 Row = dict[str, Any]
 HEAD = """# Hard cases
 
@@ -87,25 +88,26 @@ def evaluate(case: HardCase) -> Iterator[Row]:
 
 
 def _evaluations(
-    case: HardCase, x: FloatArray, f: Frequencies, precision: str
+    case: HardCase, x: FloatArray, f: Frequencies, precision: PrecisionName
 ) -> Iterator[tuple[str, Spectrum, Any]]:
     """Every evaluation's name, spectrum, and square roots of power at f."""
     has = precision == "float" or runtime().device.has_double
-    for method in ((DIRECT,) if has else ()) + (SEPARABLE,):
+    listing: list[Method] = ["direct", "numpy"] if has else ["numpy"]
+    for method in listing:
         listed = periodogram(x, precision=precision, frequencies=f, method=method)
-        yield LISTED.get(method, method), listed, np.sqrt(listed.power.astype(np.longdouble))
+        yield LISTED.get(method, title_of(method)), listed, np.sqrt(listed.power.astype(np.longdouble))
     if not case.cube:
         return
-    methods = [PRODUCT] if has else []
+    methods: list[Method] = ["product"] if has else []
     if has and griddable(case.d, case.reach, precision):
-        methods.append(GRIDDED)
-    methods.append(SEPARABLE)
+        methods.append("gridded")
+    methods.append("numpy")
     if precision == "double" and case.d <= nufft.DIMENSIONS and nufft.available():
-        methods.append(NUFFT)
-    for method in methods:
-        cube = periodogram(x, case.reach, precision, method=method)
+        methods.append("nufft")
+    for way in methods:
+        cube = periodogram(x, case.reach, precision, method=way)
         within = cube.power[tuple((f + case.reach).T)]
-        yield method, cube, np.sqrt(within.astype(np.longdouble))
+        yield title_of(way), cube, np.sqrt(within.astype(np.longdouble))
 
 
 def judged(rows: list[Row]) -> pd.DataFrame:

@@ -14,8 +14,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.analysis.spectrum.evaluators import nufft
-from gbnbench.analysis.spectrum.evaluators.evaluation import DIRECT, PRODUCT, SEPARABLE, Evaluation
+from gbnbench.analysis.precision import PrecisionName
+from gbnbench.analysis.spectrum.evaluators.cube_product import CubeProduct
+from gbnbench.analysis.spectrum.evaluators.direct_sum import DirectSum
+from gbnbench.analysis.spectrum.evaluators.nufft import transform as nufft
+from gbnbench.analysis.spectrum.evaluators.numpy_product.evaluator import NumpyProduct
+from gbnbench.analysis.spectrum.evaluators.protocol import Evaluator
+from gbnbench.analysis.spectrum.evaluators.registry import title_of
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.plan import plan
 from gbnbench.core.torus import FloatArray
@@ -54,23 +59,25 @@ class Rival:
 
 def ours(n: int, d: int, fmax: int, sets: int) -> Iterator[Rival]:
     """Yield gbnbench's own on this device: as it chooses, and the plain product where it chooses another."""
-    for precision in ("double", "float") if runtime().device.has_double else ("float",):
-        chosen = plan(n, d, fmax, precision, realizations=sets).method
+    precisions: tuple[PrecisionName, ...] = ("double", "float") if runtime().device.has_double else ("float",)
+    for precision in precisions:
+        chosen = title_of(plan(n, d, fmax, precision, realizations=sets).method)
         call = partial(_chosen, precision=precision)
         yield Rival(f"gbnbench {precision}", "gbnbench", precision, call, chosen)
-        if chosen != PRODUCT:
-            call = partial(_evaluated, evaluation=Evaluation(PRODUCT, precision))
-            yield Rival(f"two-group product {precision}", "two-group product", precision, call, PRODUCT)
+        if chosen != CubeProduct.title:
+            call = partial(_evaluated, evaluator=CubeProduct(precision))
+            title = CubeProduct.title
+            yield Rival(f"{title} {precision}", title, precision, call, title)
 
 
 def rivals(n: int, d: int, fmax: int, sets: int, longest: float) -> Iterator[Rival]:
     """Every method for points of this size, ours first; the naive one up to so many seconds a call."""
     yield from ours(n, d, fmax, sets)
-    call = partial(_evaluated, evaluation=Evaluation(SEPARABLE, "double"))
-    yield Rival("gbnbench without a device", "gbnbench without a device", "double", call, SEPARABLE)
+    call = partial(_evaluated, evaluator=NumpyProduct("double"))
+    yield Rival("gbnbench without a device", "gbnbench without a device", "double", call, NumpyProduct.title)
     work = float((2 * fmax + 1) ** d) * n * sets / 2
     if runtime().device.has_double and work <= longest * NAIVE_RATE:
-        yield Rival("naive kernel", "naive kernel", "double", _naive, DIRECT)
+        yield Rival("naive kernel", "naive kernel", "double", _naive, DirectSum.title)
     yield Rival("numpy separable", "numpy separable", "double", _set_by_set(separable))
     if d >= ZGEMM_FROM:
         yield Rival("zgemm on ready tables", "zgemm on ready tables", "double", _ready)
@@ -139,12 +146,12 @@ def _set_by_set(method: Callable[[FloatArray, int], FloatArray]) -> Callable[[Fl
     return prepare
 
 
-def _chosen(x: FloatArray, fmax: int, precision: str) -> Power:
+def _chosen(x: FloatArray, fmax: int, precision: PrecisionName) -> Power:
     return lambda: periodogram(x, fmax, precision).power
 
 
-def _evaluated(x: FloatArray, fmax: int, evaluation: Evaluation) -> Power:
-    return lambda: evaluation.cube(x, fmax, None, False, True)[0]
+def _evaluated(x: FloatArray, fmax: int, evaluator: Evaluator) -> Power:
+    return lambda: evaluator.cube(x, fmax, None, half=False, mean=True)[0]
 
 
 def _naive(x: FloatArray, fmax: int) -> Power:

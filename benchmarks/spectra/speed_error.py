@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from gbnbench.analysis.spectrum.evaluators.evaluation import PRODUCT
+from gbnbench.analysis.spectrum.evaluators.cube_product import CubeProduct
 from gbnbench.benchmarks.spectra.cases import Case, Plan
 from gbnbench.benchmarks.spectra.cores import Throughput, throughput
 from gbnbench.benchmarks.spectra.hard_cases import hard_cases
@@ -261,7 +261,7 @@ def _times(timing: Timing) -> Row:
 
 def _share(case: Case, rival: Rival, timing: Timing, most: Mapping[str, float]) -> float:
     """Share of what one core can do, by the product's operations; other evaluations do not do these."""
-    if rival.evaluation != PRODUCT:
+    if rival.evaluation != CubeProduct.title:
         return math.nan
     return case.flops / float(timing.cpu.min()) / most[rival.precision]
 

@@ -84,7 +84,7 @@ def _tables(x: FloatArray, projections: str | None, box: bool) -> dict[str, pd.D
     n, d = x.shape
     tables: dict[str, pd.DataFrame] = {}
     if projections is not None:
-        from gbnbench.analysis.spectrum import projections as projected
+        from gbnbench.analysis.radial import projections as projected
         from gbnbench.generators.gbn.projective import subsets
 
         found = projected.frame(projected.projections(x, subsets(projections, d)))
@@ -107,7 +107,7 @@ def _tables(x: FloatArray, projections: str | None, box: bool) -> dict[str, pd.D
 
 def _explain(files: tuple[Path, ...]) -> None:
     """Print, for each file, the plan of its sets' spectra."""
-    from gbnbench.analysis.spectrum.spectrum_request import Asked
+    from gbnbench.analysis.spectrum.settings import SpectrumSettings
     from gbnbench.io.points import read
 
     failed = False
@@ -116,7 +116,8 @@ def _explain(files: tuple[Path, ...]) -> None:
             shapes = [x.shape for x in read(path)]
             for n, d in dict.fromkeys(shapes):
                 times = shapes.count((n, d))
-                click.echo(f"{path}{f', {times} sets, each' * (times > 1)}:\n{Asked().plan(n, d, 1)}")
+                plan = SpectrumSettings().plan(n, d, 1)
+                click.echo(f"{path}{f', {times} sets, each' * (times > 1)}:\n{plan}")
         except GbnbenchError as error:
             failed = True
             click.echo(f"gbnbench: error: {error}", err=True)
@@ -126,7 +127,7 @@ def _explain(files: tuple[Path, ...]) -> None:
 
 def _table(rows: list[tuple[Path, int, int, int, Measures]]) -> None:
     """Print aligned columns: wide, so that each set keeps its line."""
-    from gbnbench.analysis.catalogue import BY_NAME
+    from gbnbench.analysis.measure_definitions import BY_NAME
 
     heads = ["file", "set", "n", "d", *(BY_NAME[name].title for name in rows[0][4])]
     cells = [heads]

@@ -184,8 +184,8 @@ def _slope(slopes: pd.DataFrame, label: str, d: int, family: str) -> str:
     found = slopes[(slopes["source"] == label) & (slopes["d"] == d) & (slopes["integrand"] == family)]
     if found.empty:
         return "-"
-    from gbnbench.analysis.integration.variance import BENT
+    from gbnbench.analysis.integration.variance import MOST_SCATTER
 
     row = found.iloc[0]
-    bent = " bent" if row["scatter"] > BENT else ""
+    bent = " bent" if row["scatter"] > MOST_SCATTER else ""
     return f"{row['slope']:.2f} ± {row['standard_error']:.2f}{bent}"

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from gbnbench.cli import options
+
+if TYPE_CHECKING:
+    from gbnbench.analysis.precision import PrecisionName
 
 EPILOG = """\b
 Examples:
@@ -60,7 +63,7 @@ class Band(click.ParamType[tuple[float, float]]):
               "a line.")  # fmt: skip
 @click.option("--filter", "sigma", type=click.FloatRange(0), metavar="SIGMA", help="Of the points convolved "
               "with a Gaussian of this width, in spacings.")  # fmt: skip
-@click.option("--precision", type=click.Choice(["double", "float"]), help="[default: double]")
+@click.option("--precision", type=click.Choice(["double", "float"]), default="double", show_default=True)
 @click.option("--floor", type=float, metavar="P", help="Smallest power to be known to 1%; the cheapest way "
               "there is chosen.")  # fmt: skip
 @click.option("--each", is_flag=True, help="A spectrum of each set, not their mean; OUT gets numbers.")
@@ -85,7 +88,7 @@ def spectrum(
     at: Path | None,
     weights: Path | None,
     sigma: float | None,
-    precision: str | None,
+    precision: PrecisionName,
     floor: float | None,
     each: bool,
     explain: bool,
@@ -107,7 +110,7 @@ def spectrum(
         _refuse_both("FILE", files, **sizes)
     elif not explain:
         raise click.UsageError("name a FILE of points; or plan without one: --explain -n 1024 -d 2")
-    from gbnbench.analysis.spectrum.spectrum_request import Asked
+    from gbnbench.analysis.spectrum.settings import SpectrumSettings
     from gbnbench.cli import spectrum_run as work
     from gbnbench.io.lists import read_frequencies, read_weights
 
@@ -119,18 +122,18 @@ def spectrum(
         work.check_outs(work.places(out, len(sets), each=each), inputs, each=each)
     columns = sets[0].x.shape[2] if sets else d
     listed = None if at is None else read_frequencies(at, columns)
-    asked = Asked(
+    settings = SpectrumSettings(
         fmax, half, shells or corners or band is not None, band, corners, listed, precision, floor, sigma
     )
     if not explain:
-        work.find(asked, sets, weights, out, each=each)
+        work.find(settings, sets, weights, out, each=each)
     elif sets:
-        work.explain(asked, sets, weights)
+        work.explain(settings, sets, weights)
     else:
         d = (d or 2) if listed is None else listed.shape[1]
         if weights is not None:
             read_weights(weights, n or 1024, realizations or 1)
-        click.echo(asked.plan(n or 1024, d, realizations or 1))
+        click.echo(settings.plan(n or 1024, d, realizations or 1))
 
 
 def _refuse_both(name: str, given: object, **others: object) -> None:

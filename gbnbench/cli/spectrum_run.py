@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import click
 import numpy as np
 
-from gbnbench.analysis.spectrum.spectrum_request import Asked
+from gbnbench.analysis.spectrum.settings import SpectrumSettings
 from gbnbench.cli.spectrum_text import exactness, headline, told
 from gbnbench.core.errors import InputError
 from gbnbench.core.results import ShellSpectrum, Spectrum
@@ -24,7 +24,7 @@ from gbnbench.io.points.writer import write_atomically
 from gbnbench.runs.spectrum_files import DATA, check_writable, encode
 
 if TYPE_CHECKING:
-    from gbnbench.analysis.spectrum.plan import Plan
+    from gbnbench.analysis.spectrum.plan import SpectrumPlan
 
 PICTURES = (".png", ".pdf")
 SLOW = 3.0  # expected seconds that are said beforehand
@@ -78,7 +78,7 @@ def read_sets(files: Sequence[Path], *, each: bool) -> list[Sets]:
     return [Sets(f"{files[0]}{more}", tuple(names), np.stack(sets))]
 
 
-def explain(asked: Asked, sets: Sequence[Sets], weights: Path | None) -> None:
+def explain(settings: SpectrumSettings, sets: Sequence[Sets], weights: Path | None) -> None:
     """Print the plan of each size of sets, having checked the weights."""
     _weights(weights, sets)
     alike: dict[tuple[int, ...], list[Sets]] = {}
@@ -86,10 +86,12 @@ def explain(asked: Asked, sets: Sequence[Sets], weights: Path | None) -> None:
         alike.setdefault(one.x.shape, []).append(one)
     for (realizations, n, d), same in alike.items():
         more = f" and {len(same) - 1} more, each" if len(same) > 1 else ""
-        click.echo(f"{same[0].label}{more}:\n{asked.plan(n, d, realizations)}")
+        click.echo(f"{same[0].label}{more}:\n{settings.plan(n, d, realizations)}")
 
 
-def find(asked: Asked, sets: Sequence[Sets], weights: Path | None, out: Path | None, *, each: bool) -> None:
+def find(
+    settings: SpectrumSettings, sets: Sequence[Sets], weights: Path | None, out: Path | None, *, each: bool
+) -> None:
     """Find the spectra, and write or print them.
 
     Raises
@@ -97,24 +99,24 @@ def find(asked: Asked, sets: Sequence[Sets], weights: Path | None, out: Path | N
     GbnbenchError
         If something is wrong with any of it, before the first is found where that can be told.
     """
-    plans = [asked.plan(one.x.shape[1], one.x.shape[2], len(one.x)) for one in sets]
+    plans = [settings.plan(one.x.shape[1], one.x.shape[2], len(one.x)) for one in sets]
     if out is not None:
         for plan in plans:
             _check_out(out, plan)
     weighing = _weights(weights, sets)
     seconds = sum(plan.seconds for plan in plans)
     if seconds > SLOW:
-        click.echo(f"gbnbench: about {_duration(seconds)}: {plans[0].chosen.evaluation.label}", err=True)
+        click.echo(f"gbnbench: about {_duration(seconds)}: {plans[0].chosen.evaluator.label}", err=True)
     paths = [] if out is None else places(out, len(sets), each=each)
     written = 0
     try:
         for k, (one, plan, w) in enumerate(zip(sets, plans, weighing, strict=True)):
             if weights is not None:
                 one = replace(one, label=f"{one.label} weighted by {weights}")
-            if asked.sigma is not None:
-                one = replace(one, label=f"{one.label} filtered by a Gaussian of {asked.sigma:g} spacings")
+            if settings.sigma is not None:
+                one = replace(one, label=f"{one.label} filtered by a Gaussian of {settings.sigma:g} spacings")
             with _bar(plan.request.frequencies) as tell:
-                result = asked.find(one.x, w, tell)
+                result = settings.evaluate(one.x, w, tell)
             if paths:
                 _write(paths[k], result, one)
                 written += 1
@@ -173,7 +175,7 @@ def check_place(out: Path) -> None:
         raise InputError(f"cannot write {out}: there is no folder {out.parent}")
 
 
-def _check_out(out: Path, plan: Plan) -> None:
+def _check_out(out: Path, plan: SpectrumPlan) -> None:
     """Refuse what the format cannot hold."""
     suffix, request = out.suffix.lower(), plan.request
     if suffix in PICTURES and request.what == "listed":

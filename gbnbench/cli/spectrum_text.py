@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.analysis.radial.anisotropy import shells_of
-from gbnbench.analysis.radial.profile import noise_floor, peak, power_at_1
+from gbnbench.analysis.radial.profile_measures import noise_floor, peak, power_at_1
+from gbnbench.analysis.radial.radial_power import shells_from_cube
+from gbnbench.analysis.spectrum.evaluators.registry import title_of
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.results import ShellSpectrum, Spectrum, resolvable_power
 from gbnbench.runs.spectrum_files import columns
@@ -23,7 +24,7 @@ def told(result: Spectrum | ShellSpectrum, label: str) -> str:
     if isinstance(result, Spectrum) and result.frequencies is not None:
         rows = columns(result)
     else:
-        shells = shells_of(result) if isinstance(result, Spectrum) else result
+        shells = shells_from_cube(result) if isinstance(result, Spectrum) else result
         lines += _of_note(shells, result)
         rows = columns(shells)
         del rows["deviation"]
@@ -71,8 +72,9 @@ def _content(result: Spectrum | ShellSpectrum) -> str:
 
 def exactness(result: Spectrum | ShellSpectrum) -> str:
     """Say how it was found and how far off it may be."""
+    title = title_of(result.method)
     return (
-        f"{result.method} in {result.precision}; sqrt(P) is off by {result.error_rms:.1e} typically, "
+        f"{title} in {result.precision}; sqrt(P) is off by {result.error_rms:.1e} typically, "
         f"{result.error_bound:.1e} at worst; P = {resolvable_power(result.error_rms):.1e} is known to 1%"
     )
 

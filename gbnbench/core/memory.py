@@ -1,16 +1,16 @@
-"""Sizes that a machine's memory cannot hold, refused before they are tried."""
+"""The memory of the machine, and sizes that it cannot hold, refused before they are tried."""
 
 from __future__ import annotations
 
-import os
+from functools import cache
 
 
-def physical() -> float:
-    """Bytes of memory that the machine has; inf where it does not say."""
-    try:
-        return float(os.sysconf("SC_PAGE_SIZE")) * os.sysconf("SC_PHYS_PAGES")
-    except (AttributeError, OSError, ValueError):  # not POSIX
-        return float("inf")
+@cache
+def physical_memory() -> int:
+    """Bytes of memory that the machine has."""
+    import psutil
+
+    return int(psutil.virtual_memory().total)
 
 
 def too_large(nbytes: float) -> str | None:
@@ -21,6 +21,6 @@ def too_large(nbytes: float) -> str | None:
     >>> too_large(1000) is None
     True
     """
-    if nbytes <= physical():
+    if nbytes <= physical_memory():
         return None
-    return f"take about {nbytes / 1e9:.3g} GB of memory, and this machine has {physical() / 1e9:.3g}"
+    return f"take about {nbytes / 1e9:.3g} GB of memory, and this machine has {physical_memory() / 1e9:.3g}"

@@ -1,4 +1,4 @@
-"""What the analysis returns: frozen results that carry how they were made."""
+"""Results of the analysis, frozen, each with the settings that made it."""
 
 from __future__ import annotations
 
@@ -16,31 +16,40 @@ from gbnbench.core.torus import FloatArray, spacing
 if TYPE_CHECKING:
     import pandas as pd
 
-RESOLVED = 0.01  # relative error of a power that counts as known
+RESOLVED = 0.01  # relative error up to which a power counts as known
 
 
 @dataclass(frozen=True)
 class Spectrum:
-    """Power at integer frequencies, averaged over realizations.
+    """Power at integer frequencies, averaged over realizations: the result of ``gbnbench.periodogram``.
+
+    It may be indexed and computed with as its array ``power``.
 
     Attributes
     ----------
     power : (2*fmax+1,)*d, (fmax+1, 2*fmax+1, ...) or (m,) float64
         1 in expectation for white noise. The cube has DC at its centre, where it equals n, and axis a is
-        coordinate a; a half cube begins at f_0 = 0; (m,) where the frequencies were listed.
+        coordinate a. A half cube begins at f_0 = 0. For listed frequencies it is (m,), in their order.
     n, d, realizations : int
         Points a set, dimension, sets averaged.
     fmax : int
         Largest harmonic on each axis, cycles per unit length.
     frequencies : (m, d) int64 or None
-        The list asked for, None for a cube.
+        The listed frequencies; None for a cube.
     precision, method, device : str
-        "double" or "float", the evaluation chosen, and where it ran.
+        "double" or "float", the name of the evaluator, and the device it ran on.
     error_rms, error_bound : float
-        Typical and worst error of the square root of a power, at any frequency asked for: a power P is off by
-        at most 2 sqrt(P) error_bound + error_bound**2.
+        Typical and worst error of the square root of a power, at any of these frequencies: a power P is off
+        by at most 2 sqrt(P) error_bound + error_bound**2.
     half, weighted : bool
-        Whether only f_0 >= 0 is there, and whether points had weights.
+        Whether only f_0 >= 0 is held, and whether points had weights.
+
+    Examples
+    --------
+    >>> import gbnbench
+    >>> spectrum = gbnbench.periodogram(gbnbench.generate("grid", n=16, d=2), fmax=4)
+    >>> spectrum.shape, round(float(spectrum[4, 4]), 9), round(float(spectrum[8, 4]), 9)  # DC, and f = (4, 0)
+    ((9, 9), 16.0, 16.0)
     """
 
     power: FloatArray
@@ -58,7 +67,7 @@ class Spectrum:
     weighted: bool = False
 
     def whole(self) -> Spectrum:
-        """Spectrum of the whole cube, a half completed by P(-f) = P(f)."""
+        """Return the spectrum of the whole cube, a half completed by P(-f) = P(f)."""
         if not self.half:
             return self
         cube = np.empty((2 * self.fmax + 1,) * self.d)
@@ -67,7 +76,9 @@ class Spectrum:
         return replace(self, power=cube, half=False)
 
     def filtered(self, sigma: float) -> Spectrum:
-        """Spectrum of the points convolved with a Gaussian of width sigma, in spacings (the paper's Fig. 7b).
+        """Spectrum of the points convolved with a Gaussian of width sigma (Ahmed, Ren & Wonka 2022, Fig. 7b).
+
+        ``sigma`` is in spacings n**(-1/d).
 
         Raises
         ------
@@ -88,7 +99,7 @@ class Spectrum:
 
     @property
     def resolvable(self) -> float:
-        """Smallest power that is typically known to 1%: about (200 error_rms)^2."""
+        """Smallest power whose typical relative error is 1%: about (200 error_rms)^2."""
         return resolvable_power(self.error_rms)
 
     @property
@@ -98,7 +109,7 @@ class Spectrum:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Shape of ``power``, as which a spectrum may be indexed and computed with."""
+        """Shape of ``power``."""
         return self.power.shape
 
     def __len__(self) -> int:
@@ -112,7 +123,19 @@ class Spectrum:
 
 
 def gaussian_response(nu: FloatArray, sigma: float) -> FloatArray:
-    """Power response of a Gaussian of width sigma, in spacings, and unit mass: exp(-(2 pi sigma nu)^2).
+    """Power response of a Gaussian of unit mass: exp(-(2 pi sigma nu)^2).
+
+    Parameters
+    ----------
+    nu : (...) float64
+        Frequencies |f| n**(-1/d).
+    sigma : float
+        Width of the Gaussian in spacings, >= 0.
+
+    Returns
+    -------
+    (...) float64
+        Factor of the power at each frequency.
 
     Raises
     ------
@@ -126,7 +149,7 @@ def gaussian_response(nu: FloatArray, sigma: float) -> FloatArray:
 
 
 def resolvable_power(rms: float) -> float:
-    """Smallest power known to 1% where its square root is off by rms: about (200 rms)^2."""
+    """Smallest power that is known to 1% if its square root is off by rms: about (200 rms)^2."""
     return (rms * (1 + math.sqrt(1 + RESOLVED)) / RESOLVED) ** 2
 
 
@@ -166,7 +189,9 @@ class RadialPower:
 
 @dataclass(frozen=True)
 class ShellSpectrum:
-    """Mean and spread of power on exact shells of |f|, DC excluded, averaged over realizations before.
+    """Mean and spread, on exact shells of |f|, of the power averaged over realizations; DC is excluded.
+
+    The result of ``gbnbench.shells``.
 
     Attributes
     ----------
@@ -183,9 +208,18 @@ class ShellSpectrum:
     n, d, realizations, fmax : int
         Points a set, dimension, sets averaged, largest harmonic on each axis.
     precision, method, device : str
-        "double" or "float", the evaluation chosen, and where it ran.
+        "double" or "float", the name of the evaluator, and the device it ran on.
     error_rms, error_bound : float
         Typical and worst error of the square root of one frequency's power.
+
+    Examples
+    --------
+    >>> import gbnbench
+    >>> result = gbnbench.shells(gbnbench.generate("random", n=100, d=3, seed=1), fmax=3)
+    >>> result.count[:3].tolist()  # |f|^2 = 1, 2 and 3
+    [6, 12, 8]
+    >>> list(result.to_frame().columns)
+    ['frequency', 'nu', 'power', 'count', 'deviation']
     """
 
     frequency: FloatArray
@@ -214,14 +248,8 @@ class ShellSpectrum:
         return replace(self, power=self.power * response, deviation=self.deviation * response**2)
 
     def radial(self) -> RadialPower:
-        """Radial power, as ``gbnbench.radial`` makes it of a whole cube."""
+        """Return the means alone, which ``gbnbench.radial`` computes from a whole cube."""
         return RadialPower(self.frequency, self.nu, self.power, self.count)
-
-    def anisotropy(self) -> pd.DataFrame:
-        """Anisotropy of each ring, as ``gbnbench.analysis.radial.anisotropy`` makes it of a whole cube."""
-        from gbnbench.analysis.radial.anisotropy import anisotropy_of_shells
-
-        return anisotropy_of_shells(self)
 
     def to_frame(self) -> pd.DataFrame:
         """Columns frequency, nu, power, count, deviation."""
@@ -229,7 +257,7 @@ class ShellSpectrum:
 
     @property
     def resolvable(self) -> float:
-        """Smallest power of one frequency that is typically known to 1%."""
+        """Smallest power of one frequency whose typical relative error is 1%."""
         return resolvable_power(self.error_rms)
 
 
@@ -240,9 +268,9 @@ class Measures(Mapping[str, float]):
     Attributes
     ----------
     measured : dict
-        Every name of ``gbnbench.analysis.catalogue`` is always there.
+        Name -> value, for every name of ``gbnbench.analysis.measure_definitions``.
     standard_error : dict
-        Over realizations; nan for a single realization or where the measure is undefined.
+        Standard error over realizations; nan for a single one or where the measure is undefined.
     reasons : dict
         Name -> sentence, only for measures that are undefined here.
     """

@@ -1,4 +1,4 @@
-"""Points on the unit torus [0, 1)^d: validation, wrapping, distances, spacings and exact phases."""
+"""Points on the unit torus [0, 1)^d: validation, wrapping, distances, spacings and exact fractions."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ HERMITE = (1.0, 2 / math.sqrt(3), 2 ** (1 / 3), math.sqrt(2), 8**0.2, (64 / 3) *
 
 
 def check_points(x: ArrayLike) -> FloatArray:
-    """Return x as float64 points of the unit torus, or say what is wrong with it.
+    """Return x as float64 points of the unit torus, or raise an error that says why it is none.
 
     Parameters
     ----------
@@ -86,26 +86,67 @@ def wrap(x: ArrayLike) -> FloatArray:
 
 
 def displacement(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Shortest vector from b to a on the torus, each coordinate in [-1/2, 1/2]; shapes broadcast."""
+    """Shortest vector from b to a on the torus.
+
+    Parameters
+    ----------
+    a, b : (..., d) float64
+        Points on the unit torus; shapes broadcast.
+
+    Returns
+    -------
+    (..., d) float64
+        Each coordinate in [-1/2, 1/2].
+    """
     difference: FloatArray = a - b
     return difference - np.rint(difference)
 
 
 def toroidal_distance(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Length of the shortest vector from b to a; shapes broadcast, the last axis is summed."""
+    """Length of the shortest vector from b to a on the torus.
+
+    Parameters
+    ----------
+    a, b : (..., d) float64
+        Points on the unit torus; shapes broadcast.
+
+    Returns
+    -------
+    (...) float64
+        Distances, at most sqrt(d)/2.
+    """
     distance: FloatArray = np.sqrt(np.sum(displacement(a, b) ** 2, axis=-1))
     return distance
 
 
 def spacing(n: int, d: int) -> float:
-    """Nominal grid spacing n**(-1/d), the unit of sigma and the inverse unit of nu."""
+    """Nominal grid spacing n**(-1/d), the unit of sigma and the inverse of the unit of frequency in nu.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+
+    Returns
+    -------
+    float
+        In box sides.
+    """
     return math.pow(n, -1.0 / d)
 
 
 def densest_spacing(n: int, d: int) -> float:
-    """Minimum distance of the densest known lattice: sqrt(gamma_d) n**(-1/d); nan for d > 8.
+    """Minimum distance of the densest known lattice: sqrt(gamma_d) n**(-1/d).
 
-    In 2D this is d_hex = sqrt(2 / (sqrt(3) n)), the unit of PSA's distances.
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+
+    Returns
+    -------
+    float
+        In box sides; nan for d > 8. In 2D it is d_hex = sqrt(2 / (sqrt(3) n)), the unit of PSA's distances.
     """
     if d > len(HERMITE):
         return math.nan
@@ -130,30 +171,3 @@ def fixed_point(x: FloatArray, bits: int) -> NDArray[Any]:
     if bits == 64:  # the largest double below 1 gives 2**64 - 2**11: no overflow
         return np.rint(x * 2.0**64).astype(np.uint64)
     return np.rint(x * 2.0**32).astype(np.uint64).astype(np.uint32)
-
-
-def with_images(x: FloatArray, margin: float) -> tuple[FloatArray, NDArray[np.intp]]:
-    """Append to one point set the periodic images that lie within margin of the unit box.
-
-    Parameters
-    ----------
-    x : (n, d) float64
-        Points on the unit torus.
-    margin : float
-        Width of the border, in (0, 1].
-
-    Returns
-    -------
-    tiled : (m, d) float64
-        The n points first, then their images in [-margin, 1 + margin)^d.
-    owner : (m,) intp
-        Index in x of which each row is an image.
-    """
-    tiled, owner = x, np.arange(len(x), dtype=np.intp)
-    for axis in range(x.shape[1]):
-        low, high = tiled[:, axis] < margin, tiled[:, axis] >= 1 - margin
-        step = np.zeros(x.shape[1])
-        step[axis] = 1.0
-        tiled = np.concatenate([tiled, tiled[low] + step, tiled[high] - step])
-        owner = np.concatenate([owner, owner[low], owner[high]])
-    return tiled, owner

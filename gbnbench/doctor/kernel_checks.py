@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gbnbench.analysis.precision import PrecisionName
 from gbnbench.core.errors import GbnbenchError
 from gbnbench.core.torus import displacement
 from gbnbench.doctor.numpy_references import numpy_box_gradient, numpy_gradient, numpy_power
@@ -93,8 +94,8 @@ class Examination:
         )
 
 
-def _periodogram(n: int, d: int, fmax: int, precision: str) -> Iterator[Check]:
-    from gbnbench.analysis.spectrum.evaluators.gridded_product import griddable
+def _periodogram(n: int, d: int, fmax: int, precision: PrecisionName) -> Iterator[Check]:
+    from gbnbench.analysis.spectrum.evaluators.gridded.product import griddable
     from gbnbench.analysis.spectrum.periodogram import periodogram
     from gbnbench.analysis.spectrum.shell_spectrum import shells
 
@@ -104,11 +105,11 @@ def _periodogram(n: int, d: int, fmax: int, precision: str) -> Iterator[Check]:
     expected = np.sqrt(numpy_power(x, f))
     size = f"n={n} d={d} F={fmax}"
     found = {
-        "two-group product": periodogram(x, fmax, precision, method="two-group product").power.ravel(),
+        "two-group product": periodogram(x, fmax, precision, method="product").power.ravel(),
         "listed frequencies": periodogram(x, precision=precision, frequencies=f).power,
     }
     if griddable(d, fmax, precision):
-        found["gridded product"] = periodogram(x, fmax, precision, method="gridded product").power.ravel()
+        found["gridded product"] = periodogram(x, fmax, precision, method="gridded").power.ravel()
     for kernel, power in found.items():
         error = float(np.max(np.abs(np.sqrt(power) - expected)))
         yield Check(kernel, size, precision, error, AMPLITUDE[precision])

@@ -18,6 +18,7 @@ from dataclasses import dataclass
 from typing import IO, Any, Self
 
 from gbnbench.core.errors import GbnbenchError
+from gbnbench.opencl.device import DEVICE_VARIABLE, selected
 
 # One thread a worker: the processes share the cores, and CPU seconds then mean one core's seconds.
 ONE_THREAD = {
@@ -75,6 +76,7 @@ class Pool:
         self._done: queue.SimpleQueue[Finished] = queue.SimpleQueue()
         self._children: set[subprocess.Popen[bytes]] = set()
         self._closing = False
+        self._device = selected()  # the context of use_device is not that of the attending threads
         self._lock = threading.Lock()
         self._pending = 0
         self._threads = [threading.Thread(target=self._attend, daemon=True) for _ in range(jobs)]
@@ -147,7 +149,7 @@ class Pool:
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=complaints,
-                env={**os.environ, **ONE_THREAD},
+                env={**os.environ, **ONE_THREAD, DEVICE_VARIABLE: self._device},
             )
             self._children.add(child)
         return child

@@ -1,6 +1,6 @@
-"""OpenCL made safe: device choice, proven vector widths, programs built once, buffers held."""
+"""OpenCL made safe: the choice of a device, proven vector widths, programs built once, buffers held."""
 
-from gbnbench.opencl.device import DEVICE_VARIABLE, Device, choose, devices, devices_present
+from gbnbench.opencl.device import DEVICE_VARIABLE, Device, choose, devices, devices_present, use_device
 from gbnbench.opencl.runtime import Program, Runtime, runtime
 
 __all__ = [
@@ -12,4 +12,5 @@ __all__ = [
     "devices",
     "devices_present",
     "runtime",
+    "use_device",
 ]

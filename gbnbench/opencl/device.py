@@ -1,10 +1,13 @@
-"""Which OpenCL device does the work: what there is, what was asked for, what really works there."""
+"""OpenCL devices that are present, and the choice of one by the user's selector."""
 
 from __future__ import annotations
 
 import hashlib
 import os
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -17,6 +20,7 @@ if TYPE_CHECKING:
     import pyopencl as cl
 
 DEVICE_VARIABLE = "GBNBENCH_DEVICE"
+_selector: ContextVar[str | None] = ContextVar("selector", default=None)
 
 INSTALL = (
     'Install one: pip install "pyopencl[pocl]" brings a CPU device on Linux x86-64; elsewhere install the '
@@ -31,11 +35,11 @@ class Device:
     Attributes
     ----------
     index : int
-        Position in ``devices()``; a selector.
+        Position in ``devices()``, by which the user may select it.
     name, platform, platform_version, version, driver : str
         As the runtime reports them; the platform version tells two PoCLs apart.
     is_cpu, has_double : bool
-        Kind, and whether it computes in double.
+        Whether it is a CPU, and whether it computes in double precision.
     compute_units : int
         Cores or multiprocessors.
     position : (int, int)
@@ -60,7 +64,7 @@ class Device:
 
     @property
     def fingerprint(self) -> str:
-        """Short digest of device, driver and version: what was learnt of one holds only for it."""
+        """Short digest of device, driver and version, under which measurements of the device are cached."""
         text = "|".join((self.platform, self.platform_version, self.name, self.version, self.driver))
         return hashlib.sha256(text.encode()).hexdigest()[:16]
 
@@ -144,6 +148,35 @@ def devices_present() -> bool:
         return False
 
 
+@contextmanager
+def use_device(selector: str | None) -> Iterator[None]:
+    """Let ``choose`` pick a device within a ``with`` block, and in the worker processes that start there.
+
+    Parameters
+    ----------
+    selector : str or None
+        As in ``choose``; None changes nothing.
+
+    Raises
+    ------
+    DeviceError
+        At once, if there is no device, or the selector fits none or several.
+    """
+    if selector is None:
+        yield
+        return
+    token = _selector.set(str(choose(selector).index))
+    try:
+        yield
+    finally:
+        _selector.reset(token)
+
+
+def selected() -> str:
+    """Return the selector in force: that of ``use_device``, else ``$GBNBENCH_DEVICE``, else an empty text."""
+    return _selector.get() or os.environ.get(DEVICE_VARIABLE, "")
+
+
 def choose(selector: str | None = None) -> Device:
     """Pick a device.
 
@@ -151,7 +184,12 @@ def choose(selector: str | None = None) -> Device:
     ----------
     selector : str, optional
         An index of ``devices()``, or part of a device's name, platform or platform version, in any case;
-        without it ``$GBNBENCH_DEVICE``, else the best found: double precision first, then GPUs.
+        without it that of ``use_device`` or ``$GBNBENCH_DEVICE``, else the best found: double precision
+        first, then GPUs.
+
+    Returns
+    -------
+    Device
 
     Raises
     ------
@@ -161,7 +199,7 @@ def choose(selector: str | None = None) -> Device:
     present = devices()
     if not present:
         raise DeviceError(f"no OpenCL device found. {INSTALL}")
-    wanted = selector if selector is not None else os.environ.get(DEVICE_VARIABLE, "")
+    wanted = selected() if selector is None else selector
     if not wanted.strip():
         return min(present, key=lambda d: (not d.has_double, d.is_cpu, d.index))
     fitting = [d for d in present if wanted.strip() == str(d.index)] or [

@@ -1,4 +1,4 @@
-"""What a device's arithmetic can do, by a kernel of our own: its multiply-add peak, and a launch's price."""
+"""Peak rate of multiply-adds of a device, and the time that a kernel launch takes, both measured."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ ITEMS = 2048  # work-items of a GPU's compute unit, so that it is full
 
 
 def fma_peak(precision: str, runtime: Runtime | None = None) -> float:
-    """Measure the multiply-adds a second that the device does where nothing holds it up.
+    """Measure the peak rate of multiply-adds of a device.
 
     Parameters
     ----------
     precision : {"double", "float"}
-        Of the multiply-adds.
+        Precision of the multiply-adds.
     runtime : Runtime, optional
-        The device; the chosen one without.
+        The device; by default the chosen one.
 
     Returns
     -------
@@ -45,8 +45,8 @@ def fma_peak(precision: str, runtime: Runtime | None = None) -> float:
 
     Notes
     -----
-    Best of seven runs of up to 5 ms. Each of ten accumulators goes y <- y a + b with a = 1 and b = 2^-20,
-    which the compiler does not know, so that the end is known exactly.
+    The best of seven runs of up to 5 ms counts. Each of ten accumulators repeats y <- y a + b with a = 1 and
+    b = 2^-20, which the compiler cannot know, so that the sums can be checked exactly.
     """
     if precision not in ("double", "float"):
         raise InputError(f'precision must be "double" or "float"; got {precision!r}')
@@ -59,7 +59,7 @@ def fma_peak(precision: str, runtime: Runtime | None = None) -> float:
 
 
 def peak(precision: str) -> float:
-    """Recall ``fma_peak`` of the chosen device, measured when it is first asked for.
+    """Peak rate of the chosen device by ``fma_peak``, measured once and then cached.
 
     Raises
     ------
@@ -70,7 +70,7 @@ def peak(precision: str) -> float:
 
 
 def launch_seconds() -> float:
-    """Recall what launching a kernel that does nothing and waiting for it takes on the chosen device.
+    """Time to launch an empty kernel on the chosen device and wait for it, measured once and then cached.
 
     Returns
     -------

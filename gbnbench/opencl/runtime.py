@@ -22,11 +22,12 @@ from gbnbench.opencl.width_probe import VectorWidths, vector_widths
 OPTIONS = ("-cl-std=CL1.2", "-cl-mad-enable", "-cl-finite-math-only")
 
 
-LAUNCH = Lock()  # a kernel holds its arguments between being given them and being enqueued
+# A kernel object holds its arguments from the moment they are set until it is enqueued: one thread at a time.
+LAUNCH = Lock()
 
 
 class Program:
-    """A built program; keeps one kernel object an entry point."""
+    """A built program, which holds one kernel object for each entry point."""
 
     def __init__(self, owner: Runtime, built: Any) -> None:
         self._runtime = owner
@@ -40,7 +41,7 @@ class Program:
         name : str
             Entry point.
         global_size, local_size : sequences of int
-            Work-items; the local size is always said, since without it PoCL uses one core.
+            Work-items. The local size is always given, since without it PoCL uses one core.
         *args
             Buffers and numpy scalars of the kernel's own types.
         """
@@ -54,11 +55,11 @@ class Runtime:
     Attributes
     ----------
     device : Device
-        Which.
+        The device.
     context, queue
         pyopencl objects; the queue runs in order.
     process : int
-        The process that opened it, which no fork of it may use.
+        Process that opened it; forks of that process must not use it.
     """
 
     def __init__(self, device: Device) -> None:
@@ -119,6 +120,11 @@ class Runtime:
         defines : mapping, optional
             ``-D`` macros.
 
+        Returns
+        -------
+        Program
+            Built by the first call, the same object in later ones.
+
         Raises
         ------
         DeviceError
@@ -159,16 +165,47 @@ class Runtime:
         return self._cl.Buffer(self.context, self._cl.mem_flags.READ_WRITE, max(int(nbytes), 1))
 
     def download(self, buffer: Any, out: NDArray[Any]) -> NDArray[Any]:
-        """Copy the head of a buffer into out, waiting for the kernels before it."""
+        """Copy the beginning of a buffer to the host, after the kernels before it have ended.
+
+        Parameters
+        ----------
+        buffer : pyopencl.Buffer
+            Source.
+        out : array
+            Destination, which is filled.
+
+        Returns
+        -------
+        array
+            ``out``.
+        """
         self._cl.enqueue_copy(self.queue, out, buffer)
         return out
 
     def update(self, buffer: Any, array: NDArray[Any], offset: int = 0) -> None:
-        """Copy an array into an existing buffer, from the byte offset on."""
+        """Copy an array into an existing buffer.
+
+        Parameters
+        ----------
+        buffer : pyopencl.Buffer
+            Destination.
+        array : array
+            Source.
+        offset : int
+            First byte of the buffer that is overwritten.
+        """
         self._cl.enqueue_copy(self.queue, buffer, np.ascontiguousarray(array), dst_offset=offset)
 
     def clear(self, buffer: Any, nbytes: int) -> None:
-        """Fill the head of a buffer with zeros."""
+        """Fill the beginning of a buffer with zeros.
+
+        Parameters
+        ----------
+        buffer : pyopencl.Buffer
+            Destination.
+        nbytes : int
+            Bytes to fill, a multiple of 4.
+        """
         self._cl.enqueue_fill_buffer(self.queue, buffer, np.uint32(0), 0, nbytes)
 
     def finish(self) -> None:
@@ -191,15 +228,15 @@ def _open(device: Device) -> Runtime:
     return Runtime(device)
 
 
-def runtime(selector: str | None = None) -> Runtime:
-    """Open the chosen device, once a process; see ``choose`` for selectors.
+def runtime() -> Runtime:
+    """Open the device that ``choose`` picks, once a process.
 
     Raises
     ------
     DeviceError
         If there is no such device, or it was opened before this process was forked.
     """
-    opened = _open(choose(selector))
+    opened = _open(choose())
     if os.getpid() != opened.process:
         raise DeviceError(
             "an OpenCL device that was used before a fork cannot be used after it: start workers by spawn, "

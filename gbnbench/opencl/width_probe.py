@@ -1,7 +1,7 @@
 """Vector widths that really work on a device, proved in a child process that may die of them.
 
 The PoCL on PyPI announces 16 floats and 8 doubles as native on AVX-512 processors and kills the process that
-uses them, so what is announced is never believed.
+uses them. Announced widths are therefore never trusted.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class VectorWidths:
 
 
 def _works(context: Any, queue: Any, precision: str, width: int) -> bool:
-    """Whether vectors of width compute what numpy computes; a device may also kill the process here."""
+    """Tell whether vectors of this width compute what numpy does; a device may also kill the process here."""
     cl = import_pyopencl()
     real = np.dtype("float64" if precision == "double" else "float32")
     unsigned = np.dtype(f"u{real.itemsize}")
@@ -66,7 +66,7 @@ def _works(context: Any, queue: Any, precision: str, width: int) -> bool:
 
 
 def _child(platform: int, device: int, precision: str) -> None:
-    """Prove widths in ascending order and print each at once: a death leaves the proven ones."""
+    """Prove widths in ascending order and print each at once, so that the proven ones survive a crash."""
     cl = import_pyopencl()
     chosen = handle((platform, device))
     context = cl.Context([chosen])
@@ -91,7 +91,7 @@ def _widest(device: Device, precision: str) -> int:
 
 
 def vector_widths(device: Device) -> VectorWidths:
-    """Widest vectors proven on device; remembered for its driver and version."""
+    """Widest vectors proven on a device, cached for its driver and version."""
     known = recall(f"widths-{device.fingerprint}")
     if isinstance(known, dict) and set(known) == {"float32", "float64"}:
         return VectorWidths(**known)

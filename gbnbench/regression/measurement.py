@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from gbnbench.analysis.catalogue import CATALOGUE
+from gbnbench.analysis.measure_definitions import DEFINITIONS
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
 from gbnbench.regression.cases import Case, Values
@@ -16,7 +16,7 @@ BITS = 24  # of a fixed point's coordinates, so that float holds them exactly
 PERIODS = 3  # of a lattice's spectrum
 
 NAMES: dict[str, tuple[str, ...]] = {
-    "sets": tuple(definition.name for definition in CATALOGUE),
+    "sets": tuple(definition.name for definition in DEFINITIONS),
     "field": ("excess", "gradient", "gradient_norm"),
     "lattice": ("off_harmonics", "on_harmonics"),
 }
@@ -106,7 +106,7 @@ def _lattice(case: Case, seed: int) -> Mapping[str, Values]:  # noqa: ARG001 - t
 
     x, m = lattice(case.n, case.d)
     fmax = PERIODS * m
-    power = periodogram(x, fmax, case.precision).power
+    power = periodogram(x, fmax, "double" if case.precision == "double" else "float").power
     on = (np.indices(power.shape) % m == fmax % m).all(axis=0)
     farthest = int(np.argmax(np.abs(power[on] - case.n)))
     return {"off_harmonics": (float(power[~on].max()),), "on_harmonics": (float(power[on][farthest]),)}

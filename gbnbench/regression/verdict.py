@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-from gbnbench.analysis.catalogue import BY_NAME
+from gbnbench.analysis.measure_definitions import BY_NAME
 from gbnbench.core.number_text import number
 from gbnbench.regression.cases import Case, Expectation, Values
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from gbnbench.analysis.catalogue import CATALOGUE, judged
+from gbnbench.analysis.measure_definitions import DEFINITIONS, comparable_value
 from gbnbench.runs.comparison_result import Run, SourceResult
 
 LIMIT = 3.0  # standard errors of the difference
@@ -100,13 +100,13 @@ def verdict(before: float, after: float, error: float, better: str) -> tuple[str
 
 def _changes(after: SourceResult, before: SourceResult) -> list[Change]:
     changes = []
-    for definition in CATALOGUE:
+    for definition in DEFINITIONS:
         name = definition.name
         errors = [side.measures.standard_error.get(name, math.nan) for side in (before, after)]
         was, now = before.measures[name], after.measures[name]
         word, deviations = verdict(
-            judged(name, was, before.realizations),
-            judged(name, now, after.realizations),
+            comparable_value(name, was, before.realizations),
+            comparable_value(name, now, after.realizations),
             math.hypot(*errors),
             definition.better,
         )

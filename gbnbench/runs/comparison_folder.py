@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from gbnbench.analysis.catalogue import BY_NAME, CATALOGUE
+from gbnbench.analysis.measure_definitions import BY_NAME, DEFINITIONS
 from gbnbench.core import atomic_write
 from gbnbench.core.errors import FormatError, InputError
 from gbnbench.core.torus import FloatArray
@@ -218,7 +218,7 @@ def wide_table(run: Run) -> list[dict[str, object]]:
             "n": source.n,
             "d": source.d,
             "realizations": source.realizations,
-            **{definition.name: source.measures[definition.name] for definition in CATALOGUE},
+            **{definition.name: source.measures[definition.name] for definition in DEFINITIONS},
             "cpu_seconds": source.cpu_seconds,
         }
         for source in run.sources

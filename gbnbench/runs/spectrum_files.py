@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench import __version__
-from gbnbench.analysis.radial.anisotropy import EQUAL, anisotropy_of_shells
-from gbnbench.analysis.radial.profile import ROUNDING
+from gbnbench.analysis.radial.anisotropy import ROUNDING_VARIANCE, anisotropy
+from gbnbench.analysis.radial.profile_measures import ROUNDING_POWER
 from gbnbench.core.errors import InputError
 from gbnbench.core.results import ShellSpectrum, Spectrum, resolvable_power
 from gbnbench.io import data_files
@@ -81,14 +81,14 @@ def encode(suffix: str, result: Spectrum | ShellSpectrum, sources: Sequence[str]
 def rings_of(shells: ShellSpectrum) -> pd.DataFrame:
     """Rings as ``gbnbench.analysis.radial.anisotropy`` finds them, nan where only rounding would be measured.
 
-    That is where a ring's mean power is at or below ``ROUNDING`` or what the spectrum resolves, or its
+    That is where a ring's mean power is at or below ``ROUNDING_POWER`` or what the spectrum resolves, or its
     powers are all equal, as those of a single point are.
     """
-    rings = anisotropy_of_shells(shells)
+    rings = anisotropy(shells)
     ring = np.searchsorted(rings["frequency"].to_numpy(), np.rint(shells.frequency).astype(np.int64))
     mean = np.bincount(ring, shells.count * shells.power) / np.bincount(ring, shells.count)
-    equal = rings["anisotropy_db"].to_numpy() <= 10 * math.log10(EQUAL)
-    least = max(ROUNDING, resolvable_power(shells.error_rms))
+    equal = rings["anisotropy_db"].to_numpy() <= 10 * math.log10(ROUNDING_VARIANCE)
+    least = max(ROUNDING_POWER, resolvable_power(shells.error_rms))
     blank = (mean <= least) | equal | (shells.n == 1)
     return rings.assign(anisotropy_db=rings["anisotropy_db"].where(~blank))
 

@@ -1,16 +1,20 @@
-"""Delaunay triangulation of points on the flat 2-torus, whole as half-edges or only its farthest point."""
+"""Delaunay triangulation on the flat 2-torus as half-edges, and the farthest point from a set."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import Delaunay, QhullError
 
-from gbnbench.core.torus import FloatArray, with_images, wrap
+from gbnbench.core.periodic_delaunay import circumcentre, triangulation, with_images
+from gbnbench.core.torus import FloatArray, wrap
 
-# As long as every circumradius is below this, triangles of the unit torus have distinct corners and distinct
+if TYPE_CHECKING:
+    from scipy.spatial import Delaunay
+
+# If every circumradius is below this, triangles of the unit torus have distinct corners and distinct
 # edges (Caroli & Teillaud 2009), and corners are less than 1/2 apart, so that the nearest image is right.
 WIDEST = 0.25
 
@@ -41,13 +45,21 @@ class Triangulation:
 
 
 def circumcircles(a: FloatArray, b: FloatArray, c: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Circumcentres (m, 2) and squared radii (m,) of triangles with corners (m, 2); infinite where flat."""
-    b, c = b - a, c - a
-    double_area = b[:, 0] * c[:, 1] - b[:, 1] * c[:, 0]
-    bb, cc = np.sum(b * b, axis=1), np.sum(c * c, axis=1)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        offset = np.stack([c[:, 1] * bb - b[:, 1] * cc, b[:, 0] * cc - c[:, 0] * bb], axis=1)
-        offset /= 2 * double_area[:, None]
+    """Circumcircles of triangles.
+
+    Parameters
+    ----------
+    a, b, c : (m, 2) float64
+        Their corners.
+
+    Returns
+    -------
+    centre : (m, 2) float64
+        Circumcentres, not brought back on the torus.
+    squared : (m,) float64
+        Squared radii; infinite for flat triangles.
+    """
+    offset = circumcentre(b - a, c - a)
     squared = np.sum(offset * offset, axis=1)
     return a + offset, np.where(np.isfinite(squared), squared, np.inf)
 
@@ -71,29 +83,28 @@ def farthest_point(x: FloatArray) -> tuple[FloatArray, float]:
     # circle is larger than sqrt(1/2), so a margin of 1 always does.
     for margin in (min(1.0, 4 / np.sqrt(len(x))), 1.0):
         tiled, _ = with_images(x, margin)
-        try:
-            delaunay = Delaunay(tiled)
-        except QhullError:  # the points of a narrow margin may all lie on one line
+        mesh = triangulation(tiled)
+        if mesh is None:  # the points of a narrow margin may all lie on one line
             continue
-        triangles = tiled[delaunay.simplices]
+        triangles = tiled[mesh.simplices]
         centre, squared = circumcircles(*np.moveaxis(triangles, 1, 0))
-        if margin == 1 or _covers_box(delaunay, triangles, squared, margin):
+        if margin == 1 or _covers_box(mesh, triangles, squared, margin):
             break
     in_box = np.all((centre >= -1e-9) & (centre < 1 + 1e-9), axis=1) & (squared < 0.75)
     best = int(np.argmax(np.where(in_box, squared, -1.0)))
     return wrap(centre[best]), float(np.sqrt(squared[best]))
 
 
-def _covers_box(delaunay: Delaunay, triangles: FloatArray, squared: FloatArray, margin: float) -> bool:
-    """Whether triangles hold all of the unit box, and none that touches it has a radius beyond the margin.
+def _covers_box(mesh: Delaunay, triangles: FloatArray, squared: FloatArray, margin: float) -> bool:
+    """Tell whether triangles cover the unit box, and none that touches it has a radius beyond the margin.
 
     A point of a triangle is never farther from its nearest corner than the circumradius.
     """
     touches = np.all((triangles.min(axis=1) <= 1) & (triangles.max(axis=1) >= 0), axis=1)
     if np.any(squared[touches] > margin * margin):
         return False
-    tiled = delaunay.points
-    start, end = tiled[delaunay.convex_hull[:, 0]], tiled[delaunay.convex_hull[:, 1]]
+    tiled = mesh.points
+    start, end = tiled[mesh.convex_hull[:, 0]], tiled[mesh.convex_hull[:, 1]]
     normal = (end - start)[:, ::-1] * (1, -1)
     normal *= np.sign(np.sum((start - tiled.mean(axis=0)) * normal, axis=1))[:, None]  # outwards
     box = np.array([[0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [1.0, 1.0]])
@@ -117,10 +128,10 @@ def triangulate(x: FloatArray) -> Triangulation | None:
     n = len(x)
     margin = min(2 * WIDEST, 8 / np.sqrt(n))  # twice the largest radius, so that kept triangles are whole
     tiled, owner = with_images(x, margin)
-    try:
-        corners = np.asarray(Delaunay(tiled).simplices, dtype=np.intp)
-    except QhullError:  # all on one line
+    mesh = triangulation(tiled)
+    if mesh is None:
         return None
+    corners = np.asarray(mesh.simplices, dtype=np.intp)
     a, b, c = (tiled[corners[:, k]] for k in range(3))
     ab, ac = b - a, c - a
     clockwise = ab[:, 0] * ac[:, 1] < ab[:, 1] * ac[:, 0]

@@ -10,7 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.core.errors import InputError, RefusalError
-from gbnbench.core.torus import FloatArray, spacing, with_images, wrap
+from gbnbench.core.periodic_delaunay import (
+    circumcentre,
+    overhang,
+    triangulation,
+    voronoi_diagram,
+    with_images,
+)
+from gbnbench.core.torus import FloatArray, spacing, wrap
 
 COINCIDENT = "x must hold distinct points for Voronoi cells; at least two coincide"
 
@@ -28,7 +35,7 @@ class Cells:
     energy : (n,) float64
         Integral of |y - x|**2 over each cell; their sum is what Lloyd's method lowers.
     reach : float
-        Width of the border whose images bear on the cells.
+        Width of the border whose images may touch the cells.
     """
 
     volume: FloatArray
@@ -50,6 +57,7 @@ def toroidal_cells(x: FloatArray, margin: float | None = None) -> Cells:
     Returns
     -------
     Cells
+        Exact to rounding.
 
     Raises
     ------
@@ -60,10 +68,11 @@ def toroidal_cells(x: FloatArray, margin: float | None = None) -> Cells:
 
     Notes
     -----
-    The points are tiled by a border of their images. A cell is right if, for each of its vertices v at
-    distance r from its point, the ball of radius r about v stays inside the tiled box, for then no image left
-    out can be nearer to v. Where that fails the border is widened; a border of 1 needs no check (Dolbilin &
-    Huson 1997). A cell is cut in simplices with their apex at its point.
+    The points are surrounded by a border of their images. A cell is proven right if, for each of its
+    vertices v at distance r from its point, the ball of radius r about v stays inside the tiled box, for
+    then no image left out can be nearer to v (``gbnbench.core.periodic_delaunay``). Otherwise the border is
+    widened; a border of 1 needs no check (Dolbilin & Huson 1997). Cells are cut into simplices with their
+    apex at the point.
 
     References
     ----------
@@ -96,7 +105,7 @@ def toroidal_cells(x: FloatArray, margin: float | None = None) -> Cells:
 
 
 def _intervals(x: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
-    """In 1D a cell is two segments, from its point to either midpoint."""
+    """Cut cells in 1D into two segments each, from the point to either midpoint."""
     order = np.argsort(x[:, 0])
     half = np.diff(x[order, 0], append=x[order[0], 0] + 1) / 2
     if not (half > 0).all():
@@ -105,20 +114,14 @@ def _intervals(x: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
 
 
 def _triangles(x: FloatArray, margin: float) -> tuple[NDArray[np.intp], FloatArray] | None:
-    """In 2D a triangle for each side, which joins the circumcentres left and right of a Delaunay edge."""
-    from scipy.spatial import Delaunay, QhullError
-
+    """Cut cells in 2D into a triangle for each side, which joins the circumcentres beside a Delaunay edge."""
     tiled, _ = with_images(x, margin)
-    try:
-        mesh = Delaunay(tiled)
-    except QhullError:  # too few images, or all on a line
+    mesh = triangulation(tiled)
+    if mesh is None:
         return None
     corner = tiled[mesh.simplices]
-    u, v = corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]
-    uu, vv = np.sum(u * u, axis=1), np.sum(v * v, axis=1)
-    normal = np.stack([v[:, 1] * uu - u[:, 1] * vv, u[:, 0] * vv - v[:, 0] * uu], axis=1)
-    with np.errstate(divide="ignore", invalid="ignore"):  # a flat triangle on the tiling's rim bounds no cell
-        centre = corner[:, 0] + normal / (2 * (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]))[:, None]
+    # A flat triangle on the tiling's rim has no centre, and bounds no cell.
+    centre = corner[:, 0] + circumcentre(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
     # Triangles run counterclockwise, so each edge a -> b is met once with its triangle on the left.
     a, right = np.roll(mesh.simplices, -1, axis=1), mesh.neighbors
     left = np.broadcast_to(np.arange(len(right))[:, None], right.shape)
@@ -130,13 +133,10 @@ def _triangles(x: FloatArray, margin: float) -> tuple[NDArray[np.intp], FloatArr
 
 
 def _tetrahedra(x: FloatArray, margin: float) -> tuple[NDArray[np.intp], FloatArray] | None:
-    """In 3D a fan of tetrahedra over each face, the same for the points on both its sides."""
-    from scipy.spatial import QhullError, Voronoi
-
+    """Cut cells in 3D into a fan of tetrahedra over each face, the same for the points on both its sides."""
     tiled, _ = with_images(x, margin)
-    try:
-        diagram = Voronoi(tiled)
-    except QhullError:  # too few images, or all on a plane
+    diagram = voronoi_diagram(tiled)
+    if diagram is None:
         return None
     inner = np.flatnonzero(diagram.ridge_points.min(axis=1) < len(x))
     faces = [diagram.ridge_vertices[i] for i in inner]
@@ -159,17 +159,17 @@ def _tetrahedra(x: FloatArray, margin: float) -> tuple[NDArray[np.intp], FloatAr
 
 
 def _moments(x: FloatArray, site: NDArray[np.intp], rays: FloatArray) -> Cells:
-    """Sum simplices with their apex at the points.
+    """Volumes, centroids and energies of cells from the simplices they were cut into.
 
     Parameters
     ----------
     x : (n, d) float64
         The points.
     site : (m,) intp
-        The point each simplex belongs to.
+        Index of the point at the apex of each simplex.
     rays : (m, d, d) float64
-        Its other corners, from the point. In 2D they run counterclockwise, so that a side whose Delaunay edge
-        does not cross it counts right too.
+        Other corners of each simplex, from its apex. In 2D they run counterclockwise, so that a side whose
+        Delaunay edge does not cross it counts right too.
     """
     n, d = x.shape
     volume: FloatArray = np.linalg.det(rays) / math.factorial(d)
@@ -183,11 +183,22 @@ def _moments(x: FloatArray, site: NDArray[np.intp], rays: FloatArray) -> Cells:
     if not (cell > 0).all():
         raise InputError(COINCIDENT)
     radius = np.sqrt(np.sum(rays * rays, axis=2))
-    vertex = x[site][:, None] + rays
-    beyond = np.maximum(-vertex, vertex - 1).max(axis=2) + radius
-    return Cells(cell, first / cell[:, None], second, float(beyond.max()))
+    return Cells(cell, first / cell[:, None], second, overhang(x[site][:, None] + rays, radius))
 
 
 def move_to_centroids(x: FloatArray, cells: Cells) -> FloatArray:
-    """Each point at its cell's centroid, back on the torus: one step of Lloyd's method."""
+    """Move each point to its cell's centroid, back on the torus: one step of Lloyd's method.
+
+    Parameters
+    ----------
+    x : (n, d) float64
+        Points on the unit torus.
+    cells : Cells
+        Their Voronoi cells.
+
+    Returns
+    -------
+    (n, d) float64
+        The centroids.
+    """
     return wrap(x + cells.offset)

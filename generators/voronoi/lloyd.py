@@ -58,7 +58,20 @@ class Lloyd:
             raise InputError(f"tolerance must be >= 0 spacings; got {self.tolerance}")
 
     def refusal(self, n: int, d: int) -> str | None:  # noqa: ARG002 (the protocol's arguments)
-        """Why there are no Voronoi cells in d dimensions."""
+        """Say why there are no Voronoi cells in d dimensions.
+
+        Parameters
+        ----------
+        n : int
+            Points; any number will do.
+        d : int
+            Dimension.
+
+        Returns
+        -------
+        str or None
+            The reason; None for d <= 3.
+        """
         return None if d <= 3 else f"d must be 1, 2 or 3 for Lloyd's method; got d={d}, nearest is 3"
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
 from gbnbench import __version__
-from gbnbench.analysis.radial.anisotropy import shells_of
+from gbnbench.analysis.radial.radial_power import shells_from_cube
 from gbnbench.core.results import Measures, ShellSpectrum, Spectrum
 from gbnbench.reports import style
 from gbnbench.reports.comparison import radial, spectrum
@@ -136,7 +136,7 @@ def _reach(source: SourceResult) -> tuple[float, float]:
 def _source(result: Spectrum | ShellSpectrum, label: str) -> SourceResult:
     """Wrap the result as the other pictures take it, without points."""
     if isinstance(result, Spectrum):
-        whole, shells = result.whole(), shells_of(result)
+        whole, shells = result.whole(), shells_from_cube(result)
     else:
         none = np.empty((0, result.d), np.int64)
         n, d, sets, fmax = result.n, result.d, result.realizations, result.fmax

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from gbnbench.analysis.catalogue import BY_NAME
+from gbnbench.analysis.measure_definitions import BY_NAME
 from gbnbench.reports import style
 from gbnbench.runs.comparison_result import Run, SourceResult
 

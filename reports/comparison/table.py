@@ -13,7 +13,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from gbnbench.analysis.catalogue import CATALOGUE, Definition, judged
+from gbnbench.analysis.measure_definitions import DEFINITIONS, Definition, comparable_value
 from gbnbench.core.number_text import error_number, number
 from gbnbench.reports.style import Group, groups, members
 from gbnbench.runs.comparison_result import Run, SourceResult
@@ -26,7 +26,7 @@ CPU = Definition(
     "Mean processor time to make one set; sets read from files have none.",
     "operating system",
 )
-COLUMNS: tuple[Definition, ...] = (*CATALOGUE, CPU)
+COLUMNS: tuple[Definition, ...] = (*DEFINITIONS, CPU)
 # What a narrow terminal keeps, the first longest.
 HEADLINE = (
     "noise_floor", "power_at_1", "peak", "cpu_seconds", "psi6", "min_distance", "evacuated_energy",
@@ -128,7 +128,7 @@ def _best(made: Sequence[Row], place: Group, column: Definition) -> set[str]:
     """Text of the best value of a column among the sources of one n and d; empty where there is none."""
     there = [row for row in made if (row.source.n, row.source.d) == place]
     found = {
-        row.cells[column.name].text: judged(
+        row.cells[column.name].text: comparable_value(
             column.name, row.cells[column.name].value, row.source.realizations
         )
         for row in there

@@ -8,18 +8,18 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path
 from numpy.typing import NDArray
-from scipy.spatial import QhullError, Voronoi
 
-from gbnbench.core.torus import FloatArray, spacing, with_images
+from gbnbench.analysis.spatial.delaunay_stars import SHORTEST_EDGE
+from gbnbench.core.errors import RefusalError
+from gbnbench.core.periodic_delaunay import copies, overhang, voronoi_diagram, with_images
+from gbnbench.core.torus import FloatArray, spacing
 from gbnbench.reports import style
 from gbnbench.reports.comparison import points
 from gbnbench.runs.comparison_result import Run, SourceResult
 
 # ColorBrewer RdBu around a near white six: fewer neighbours blue, more red; safe for the colour-blind.
 DEGREE_COLOURS = {4: "#2166ac", 5: "#92c5de", 6: "#f3f3f1", 7: "#f4a582", 8: "#b2182b"}
-# A side shorter than this many spacings is the rounding of four points on a circle and counts as none.
-SHORT = 1e-8
-TILES = np.mgrid[-2.0:3.0, -2.0:3.0].reshape(2, -1).T
+TWO_RINGS = np.mgrid[-2.0:3.0, -2.0:3.0].reshape(2, -1).T
 DEGREE_NAMES = {4: "4 or fewer", 5: "5", 6: "6", 7: "7", 8: "8 or more"}
 
 
@@ -48,49 +48,62 @@ def cells(x: FloatArray, side: float = 1.0) -> tuple[list[FloatArray], NDArray[n
 
     Notes
     -----
-    A cell is the periodic one when every empty circle around its corners lies within the images that were
-    added. That is checked, and a 5 x 5 tiling is taken where a narrower border does not suffice: no empty
-    circle is as wide.
+    A cell is the periodic one if every empty circle around its corners lies within the images that were
+    added (``overhang``). Where a narrow border does not suffice a 5 x 5 tiling does: no empty circle is as
+    wide.
+
+    Raises
+    ------
+    RefusalError
+        If the points span no plane.
     """
     unit = spacing(len(x), 2)
     near = min(2.5 * unit, 1.0)
     for margin in sorted({min(8 * unit, 1.0), 1.0}):
-        tiled = with_images(x, margin)[0] if margin < 1.0 else (x + TILES[:, None]).reshape(-1, 2)
+        tiled, _ = with_images(x, margin) if margin < 1.0 else copies(x, TWO_RINGS)
         if side < 1.0:
             tiled = tiled[np.all(tiled <= side + margin, axis=1)]
-        diagram = Voronoi(tiled)
-        wanted = np.flatnonzero(np.all((tiled >= -near) & (tiled <= side + near), axis=1))
-        wanted = wanted[diagram.point_region[wanted] >= 0]  # the twin of a coincident point has no cell
-        regions = [diagram.regions[region] for region in diagram.point_region[wanted]]
+        diagram = voronoi_diagram(tiled)
+        if diagram is None:
+            raise RefusalError("these points have no Voronoi diagram")
+        near_box = np.flatnonzero(np.all((tiled >= -near) & (tiled <= side + near), axis=1))
+        near_box = near_box[diagram.point_region[near_box] >= 0]  # the twin of a coincident point has no cell
+        regions = [diagram.regions[region] for region in diagram.point_region[near_box]]
         drawn = np.array([len(region) >= 3 and -1 not in region for region in regions])
-        inside = np.all((tiled[wanted] >= 0) & (tiled[wanted] < side), axis=1)
-        kept = [region for region, good in zip(regions, drawn, strict=True) if good]
-        sides = np.array([len(region) for region in kept], dtype=np.intp)
+        inside = np.all((tiled[near_box] >= 0) & (tiled[near_box] < side), axis=1)
+        closed = [region for region, good in zip(regions, drawn, strict=True) if good]
+        sides = np.array([len(region) for region in closed], dtype=np.intp)
         start = np.concatenate([[0], np.cumsum(sides)[:-1]])
-        corners = diagram.vertices[np.concatenate([np.array(region) for region in kept])]
+        corners = diagram.vertices[np.concatenate([np.array(region) for region in closed])]
         following = np.arange(1, len(corners) + 1)
         following[start + sides - 1] = start
         edge = np.hypot(*(corners - corners[following]).T)
-        reach = np.hypot(*(corners - np.repeat(tiled[wanted[drawn]], sides, axis=0)).T)
-        whole = not np.any(inside & ~drawn) and not np.any(
-            np.maximum.reduceat(reach, start)[inside[drawn]] > margin
-        )
-        if whole:
+        radius = np.hypot(*(corners - np.repeat(tiled[near_box[drawn]], sides, axis=0)).T)
+        bounding = np.repeat(inside[drawn], sides)  # corners of the cells whose points lie in the square
+        if not np.any(inside & ~drawn) and overhang(corners[bounding], radius[bounding], side) <= margin:
             break
-    degrees = np.add.reduceat((edge > SHORT * unit).astype(np.intp), start)
+    degrees = np.add.reduceat((edge > SHORTEST_EDGE * unit).astype(np.intp), start)
     return np.split(corners, start[1:]), degrees
 
 
 def panel(ax: Axes, source: SourceResult) -> None:
-    """Colour the first realization's cells by valence; in other dimensions say that there is no picture."""
+    """Colour the first realization's cells by valence; in other dimensions say that there is no picture.
+
+    Parameters
+    ----------
+    ax : Axes
+        Axes to draw in.
+    source : SourceResult
+        One source of a comparison.
+    """
     if source.d != 2:
         style.empty(ax, "the picture of valence needs d = 2")
         return
     side = points.window(source)
     try:
         polygons, degrees = cells(source.points[0], side)
-    except QhullError:
-        style.empty(ax, "these points have no Voronoi diagram")
+    except RefusalError as refusal:
+        style.empty(ax, str(refusal))
         return
     style.frame(ax)
     ax.set_xlim(0, side)
@@ -115,7 +128,15 @@ def panel(ax: Axes, source: SourceResult) -> None:
 
 
 def histogram_panel(ax: Axes, source: SourceResult) -> None:
-    """Share of points of each degree, over all realizations."""
+    """Draw the share of points of each degree, over all realizations.
+
+    Parameters
+    ----------
+    ax : Axes
+        Axes to draw in.
+    source : SourceResult
+        One source of a comparison.
+    """
     if source.valence is None:
         style.empty(ax, f"no Delaunay valence for d = {source.d}")
         return
@@ -146,7 +167,20 @@ def histogram_panel(ax: Axes, source: SourceResult) -> None:
 
 @style.styled
 def figure(run: Run, group: style.Group | None = None) -> Figure:
-    """Cells coloured by valence over the histogram of all realizations, a pair a source."""
+    """Draw cells coloured by valence above the histogram of all realizations, one pair for each source.
+
+    Parameters
+    ----------
+    run : Run
+        A comparison.
+    group : Group, optional
+        The sources to draw; by default all.
+
+    Returns
+    -------
+    Figure
+        With its caption.
+    """
     sources = style.members(run, group)
     flat = any(source.d == 2 for source in sources)
     caption = "Share of points, in percent, with each number of Delaunay neighbours on the torus. "

@@ -8,7 +8,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from gbnbench.analysis.catalogue import Definition
+from gbnbench.analysis.measure_definitions import Definition
 from gbnbench.reports.comparison import table
 from gbnbench.runs.comparison_result import Run
 

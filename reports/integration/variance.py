@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogFormatterSciNotation, LogLocator, NullLocator
 
-from gbnbench.analysis.integration.variance import BENT
+from gbnbench.analysis.integration.variance import MOST_SCATTER
 from gbnbench.reports import style
 from gbnbench.studies.integration.study import IntegrationStudy
 
@@ -163,7 +163,7 @@ def _key(study: IntegrationStudy, part: pd.DataFrame) -> list[str]:
         text = style.shown(label, 22)
         if len(found) and math.isfinite(found["slope"].iloc[0]):
             text += f"  {found['slope'].iloc[0]:.2f} ± {found['standard_error'].iloc[0]:.2f}"
-            text += " bent" if found["scatter"].iloc[0] > BENT else ""
+            text += " bent" if found["scatter"].iloc[0] > MOST_SCATTER else ""
         labels.append(text)
     return labels
 

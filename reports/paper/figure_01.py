@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import SubFigure
 
-from gbnbench.analysis.radial.profile import exponential_fit, powerlaw_fit
+from gbnbench.analysis.radial.profile_measures import exponential_fit, powerlaw_fit
 from gbnbench.core.results import RadialPower
 from gbnbench.reports import style
 from gbnbench.reports.comparison import spectrum

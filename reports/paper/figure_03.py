@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import SubFigure
 from numpy.typing import NDArray
 
-from gbnbench.analysis.radial.profile import peak
+from gbnbench.analysis.radial.profile_measures import peak
 from gbnbench.analysis.spectrum.shell_spectrum import shells
 from gbnbench.core.number_text import number
 from gbnbench.core.results import RadialPower

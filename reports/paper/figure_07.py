@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import SubFigure
 from matplotlib.ticker import LogLocator, NullLocator
 
-from gbnbench.analysis.radial.profile import exponential_fit, noise_floor
+from gbnbench.analysis.radial.profile_measures import exponential_fit, noise_floor
 from gbnbench.analysis.spectrum.shell_spectrum import shells
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.number_text import number

@@ -8,13 +8,12 @@ import numpy as np
 import pytest
 
 import gbnbench
-from gbnbench.analysis.catalogue import BY_NAME, CATALOGUE
+from gbnbench.analysis.measure_definitions import BY_NAME, DEFINITIONS
 from gbnbench.analysis.measures import analyse, measures
 from gbnbench.analysis.spectrum.limits import default_fmax
 from gbnbench.core.errors import InputError
-from tests.paths import ROOT
+from tests.published_sets import published_files
 
-POINTS = ROOT.parent / "shared" / "points"
 PROMISED = {
     *("noise_floor", "power_at_1", "profile_epsilon", "profile_c", "evacuated_energy", "peak", "peak_nu"),
     *("anisotropy_db", "min_distance", "mean_distance", "bond_order", "psi6", "valence6"),
@@ -24,9 +23,9 @@ PROMISED = {
 
 def test_the_catalogue_defines_every_promised_measure_once():
     assert set(BY_NAME) >= PROMISED
-    assert len(BY_NAME) == len(CATALOGUE)
-    assert {d.better for d in CATALOGUE} == {"lower", "higher"}
-    assert all(d.text and d.source and d.title for d in CATALOGUE)
+    assert len(BY_NAME) == len(DEFINITIONS)
+    assert {d.better for d in DEFINITIONS} == {"lower", "higher"}
+    assert all(d.text and d.source and d.title for d in DEFINITIONS)
 
 
 @pytest.mark.parametrize(
@@ -34,7 +33,7 @@ def test_the_catalogue_defines_every_promised_measure_once():
 )
 def test_every_key_is_there_and_what_is_undefined_has_a_reason(shape):
     found = measures(np.random.default_rng(1).random(shape))
-    assert list(found) == [d.name for d in CATALOGUE]
+    assert list(found) == [d.name for d in DEFINITIONS]
     for name, value in found.items():
         assert math.isnan(value) == (name in found.reasons)
         assert not math.isinf(value)
@@ -97,13 +96,12 @@ def test_bad_points_are_refused():
         gbnbench.measures([[0.5, 0.5]], fmax=0)
 
 
-@pytest.mark.skipif(not POINTS.is_dir(), reason="other people's point sets are not beside this checkout")
 def test_published_sets_measure_as_published():
-    bnot = measures(np.array([gbnbench.load(p) for p in sorted((POINTS / "bnot-1024").iterdir())]))
+    bnot = measures(np.array([gbnbench.load(p) for p in published_files("bnot-1024/*")]))
     assert 6e-8 < bnot["power_at_1"] < 3e-7
     assert bnot["noise_floor"] == pytest.approx(1.2e-4, rel=0.1)
     assert bnot["powerlaw_residual_db"] < bnot["profile_residual_db"]
-    gbn = measures(np.array([gbnbench.load(p) for p in sorted((POINTS / "gbn-1024").iterdir())]))
+    gbn = measures(np.array([gbnbench.load(p) for p in published_files("gbn-1024/*")]))
     assert gbn["power_at_1"] == pytest.approx(3e-10, rel=0.5)
     assert gbn["noise_floor"] == pytest.approx(7e-10, rel=0.2)
     assert gbn["evacuated_energy"] == pytest.approx(23.08, abs=0.5)

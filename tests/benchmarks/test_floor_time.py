@@ -36,7 +36,7 @@ from gbnbench.execution.progress import Progress
 from gbnbench.generators.gbn.energy import field
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.protocol import realization_rng
-from tests.oracles import direct_power
+from tests.oracles.power import direct_power
 
 COMMAND = [sys.executable, "-m", "gbnbench", "bench", "gbn"]
 
@@ -70,17 +70,8 @@ def test_the_ladder_is_geometric_and_ends_where_it_should():
         assert (np.diff(np.log(stops)) > math.log(1.2)).all()
 
 
-def test_plans_hold_what_was_asked_for():
-    cases = {(case.n, case.d): case for case in floor_cases.full().cases}
-    assert set(cases) >= {(256, 2), (1024, 2), (4096, 2), (16384, 2), (1000, 3), (4096, 3), (1024, 8)}
-    plane = cases[1024, 2].curves
-    assert {(c.method, c.precision) for c in plane} == {
-        (method, precision) for method in ("nesterov", "descent") for precision in ("double", "float")
-    }
-    assert {c.cutoff for c in plane if c.cutoff} == {3.0, 4.0, 5.0, 6.0, 7.5, 9.0}
-    assert max(c.gradients for c in plane if c.method == "descent") == 15_000
+def test_every_curve_of_every_plan_can_be_drawn():
     for plan in (floor_cases.full(), floor_cases.quick(), floor_cases.tiny()):
-        assert plan.steps == sum(c.gradients * case.sets for case in plan.cases for c in case.curves)
         for case in plan.cases:
             assert any(c.step == "authors" for c in case.curves) or case.d <= 2 or case.sets == 1
             for curve in case.curves:
@@ -244,13 +235,7 @@ def test_bad_use_is_refused_in_words(tmp_path):
     assert (tmp_path / "file").read_text() == "mine"
 
 
-def test_help_says_what_it_does():
-    done = subprocess.run([*COMMAND, "--help"], capture_output=True, text=True, check=True)
-    for words in ("Noise floor against CPU time", "--quick", "--out", "--device", "cut-off"):
-        assert words in done.stdout
-    assert "--tiny" not in done.stdout
-
-
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="no such signal")
 def test_a_run_that_is_stopped_keeps_its_rows(tmp_path):
     running = subprocess.Popen(

@@ -12,24 +12,16 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
 import gbnbench.studies.comparison
-from gbnbench.analysis.catalogue import BY_NAME
+from gbnbench.analysis.measure_definitions import BY_NAME
 from gbnbench.io.points import load, save
 from gbnbench.runs.comparison_folder import read_run
 from gbnbench.runs.sources import resolve
-
-COMMAND = [sys.executable, "-m", "gbnbench"]
-
-
-def run(*arguments: object, cwd: Path, **options: Any) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [*COMMAND, *map(str, arguments)], cwd=cwd, capture_output=True, text=True, check=False, **options
-    )
+from tests.processes import COMMAND, command
 
 
 @dataclass(frozen=True)
@@ -55,7 +47,7 @@ def whole(tmp_path_factory: pytest.TempPathFactory) -> Whole:
     save(folder / "mine.npy", 0.5 + before / 1000)
     line = "compare random jittered mine.npy -n 64 --realizations 3 --baseline before"
     arguments = tuple(line.split())
-    return Whole(folder, arguments, run(*arguments, cwd=folder))
+    return Whole(folder, arguments, command(*arguments, cwd=folder))
 
 
 def test_compare_prints_a_table_and_leaves_a_whole_run(whole: Whole) -> None:
@@ -83,7 +75,7 @@ def test_compare_prints_a_table_and_leaves_a_whole_run(whole: Whole) -> None:
 
 def test_the_same_command_again_reuses_everything(whole: Whole) -> None:
     before = {path: path.stat().st_mtime_ns for path in whole.out.rglob("*") if path.name != ".lock"}
-    again = run(*whole.arguments, cwd=whole.folder)
+    again = command(*whole.arguments, cwd=whole.folder)
     assert "9 of 9 pieces reused" in again.stdout
     assert again.stdout.splitlines()[:-1] == whole.done.stdout.splitlines()[:-1]
     assert {p: p.stat().st_mtime_ns for p in whole.out.rglob("*") if p.name != ".lock"} == before
@@ -96,6 +88,7 @@ def test_what_is_worse_than_the_baseline_exits_with_1(whole: Whole) -> None:
     assert read_run(whole.out).verdicts["mine_n64_d2", "power_at_1"] == "worse"
 
 
+@pytest.mark.slow
 def test_killed_in_the_middle_it_resumes_to_the_same_bits(tmp_path: Path) -> None:
     arguments = ["compare", "lloyd", "-n", 144, "--realizations", 6, "--out", "run", "--quiet"]
     out = tmp_path / "run"
@@ -106,8 +99,8 @@ def test_killed_in_the_middle_it_resumes_to_the_same_bits(tmp_path: Path) -> Non
     kept = {path: path.stat().st_mtime_ns for path in out.glob("parts/*/[0-9]*.npz")}
     assert kept
     assert not (out / "manifest.json").exists()
-    assert "unfinished run" in run("report", out, cwd=tmp_path).stderr
-    resumed = run(*arguments, cwd=tmp_path)
+    assert "unfinished run" in command("report", out, cwd=tmp_path).stderr
+    resumed = command(*arguments, cwd=tmp_path)
     assert resumed.returncode == 0, resumed.stderr
     assert f"{len(kept)} of 7 pieces reused" in resumed.stdout
     sources, _ = resolve(["lloyd"], (144,), (2,), 6)
@@ -118,6 +111,7 @@ def test_killed_in_the_middle_it_resumes_to_the_same_bits(tmp_path: Path) -> Non
     assert repr(dict(after.measures)) == repr(dict(straight.measures))
 
 
+@pytest.mark.slow
 def test_ctrl_c_stops_at_once_and_says_how_to_go_on(tmp_path: Path) -> None:
     slow = ["compare", "lloyd", "-n", "4096", "--realizations", "40", "--out", "run"]
     busy = subprocess.Popen(
@@ -136,13 +130,16 @@ def test_ctrl_c_stops_at_once_and_says_how_to_go_on(tmp_path: Path) -> None:
         os.killpg(busy.pid, 0)
 
 
+@pytest.mark.slow
 def test_a_full_disk_is_one_line_and_loses_nothing(tmp_path: Path) -> None:
     sizes = ["-n", "1024,200000", "--realizations", "2", "--jobs", "1"]
 
     def small_files() -> None:  # room for OpenCL's own cache and for 1,024 points, not for 200,000
         resource.setrlimit(resource.RLIMIT_FSIZE, (2_000_000, resource.RLIM_INFINITY))
 
-    full = run("compare", "random", *sizes, "--out", "run", "--quiet", cwd=tmp_path, preexec_fn=small_files)
+    full = command(
+        "compare", "random", *sizes, "--out", "run", "--quiet", cwd=tmp_path, preexec_fn=small_files
+    )
     assert full.returncode == 2
     assert full.stderr == (
         "gbnbench: error: run: File too large; what is finished is kept and the same command goes on\n"
@@ -156,6 +153,7 @@ def test_a_full_disk_is_one_line_and_loses_nothing(tmp_path: Path) -> None:
     }
 
 
+@pytest.mark.slow
 def test_a_crashed_worker_is_named_and_the_rest_is_kept(tmp_path: Path) -> None:
     arguments = ["compare", "lloyd", "-n", "400", "--realizations", "3", "--jobs", "1", "--out", "run"]
     busy = subprocess.Popen([*COMMAND, *arguments], cwd=tmp_path, stderr=subprocess.PIPE, text=True)
@@ -170,6 +168,7 @@ def test_a_crashed_worker_is_named_and_the_rest_is_kept(tmp_path: Path) -> None:
     assert not (tmp_path / "run" / "manifest.json").exists()
 
 
+@pytest.mark.slow
 def test_bad_use_is_one_line_and_exit_2(tmp_path: Path) -> None:
     (tmp_path / "thesis").mkdir()
     (tmp_path / "thesis" / "thesis.tex").write_text("x")
@@ -182,7 +181,7 @@ def test_bad_use_is_one_line_and_exit_2(tmp_path: Path) -> None:
         (["generate", "random", "-o", "x.docx"], "x.docx"),
         (["report", "nowhere"], "not a run of gbnbench"),
     ):
-        done = run(*arguments, cwd=tmp_path)
+        done = command(*arguments, cwd=tmp_path)
         assert done.returncode == 2, arguments
         assert done.stdout == ""
         assert done.stderr.startswith("gbnbench: error: ")
@@ -192,7 +191,7 @@ def test_bad_use_is_one_line_and_exit_2(tmp_path: Path) -> None:
 
 
 def test_generate_writes_what_the_seed_says(tmp_path: Path) -> None:
-    done = run(
+    done = command(
         "generate", "random", "-n", 32, "-d", 3, "--realizations", 2, "--seed", 5, "-o", "x.csv", cwd=tmp_path
     )
     assert done.returncode == 0, done.stderr
@@ -201,14 +200,14 @@ def test_generate_writes_what_the_seed_says(tmp_path: Path) -> None:
         np.random.default_rng(np.random.SeedSequence(5, spawn_key=(k,))).random((32, 3)) for k in (0, 1)
     ]
     np.testing.assert_array_equal(load(tmp_path / "x.csv"), np.stack(expected))
-    assert "replacing" in run("generate", "random", "-o", "x.csv", cwd=tmp_path).stdout
+    assert "replacing" in command("generate", "random", "-o", "x.csv", cwd=tmp_path).stdout
 
 
 def test_analyze_prints_json_alone_and_goes_on_past_a_bad_file(tmp_path: Path) -> None:
     sets = np.random.default_rng(3).random((2, 40, 3))
     save(tmp_path / "good.npy", sets)
     (tmp_path / "bad.txt").write_text("0.5 nan\n")
-    done = run("analyze", "bad.txt", "absent.txt", "good.npy", "--json", cwd=tmp_path)
+    done = command("analyze", "bad.txt", "absent.txt", "good.npy", "--json", cwd=tmp_path)
     assert done.returncode == 2
     rows = json.loads(done.stdout, parse_constant=pytest.fail)
     assert [(r["path"], r["set"], r["n"], r["d"]) for r in rows] == [
@@ -221,30 +220,26 @@ def test_analyze_prints_json_alone_and_goes_on_past_a_bad_file(tmp_path: Path) -
         assert row["measures"]["power_at_1"] == pytest.approx(power.mean(), rel=1e-12)
     assert len(done.stderr.splitlines()) == 2
     assert "bad.txt, line 1" in done.stderr
-    table = run("analyze", "good.npy", cwd=tmp_path)
+    table = command("analyze", "good.npy", cwd=tmp_path)
     assert table.returncode == 0
     assert [line.split()[:4] for line in table.stdout.splitlines()[1:]] == [
         ["good.npy", "0", "40", "3"], ["good.npy", "1", "40", "3"]
     ]  # fmt: skip
 
 
+@pytest.mark.slow
 def test_report_remakes_the_pictures(whole: Whole) -> None:
     made = [whole.out / "report.html", whole.out / "figures" / "gallery.png"]
     before = [path.read_bytes() for path in made]
     for path in made:
         path.unlink()
-    done = run("report", whole.out, cwd=whole.folder)
+    done = command("report", whole.out, cwd=whole.folder)
     assert done.returncode == 0, done.stderr
     assert [path.read_bytes() for path in made] == before
 
 
-def test_help_and_version_and_a_closed_pipe(tmp_path: Path) -> None:
-    shown = run("--help", cwd=tmp_path)
-    assert shown.returncode == 0
-    assert all(
-        name in shown.stdout for name in ("analyze", "compare", "devices", "doctor", "generate", "report")
-    )
-    assert run("--version", cwd=tmp_path).stdout.startswith("gbnbench ")
+def test_version_and_a_closed_pipe(tmp_path: Path) -> None:
+    assert command("--version", cwd=tmp_path).stdout.startswith("gbnbench ")
     piped = subprocess.Popen(
         [*COMMAND, "compare", "--help"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )

@@ -13,12 +13,6 @@ from gbnbench.cli import run
 from gbnbench.generators.registry import generate
 
 
-@pytest.fixture
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
-
-
 def command(*arguments: object) -> int:
     return run(["generate", *map(str, arguments)])
 

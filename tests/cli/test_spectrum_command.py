@@ -19,11 +19,12 @@ from matplotlib.image import imread
 import gbnbench
 import gbnbench.cli.spectrum_run
 from gbnbench.analysis.measures import default_fmax
+from gbnbench.analysis.radial.anisotropy import anisotropy
 from gbnbench.cli import run
 from gbnbench.io.data_files import read_csv
 from gbnbench.io.points import save
 from gbnbench.reports.comparison import single_spectrum
-from tests.oracles import direct_power
+from tests.oracles.power import direct_power
 
 Said = Callable[..., tuple[str, str]]
 
@@ -135,7 +136,7 @@ def test_shells_bands_and_corners(said: Said, sets: np.ndarray) -> None:
         for name in ("frequency", "nu", "power", "count", "deviation"):
             np.testing.assert_array_equal(table[name], getattr(expected, name))
             np.testing.assert_array_equal(kept[name], getattr(expected, name))
-        rings = expected.anisotropy()
+        rings = anisotropy(expected)
         np.testing.assert_array_equal(kept["ring"], rings["frequency"])
         np.testing.assert_array_equal(kept["anisotropy_db"], rings["anisotropy_db"])
         np.testing.assert_array_equal(table["ring"], np.round(table["frequency"]))
@@ -157,11 +158,7 @@ def test_listed_frequencies_and_weights(said: Said, sets: np.ndarray) -> None:
     np.testing.assert_allclose(table["frequency"], [5**0.5, 3, (1e12 + 49) ** 0.5], rtol=1e-15)
     np.testing.assert_allclose(table["nu"], table["frequency"] / 40**0.5, rtol=1e-15)
 
-    def weighted(x: np.ndarray, w: np.ndarray) -> np.ndarray:
-        waves = np.exp(-2j * np.pi * x @ np.array([[1, 2], [-3, 0]]).T)
-        return np.abs(w @ waves) ** 2 / np.sum(w**2)
-
-    one, two = weighted(sets[0], weights[0]), weighted(sets[1], weights[1])
+    one, two = (direct_power(sets[k], [[1, 2], [-3, 0]], weights[k]) for k in range(2))
     Path("at.txt").write_text("1 2\n-3 0\n")
     for files, w, expected in (("a.txt", "w.txt", one), ("s.npz", "w.npy", (one + two) / 2)):
         said(files, "--at", "at.txt", "--weights", w, "-o", "l.npz")
@@ -209,8 +206,8 @@ def test_explain_computes_and_writes_nothing(
     def forbidden(*_: object, **__: object) -> None:
         raise AssertionError("evaluated")
 
-    monkeypatch.setattr("gbnbench.analysis.spectrum.spectrum_request.periodogram", forbidden)
-    monkeypatch.setattr("gbnbench.analysis.spectrum.spectrum_request.shells", forbidden)
+    monkeypatch.setattr("gbnbench.analysis.spectrum.settings.periodogram", forbidden)
+    monkeypatch.setattr("gbnbench.analysis.spectrum.settings.shells", forbidden)
     plan = gbnbench.plan(40, 2, 3, realizations=2, half=True)
     assert said("s.npz", "--half", "--fmax", 3, "--explain", "-o", "x.npz") == (f"s.npz:\n{plan}\n", "")
     assert not Path("x.npz").exists()
@@ -233,6 +230,7 @@ def test_analyze_explains_each_size_in_each_file(said: Said, capsys: pytest.Capt
     assert run(["analyze", "--explain", "--json", "a.txt"]) == 2
 
 
+@pytest.mark.slow
 def test_pictures(said: Said) -> None:
     save("one.csv", np.random.default_rng(3).random((9, 1)))
     lattice = np.stack(np.meshgrid(*[np.arange(8) / 8] * 2), axis=-1).reshape(-1, 2)
@@ -338,7 +336,7 @@ def test_each_never_replaces_what_is_read(said: Said, sets: np.ndarray) -> None:
 
 
 def test_a_run_that_is_stopped_says_what_it_keeps(said: Said, monkeypatch: pytest.MonkeyPatch) -> None:
-    find, calls = gbnbench.analysis.spectrum.spectrum_request.Asked.find, []
+    find, calls = gbnbench.analysis.spectrum.settings.SpectrumSettings.evaluate, []
 
     def stopped(*arguments: Any) -> Any:
         calls.append(1)
@@ -346,7 +344,7 @@ def test_a_run_that_is_stopped_says_what_it_keeps(said: Said, monkeypatch: pytes
             raise KeyboardInterrupt
         return find(*arguments)
 
-    monkeypatch.setattr(gbnbench.analysis.spectrum.spectrum_request.Asked, "find", stopped)
+    monkeypatch.setattr(gbnbench.analysis.spectrum.settings.SpectrumSettings, "evaluate", stopped)
     _, err = said("s.npz", "a.txt", "b.csv", "--each", "--fmax", 2, "-o", "q.npy", code=130)
     assert err == "gbnbench: stopped; 2 of 4 files are written and kept\n"
     assert sorted(path.name for path in Path().glob("q*")) == ["q_0.npy", "q_1.npy"]

@@ -18,7 +18,6 @@ from gbnbench.core.torus import (
     fixed_point,
     spacing,
     toroidal_distance,
-    with_images,
     wrap,
 )
 
@@ -82,14 +81,3 @@ def test_fixed_point_is_exact_for_multiples_of_the_double_grid(k):
 def test_fixed_point_wraps_where_float_rounds_up_to_a_turn():
     assert fixed_point(np.array([1 - 2.0**-53]), 32)[0] == 0
     assert fixed_point(np.array([1 - 2.0**-53]), 64)[0] == 2**64 - 2**11
-
-
-def test_images_are_those_of_the_full_tiling_within_the_margin():
-    x = np.random.default_rng(1).random((40, 3))
-    tiled, owner = with_images(x, 0.3)
-    shifts = np.stack(np.meshgrid(*[[-1, 0, 1]] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
-    full = (x[None] + shifts[:, None]).reshape(-1, 3)
-    inside = ((full >= -0.3) & (full < 1.3)).all(axis=1)
-    assert sorted(map(tuple, tiled)) == sorted(map(tuple, full[inside]))
-    assert np.array_equal(tiled[:40], x)
-    assert np.allclose(wrap(tiled), x[owner], atol=1e-15)

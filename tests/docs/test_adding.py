@@ -40,6 +40,7 @@ def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
         del sys.modules[name]
 
 
+@pytest.mark.slow
 def test_the_python_runs_and_its_assertions_hold(place: Path) -> None:
     for name, text in files().items():
         (place / name).write_text(text, encoding="utf-8")
@@ -75,6 +76,7 @@ def apply(patch: str, root: Path) -> None:
             anchor = line[1:]
 
 
+@pytest.mark.slow
 def test_the_patches_fit_and_the_commands_then_know_both(place: Path) -> None:
     for package in PACKAGES:
         skip = shutil.ignore_patterns("__pycache__", "results")

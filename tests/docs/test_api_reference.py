@@ -7,7 +7,7 @@ import re
 import pytest
 
 import gbnbench
-from gbnbench.analysis.catalogue import CATALOGUE
+from gbnbench.analysis.measure_definitions import DEFINITIONS
 from gbnbench.generators.registry import GENERATORS
 from tests.paths import DOCS
 
@@ -24,7 +24,7 @@ def test_every_generator_is_in_the_reference(kind):
     assert kind.__doc__
 
 
-@pytest.mark.parametrize("definition", CATALOGUE, ids=lambda definition: definition.name)
+@pytest.mark.parametrize("definition", DEFINITIONS, ids=lambda definition: definition.name)
 def test_every_measure_is_defined_on_its_page(definition):
     cells = re.findall(r"^\| (`.*?) \| (.+) \|$", (DOCS / "measures.md").read_text(), re.MULTILINE)
     assert any(f"`{definition.name}`" in name and text for name, text in cells)

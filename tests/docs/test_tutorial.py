@@ -38,6 +38,7 @@ def test_it_is_kept_without_outputs() -> None:
         assert not cell.get("outputs")
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("default")  # the kernel's client has warnings of its own
 def test_it_runs_and_shows_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(ROOT), *sys.path]))

@@ -8,7 +8,7 @@ import pytest
 from gbnbench.core import cache_folder
 from gbnbench.core.errors import DeviceError
 from gbnbench.doctor import kernel_checks, numpy_references, trust
-from tests.oracles import direct_power
+from tests.oracles.power import direct_power
 
 
 def test_its_numpy_twins_are_right_themselves():
@@ -31,6 +31,7 @@ def test_its_numpy_twins_are_right_themselves():
             assert gradient[k, a] == pytest.approx((energy(u + step) - energy(u - step)) / 2e-5, abs=1e-8)
 
 
+@pytest.mark.slow
 def test_this_device_passes_in_full():
     examination = kernel_checks.examine()
     assert examination.trusted, [c for c in examination.checks if not c.passed]

@@ -85,13 +85,10 @@ class TestGenerator:
         assert "\n" not in kind.summary
         assert isinstance(kind(), Generator)
 
-    def test_is_frozen_and_equal_by_its_settings(self, name: str) -> None:
+    def test_is_equal_by_its_settings(self, name: str) -> None:
         generator = GENERATORS[name]()
         assert generator == find(name)
         assert hash(generator) == hash(find(name))
-        for field in dataclasses.fields(generator):  # type: ignore[arg-type]
-            with pytest.raises(dataclasses.FrozenInstanceError):
-                setattr(generator, field.name, field.default)
 
     def test_settings_make_the_round_trip_through_text(self, name: str) -> None:
         for generator in (GENERATORS[name](), changed(GENERATORS[name]())):

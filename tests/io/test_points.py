@@ -17,9 +17,8 @@ from hypothesis import strategies as st
 from gbnbench.core.errors import FormatError, InputError
 from gbnbench.io.points import load, read, save
 from gbnbench.io.points.number_parser import BLOCK, _fast, _slow
-from tests.paths import ROOT
+from tests.published_sets import published_files
 
-SHARED = ROOT.parent / "shared" / "points"
 WRITTEN = [".txt", ".dat", ".csv", ".npy", ".npz"]
 PSA_EPS = (
     b"%!PS-Adobe-3.1 EPSF-3.0\n%%BoundingBox: -3 -3 515 515\n/radius { 0.00585938 } def\n"
@@ -412,11 +411,8 @@ def test_the_fast_lexer_is_the_slow_one(text: str) -> None:
         assert ours.tolist() == slow.tolist()
 
 
-@pytest.mark.skipif(not SHARED.is_dir(), reason="the point sets of other programs are not here")
 def test_sets_made_by_other_programs() -> None:
-    files = sorted(SHARED.glob("*/*.txt"))
-    assert files
-    for path in files:
+    for path in published_files("*/*.txt"):
         counted = len(path.read_text().splitlines()) == 1025
         x = load(path)
         assert np.shape(x) == (1024, 3 if "3d" in path.parent.name else 2)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import subprocess
 import sys
 from pathlib import Path
 
@@ -14,17 +13,7 @@ from gbnbench.core.errors import DeviceError
 from gbnbench.opencl import choose, devices, runtime
 from gbnbench.opencl.runtime import OPTIONS
 from gbnbench.opencl.width_probe import VectorWidths, vector_widths
-
-
-def python(code: str, **environment: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-c", code],
-        env={**os.environ, **environment},
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=False,
-    )
+from tests.processes import python
 
 
 def test_every_device_can_be_chosen_by_its_index_and_its_label():

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
-
 import pytest
 
 from gbnbench.core import cache_folder
 from gbnbench.core.errors import DeviceError, InputError
 from gbnbench.opencl import choose, peak_rate, runtime
+from tests.processes import NO_DEVICE, python
 
 
 @pytest.fixture
@@ -76,12 +73,5 @@ def test_without_a_device_it_says_so():
         "    peak_rate.launch_seconds,\n):\n"
         "    try:\n        call()\n    except DeviceError as error:\n        print(error)"
     )
-    done = subprocess.run(
-        [sys.executable, "-c", code],
-        env={**os.environ, "OCL_ICD_VENDORS": "/nonexistent"},
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=True,
-    )
+    done = python(code, **NO_DEVICE)
     assert done.stdout.count("no OpenCL device") == 3

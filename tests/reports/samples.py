@@ -10,27 +10,17 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from gbnbench.analysis.catalogue import CATALOGUE
+from gbnbench.analysis.measure_definitions import DEFINITIONS
 from gbnbench.core.results import Measures, RadialPower, Spectrum
 from gbnbench.runs.comparison_result import Run, SourceResult
-from tests.paths import ROOT
-
-SHARED = ROOT.parent / "shared" / "points"
+from tests.oracles.power import lattice_of, mean_power
 
 
-def direct_power(sets: np.ndarray, fmax: int) -> np.ndarray:
-    """Mean |sum exp(-2 pi i f.x)|^2 / n over the cube, one axis after another."""
-    _, n, d = sets.shape
-    f = np.arange(-fmax, fmax + 1)
-    total = np.zeros((2 * fmax + 1,) * d)
-    for x in sets:
-        waves = [np.exp(-2j * np.pi * x[:, a, None] * f) for a in range(d)]
-        left = waves[0]
-        for wave in waves[1:-1]:
-            left = (left[:, :, None] * wave[:, None, :]).reshape(n, -1)
-        amplitude = left.sum(0) if d == 1 else left.T @ waves[-1]
-        total += np.abs(amplitude.reshape(total.shape)) ** 2 / n
-    return np.where(total < 1e-24, 0.0, total / len(sets))  # sums of rounded waves, exactly 0 on a lattice
+def cube_power(sets: np.ndarray, fmax: int) -> np.ndarray:
+    """Mean power over the cube, exactly 0 where sums of rounded points leave next to nothing."""
+    d = sets.shape[2]
+    power = mean_power(sets, lattice_of(fmax, d)).astype(float)
+    return np.where(power < 1e-24, 0.0, power).reshape((2 * fmax + 1,) * d)
 
 
 def shells(power: np.ndarray, n: int, fmax: int, sets: int) -> tuple[RadialPower, pd.DataFrame]:
@@ -87,9 +77,9 @@ def source(
 ) -> SourceResult:
     """A source with honest spectrum and pictures and a few honest measures; the rest given or made up."""
     count, n, d = sets.shape
-    power = direct_power(sets, fmax)
+    power = cube_power(sets, fmax)
     radial, anisotropy = shells(power, n, fmax, count)
-    values = {definition.name: math.nan for definition in CATALOGUE}
+    values = {definition.name: math.nan for definition in DEFINITIONS}
     low = (radial.nu <= 0.25) | (radial.frequency == radial.frequency[0])
     values["noise_floor"] = float(np.sum((radial.power * radial.count)[low]) / radial.count[low].sum())
     values["power_at_1"] = float(radial.power[0])
@@ -164,12 +154,3 @@ def small_run(**more: Any) -> Run:
         manifest(**more),
         (source("random", random(64, 2, 4)), source("jittered", jittered(64, 2, 4), cpu=0.5)),
     )
-
-
-def shared_sets(folder: str) -> np.ndarray:
-    """The sets of one folder of real point sets, or none where it is not there."""
-    sets = []
-    for path in sorted((SHARED / folder).glob("*.txt")):
-        rows = [line.split() for line in path.read_text().split("\n") if line.strip()]
-        sets.append(np.array([r for r in rows if len(r) == len(rows[-1])][-1024:], dtype=float) % 1.0)
-    return np.array(sets)

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from gbnbench.analysis.catalogue import CATALOGUE
+from gbnbench.analysis.measure_definitions import DEFINITIONS
 from gbnbench.core.results import Measures, RadialPower, Spectrum
 from gbnbench.runs.baseline import judge, verdict
 from gbnbench.runs.comparison_result import Run, SourceResult
@@ -15,7 +15,7 @@ from gbnbench.runs.comparison_result import Run, SourceResult
 def source(
     label: str, realizations: int = 16, n: int = 16, error: float = 0.1, **values: float
 ) -> SourceResult:
-    names = [definition.name for definition in CATALOGUE]
+    names = [definition.name for definition in DEFINITIONS]
     empty = np.zeros(0)
     return SourceResult(
         key=f"{label}_n{n}",

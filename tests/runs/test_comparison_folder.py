@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from gbnbench.analysis.catalogue import CATALOGUE
+from gbnbench.analysis.measure_definitions import DEFINITIONS
 from gbnbench.core import atomic_write
 from gbnbench.core.errors import FormatError, InputError
 from gbnbench.core.results import Measures, RadialPower, Spectrum
@@ -25,8 +25,8 @@ AWKWARD = (0.1, 1 / 3, 5e-324, -0.0, 1e300, math.nan, math.inf, -math.inf, 0.1 +
 def result(key: str = "gbn_n8_d2", label: str = 'gbn[x=1], "é"', d: int = 2, sets: int = 3) -> SourceResult:
     """Every field filled with numbers that are hard to write down."""
     rng = np.random.default_rng(5)
-    numbers = [AWKWARD[i % len(AWKWARD)] for i in range(len(CATALOGUE))]
-    names = [definition.name for definition in CATALOGUE]
+    numbers = [AWKWARD[i % len(AWKWARD)] for i in range(len(DEFINITIONS))]
+    names = [definition.name for definition in DEFINITIONS]
     frequency = np.sqrt(np.arange(1.0, 6.0))
     return SourceResult(
         key=key,
@@ -125,7 +125,7 @@ def test_the_tables_hold_every_source_and_measure(tmp_path: Path) -> None:
     run = Run({}, (result(),), {("gbn_n8_d2", "peak"): "worse"})
     comparison_folder.ComparisonFolder(tmp_path, identity()).write_tables(run)
     table = pd.read_csv(tmp_path / "measures.csv", dtype=str).set_index("measure")
-    assert list(table.index) == [definition.name for definition in CATALOGUE]
+    assert list(table.index) == [definition.name for definition in DEFINITIONS]
     assert table.loc["peak", "verdict"] == "worse"
     assert table.loc["psi6", "reason"] == "line one\nline two, with a comma"
     expected = np.array(list(run.sources[0].measures.values()))

@@ -9,9 +9,7 @@ import pytest
 from gbnbench.core.errors import FormatError, InputError, RefusalError
 from gbnbench.generators.direct.jittered import Jittered
 from gbnbench.runs.sources import Source, resolve
-from tests.paths import ROOT
-
-SHARED = ROOT.parent / "shared" / "points"
+from tests.published_sets import published_files
 
 
 def rows(path: Path, n: int, d: int = 2, seed: int = 0) -> np.ndarray:
@@ -106,9 +104,8 @@ def test_numbers_below_one_are_refused(n: int, d: int, realizations: int) -> Non
         resolve(["random"], (n,), (d,), realizations)
 
 
-@pytest.mark.skipif(not SHARED.is_dir(), reason="the shared point sets are not here")
 def test_sets_made_by_other_programs() -> None:
-    found = named(SHARED / "bnot-1024", SHARED / "gbn-3d-1024")
+    found = named(*(published_files(f"{name}/*")[0].parent for name in ("bnot-1024", "gbn-3d-1024")))
     assert [(s.label, s.d, s.realizations) for s in found] == [("bnot-1024", 2, 4), ("gbn-3d-1024", 3, 1)]
 
 

@@ -43,6 +43,7 @@ def test_the_result_is_the_run_on_disk(small: ComparisonOutcome) -> None:
     assert (small.reused, small.pieces) == (0, 10)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("stop", "said"),
     [

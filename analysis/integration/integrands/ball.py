@@ -49,39 +49,76 @@ class Balls:
             )
 
     def refusal(self, d: int) -> str | None:
-        """Say why there are none in d dimensions, else None."""
+        """Return the reason why there are no such integrands in d dimensions, or None."""
         return beyond_dimensions("balls", d)
 
     def radius(self, d: int) -> float:
-        """Of the ball, box sides."""
+        """Radius of the ball, in box sides."""
         return radius_of(d, self.volume)
 
     def draw(self, d: int, rng: np.random.Generator) -> Ball:
-        """Draw a centre; RefusalError where ``refusal`` has a reason."""
+        """Draw a ball by a uniform centre.
+
+        Parameters
+        ----------
+        d : int
+            Dimension.
+        rng : numpy.random.Generator
+            Source of the random numbers.
+
+        Returns
+        -------
+        Ball
+            Of the same radius in every draw.
+
+        Raises
+        ------
+        RefusalError
+            If ``refusal(d)`` has a reason.
+        """
         if reason := self.refusal(d):
             raise RefusalError(reason)
         return Ball(rng.random(d), self.radius(d))
 
     def mean_energy(self, frequencies: NDArray[np.int64]) -> FloatArray:
-        """``energy``, which no centre changes: (m, d) -> (m,)."""
+        """Energy of every ball, which does not depend on its centre: (m, d) -> (m,)."""
         return ball_energy(frequencies, self.radius(frequencies.shape[1]))
 
     def frequencies(self, d: int, share: float, most: int = MOST_FREQUENCIES) -> NDArray[np.int64]:
-        """Half a ball of frequencies, those outside it holding less than this share of the energy.
+        """List half a ball of frequencies; those outside it hold less than a share of the energy.
+
+        Parameters
+        ----------
+        d : int
+            Dimension.
+        share : float
+            Share of the mean energy over f != 0 that may be left out, 0 < share < 1.
+        most : int
+            Longest list allowed.
+
+        Returns
+        -------
+        (m, d) int64
+            One of each pair f, -f.
+
+        Raises
+        ------
+        RefusalError
+            If more than ``most`` are needed, or the spectrum is not known in d dimensions.
 
         Notes
         -----
-        The total is volume (1 - volume), by Parseval. Energy falls as |f|^-(d + 1), so that a share s is left
-        beyond |f| of about 1/s: a small one is soon refused, as is any where the spectrum is not known.
+        The total is volume (1 - volume), by Parseval. Energy falls as |f|^-(d + 1), so that a share s lies
+        beyond |f| of about 1/s, and small shares need too many frequencies.
         """
         check_share(share, self.refusal(d))
         radius = self.radius(d)
         volume = ball_volume(d, radius)
-        wanted, longest = (1 - share) * volume * (1 - volume), 4
+        target, longest = (1 - share) * volume * (1 - volume), 4
         while True:
             squares, counts = shells(d, longest)
-            kept = np.cumsum(counts[1:] * _shell_energy(d, np.sqrt(squares[1:]), radius))
-            if kept[-1] > wanted:
+            energy = np.cumsum(counts[1:] * _shell_energy(d, np.sqrt(squares[1:]), radius))
+            if energy[-1] > target:
                 break
             check_count(
                 f"even a ball that leaves out more than {share:g} of the energy",
@@ -90,7 +127,7 @@ class Balls:
                 most=most,
             )
             longest *= 2
-        last = int(np.searchsorted(kept, wanted, side="right"))
+        last = int(np.searchsorted(energy, target, side="right"))
         check_count(
             f"the ball that leaves out {share:g} of the energy", d, counts[1 : last + 2].sum() / 2, most=most
         )
@@ -106,7 +143,7 @@ class Ball:
     centre : (d,) float64
         On the unit torus.
     radius : float
-        Box sides.
+        In box sides.
     """
 
     centre: FloatArray
@@ -133,7 +170,19 @@ class Ball:
 
 
 def ball_energy(frequencies: NDArray[np.int64], radius: float) -> FloatArray:
-    """(radius / |f|)^d J_{d/2}(2 pi radius |f|)^2, the squared volume at 0: (m, d) -> (m,).
+    """Energy of a ball: (radius / |f|)^d J_{d/2}(2 pi radius |f|)^2, the squared volume at f = 0.
+
+    Parameters
+    ----------
+    frequencies : (m, d) int64
+        Frequencies, cycles per box side.
+    radius : float
+        Box sides, at most 1/2.
+
+    Returns
+    -------
+    (m,) float64
+        |transform of the indicator|^2.
 
     Raises
     ------

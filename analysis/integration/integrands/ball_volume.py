@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from gbnbench.core.torus import FloatArray
 
-NODES = 64  # of Gauss and Legendre: a smooth integrand to rounding
-TAIL = 1e-13  # of a series
+NODES = 64  # of the Gauss-Legendre rule, which takes a smooth integrand to rounding
+TAIL = 1e-13  # what the terms of a series that are left out add up to at most
 
 
 @lru_cache(maxsize=256)
@@ -24,6 +24,11 @@ def ball_volume(d: int, radius: float) -> float:
         Dimension, 1 to 20.
     radius : float
         Box sides, >= 0.
+
+    Returns
+    -------
+    float
+        Volume of the ball without what its images cover twice, in [0, 1].
 
     Notes
     -----
@@ -57,7 +62,20 @@ def ball_volume(d: int, radius: float) -> float:
 
 @lru_cache(maxsize=256)
 def radius_of(d: int, volume: float) -> float:
-    """Radius of the ball that holds a share of the torus, 0 < volume < 1, so far as doubles tell."""
+    """Radius of the ball that holds a share of the torus, to rounding.
+
+    Parameters
+    ----------
+    d : int
+        Dimension, 1 to 20.
+    volume : float
+        The share, 0 < volume < 1.
+
+    Returns
+    -------
+    float
+        Box sides.
+    """
     from scipy.optimize import brentq
 
     unit = math.exp((math.lgamma(d / 2 + 1) + math.log(volume)) / d) / math.sqrt(math.pi)

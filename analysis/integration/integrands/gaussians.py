@@ -18,13 +18,16 @@ from gbnbench.analysis.integration.integrands.integer_frequencies import (
     half_ball,
     shells,
 )
-from gbnbench.analysis.integration.integrands.kernel_values import NUMPY_POINTS, launch, rows_of, values
+from gbnbench.analysis.integration.integrands.kernel_values import (
+    NUMPY_POINTS,
+    coordinate_rows,
+    evaluate,
+    run_kernel,
+)
+from gbnbench.analysis.integration.integrands.theta_polynomial import NEAREST, circle, theta_polynomial
 from gbnbench.analysis.precision import Precision
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray
-
-NEAREST = 0.0577  # widths up to which one image an axis is theta to 2^-54 of its largest value
-NEGLIGIBLE = 2.0**-55  # of theta's largest value: what harmonics left out may add up to
 
 
 @dataclass(frozen=True)
@@ -36,7 +39,7 @@ class Gaussians:
     count : int
         Gaussians of a sum, >= 1.
     points : int
-        Whose nominal grid spacing the width is, >= 1.
+        The width is the spacing of a grid of so many points, >= 1.
 
     Notes
     -----
@@ -58,15 +61,33 @@ class Gaussians:
             raise InputError(f"points of gaussians must be at least 1; got {self.points}")
 
     def refusal(self, d: int) -> str | None:
-        """Say why there are none in d dimensions, else None."""
+        """Return the reason why there are no such integrands in d dimensions, or None."""
         return beyond_dimensions("sums of Gaussians", d)
 
     def width(self, d: int) -> float:
-        """Of a Gaussian, box sides."""
+        """Width of a Gaussian, in box sides."""
         return math.pow(self.points, -1 / d)
 
     def draw(self, d: int, rng: np.random.Generator) -> GaussianSum:
-        """Draw centres; RefusalError where ``refusal`` has a reason."""
+        """Draw a sum by uniform centres.
+
+        Parameters
+        ----------
+        d : int
+            Dimension.
+        rng : numpy.random.Generator
+            Source of the random numbers.
+
+        Returns
+        -------
+        GaussianSum
+            With ``count`` Gaussians.
+
+        Raises
+        ------
+        RefusalError
+            If ``refusal(d)`` has a reason.
+        """
         if reason := self.refusal(d):
             raise RefusalError(reason)
         return GaussianSum(rng.random((self.count, d)), self.width(d))
@@ -76,7 +97,27 @@ class Gaussians:
         return self.count * gaussian_energy(frequencies, self.width(frequencies.shape[1]))
 
     def frequencies(self, d: int, share: float, most: int = MOST_FREQUENCIES) -> NDArray[np.int64]:
-        """Half a ball of frequencies, those outside it holding less than this share of the mean energy."""
+        """List half a ball of frequencies; those outside it hold less than a share of the mean energy.
+
+        Parameters
+        ----------
+        d : int
+            Dimension.
+        share : float
+            Share of the mean energy over f != 0 that may be left out, 0 < share < 1.
+        most : int
+            Longest list allowed.
+
+        Returns
+        -------
+        (m, d) int64
+            One of each pair f, -f.
+
+        Raises
+        ------
+        RefusalError
+            If more than ``most`` are needed, or the spectrum is not known in d dimensions.
+        """
         check_share(share, self.refusal(d))
         decay = (2 * math.pi * self.width(d)) ** 2
         longest = 4
@@ -96,14 +137,14 @@ class Gaussians:
 
 @dataclass(frozen=True, eq=False)
 class GaussianSum:
-    """One sum.
+    """One sum of Gaussians.
 
     Attributes
     ----------
     centres : (count, d) float64
         On the unit torus.
     width : float
-        Of each, box sides.
+        Width of each, in box sides.
     """
 
     centres: FloatArray
@@ -123,7 +164,7 @@ class GaussianSum:
         An OpenCL device of double precision computes, else numpy. Coordinates that are multiples of 2^-53
         lose nothing; others are rounded to such where a narrow Gaussian's nearest image lies across an edge.
         """
-        return values(self, x)
+        return evaluate(self, x)
 
     def energy(self, frequencies: NDArray[np.int64]) -> FloatArray:
         """|transform|^2 at integer frequencies, (m, d) -> (m,)."""
@@ -166,21 +207,34 @@ class GaussianSum:
         return total
 
     def on_device(self, points: FloatArray, device: Precision) -> FloatArray:
-        """Values at (n, d) points by gaussians.cl."""
+        """Values by gaussians.cl.
+
+        Parameters
+        ----------
+        points : (n, d) float64
+            Points of the unit torus.
+        device : Precision
+            A device in double precision.
+
+        Returns
+        -------
+        (n,) float64
+            The sum at each point.
+        """
         degree = max(len(self.harmonics) - 1, 0)
-        rows = rows_of(points, device, turns=degree > 0)
+        rows = coordinate_rows(points, device, turns=degree > 0)
         if degree:
             centres, shape = np.stack(circle(self.centres), axis=-1), np.append(self.harmonics, self.scale)
         else:
             centres, shape = self.centres, np.array([-1 / (2 * math.log(2) * self.width**2)])
         count = np.uint32(len(self.centres))
         files = ("/exp2.cl", "gaussians.cl")
-        return launch(device, files, rows, len(points), centres, count, shape, DEGREE=degree)
+        return run_kernel(device, files, rows, len(points), centres, count, shape, DEGREE=degree)
 
     @cached_property
     def harmonics(self) -> FloatArray:
         """Coefficients of theta over its mean in powers of cos 2 pi u; none where one image is enough."""
-        return np.empty(0) if self.width <= NEAREST else polynomial(self.width)
+        return np.empty(0) if self.width <= NEAREST else theta_polynomial(self.width)
 
     @property
     def scale(self) -> float:
@@ -188,56 +242,21 @@ class GaussianSum:
         return self.integral / len(self.centres)
 
 
-def polynomial(width: float) -> FloatArray:
-    """Theta over its mean as a polynomial in cos 2 pi u.
+def gaussian_energy(frequencies: NDArray[np.int64], width: float) -> FloatArray:
+    """Energy of one Gaussian: (2 pi width^2)^d exp(-4 pi^2 width^2 |f|^2).
 
     Parameters
     ----------
+    frequencies : (m, d) int64
+        Frequencies, cycles per box side.
     width : float
-        Box sides; from ``NEAREST`` on.
+        Box sides.
 
     Returns
     -------
-    (degree + 1,) float64
-        Ascending; the degree is 24 at ``NEAREST``, 11 for 1/8 (512 points in 3D), 1 from 0.8 on.
-
-    Notes
-    -----
-    theta(u) = mean (1 + 2 sum over h >= 1 of exp(-2 pi^2 width^2 h^2) cos 2 pi h u), mean = sqrt(2 pi) width,
-    by Chebyshev's T_h(cos 2 pi u) = cos 2 pi h u, whose coefficients are integers. They alternate in sign:
-    the sum of their sizes stays below 1.3 times theta's largest value, so that little is lost.
+    (m,) float64
+        |transform|^2.
     """
-    decay = 2 * math.pi**2 * width**2
-    weights = [1.0] + [2 * math.exp(-decay * h * h) for h in range(1, 60)]
-    largest = math.fsum(weights)
-    degree = 1
-    while math.fsum(weights[degree + 1 :]) > NEGLIGIBLE * largest:
-        degree += 1
-    terms: list[list[float]] = [[] for _ in range(degree + 1)]
-    before, now = [0, 1], [1]  # T_-1 = T_1 and T_0, ascending
-    for h in range(degree + 1):
-        for power, coefficient in enumerate(now):
-            terms[power].append(weights[h] * coefficient)
-        following = [0, *(2 * c for c in now)]  # T_(h+1) = 2 c T_h - T_(h-1)
-        for power, c in enumerate(before):
-            following[power] -= c
-        before, now = now, following
-    return np.array([math.fsum(term) for term in terms])
-
-
-def circle(x: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Cosine and sine of 2 pi x, the nearest quarter turn taken off exactly."""
-    quarter = np.rint(4 * x)
-    angle = (2 * math.pi) * (x - quarter / 4)
-    cosine, sine = np.cos(angle), np.sin(angle)
-    odd, half = quarter % 2 == 1, quarter % 4 >= 2
-    c = np.where(odd, -sine, cosine)
-    s = np.where(odd, cosine, sine)
-    return np.where(half, -c, c), np.where(half, -s, s)
-
-
-def gaussian_energy(frequencies: NDArray[np.int64], width: float) -> FloatArray:
-    """|transform|^2 of one Gaussian: (2 pi width^2)^d exp(-4 pi^2 width^2 |f|^2), (m, d) -> (m,)."""
     square = (frequencies.astype(np.float64) ** 2).sum(axis=1)
     energy: FloatArray = (2 * math.pi * width**2) ** frequencies.shape[1] * np.exp(
         -4 * math.pi**2 * width**2 * square

@@ -28,17 +28,48 @@ class HalfSpaces:
     periodic: ClassVar[bool] = False
 
     def refusal(self, d: int) -> str | None:
-        """Say why there are none in d dimensions, else None."""
+        """Return the reason why there are no such integrands in d dimensions, or None."""
         return beyond_dimensions("half spaces", d)
 
     def draw(self, d: int, rng: np.random.Generator) -> HalfSpace:
-        """Draw a point and a direction; RefusalError where ``refusal`` has a reason."""
+        """Draw a plane by a uniform point and a uniform direction.
+
+        Parameters
+        ----------
+        d : int
+            Dimension.
+        rng : numpy.random.Generator
+            Source of the random numbers.
+
+        Returns
+        -------
+        HalfSpace
+            The step across it.
+
+        Raises
+        ------
+        RefusalError
+            If ``refusal(d)`` has a reason.
+        """
         if reason := self.refusal(d):
             raise RefusalError(reason)
         return HalfSpace(rng.random(d), rng.standard_normal(d))
 
     def frequencies(self, d: int, share: float, most: int = 0) -> NDArray[np.int64]:  # noqa: ARG002
-        """None: it is not periodic."""
+        """Return an empty list: these functions are not periodic.
+
+        Parameters
+        ----------
+        d : int
+            Dimension.
+        share, most : float, int
+            Of no effect; the protocol has them.
+
+        Returns
+        -------
+        (0, d) int64
+            No frequencies.
+        """
         return np.empty((0, d), dtype=np.int64)
 
 
@@ -49,7 +80,7 @@ class HalfSpace:
     Attributes
     ----------
     point, normal : (d,) float64
-        Of the plane; of any length but 0.
+        A point of the plane, and its normal of any length but 0.
     """
 
     point: FloatArray

@@ -1,4 +1,4 @@
-"""Values of an integrand at many points: by a kernel where a device has double precision, else by numpy."""
+"""Values of an integrand at many points, by a kernel in double precision, or by numpy without a device."""
 
 from __future__ import annotations
 
@@ -15,30 +15,56 @@ DEVICE_POINTS = 1 << 20  # of a launch
 NUMPY_POINTS = 1 << 12  # of a chunk that stays in cache
 
 
-class Twofold(Protocol):
-    """What is computed by either."""
+class KernelIntegrand(Protocol):
+    """An integrand that both a kernel and numpy compute."""
 
     def on_device(self, points: FloatArray, device: Precision) -> FloatArray:
-        """Values at (n, d) points by a kernel."""
+        """Values by a kernel.
+
+        Parameters
+        ----------
+        points : (n, d) float64
+            Points of the unit torus.
+        device : Precision
+            A device in double precision.
+
+        Returns
+        -------
+        (n,) float64
+            Value at each point.
+        """
         ...
 
     def by_numpy(self, points: FloatArray) -> FloatArray:
-        """Values at (n, d) points in numpy."""
+        """Values at (n, d) points in numpy: (n,)."""
         ...
 
 
-def values(integrand: Twofold, x: FloatArray) -> FloatArray:
-    """Values at points: (..., d) -> (...), bitwise the same however they are batched."""
+def evaluate(integrand: KernelIntegrand, x: FloatArray) -> FloatArray:
+    """Values of an integrand, bitwise the same however the points are batched.
+
+    Parameters
+    ----------
+    integrand : KernelIntegrand
+        The function.
+    x : (..., d) float64
+        Points of the unit torus.
+
+    Returns
+    -------
+    (...) float64
+        Value at each point.
+    """
     points = np.ascontiguousarray(x, dtype=np.float64).reshape(-1, x.shape[-1])
     device = double_device()
     step = NUMPY_POINTS if device is None else DEVICE_POINTS
-    found = np.empty(len(points))
+    values = np.empty(len(points))
     for begin in range(0, len(points), step):
         part = points[begin : begin + step]
-        found[begin : begin + step] = (
+        values[begin : begin + step] = (
             integrand.by_numpy(part) if device is None else integrand.on_device(part, device)
         )
-    return found.reshape(x.shape[:-1])
+    return values.reshape(x.shape[:-1])
 
 
 def double_device() -> Precision | None:
@@ -48,12 +74,22 @@ def double_device() -> Precision | None:
     return precision_of("double")
 
 
-def rows_of(points: FloatArray, device: Precision, turns: bool) -> NDArray[Any]:
-    """Coordinates by axis, (d, stride), as doubles or turns, 0 beyond the last.
+def coordinate_rows(points: FloatArray, device: Precision, turns: bool) -> NDArray[Any]:
+    """Lay coordinates out for a kernel, one row an axis, padded with zeros to whole work-groups.
 
-    Notes
-    -----
-    The stride is a whole number of work-groups of ``lanes`` points an item.
+    Parameters
+    ----------
+    points : (n, d) float64
+        Points of the unit torus.
+    device : Precision
+        The device, whose work-items take ``lanes`` points each.
+    turns : bool
+        Whether coordinates are given as integer fractions of a turn, not as doubles.
+
+    Returns
+    -------
+    (d, stride) float64 or uint64
+        The first n columns are the points.
     """
     stride = padded(padded(len(points), device.lanes), device.lanes * device.runtime.group)
     if turns:
@@ -64,32 +100,37 @@ def rows_of(points: FloatArray, device: Precision, turns: bool) -> NDArray[Any]:
     return rows
 
 
-def launch(
+def run_kernel(
     device: Precision, files: tuple[str, ...], rows: NDArray[Any], n: int, *inputs: Any, **defines: object
 ) -> FloatArray:
-    """Run a kernel of its last file's name, an item for each ``lanes`` points: values at the first n.
+    """Run the kernel that is named as the last file, each work-item computing ``lanes`` values.
 
     Parameters
     ----------
     device : Precision
-        Where.
+        The device in double precision.
     files : tuple of str
-        Of kernels.
-    rows : (d, stride)
-        Of ``rows_of``.
+        Kernel files, joined in this order.
+    rows : (d, stride) float64 or uint64
+        Coordinates from ``coordinate_rows``.
     n : int
         Points.
     *inputs
-        Arrays, which are uploaded, and numpy scalars: the kernel's arguments between stride and out.
+        The kernel's arguments between stride and out: arrays, which are uploaded, and numpy scalars.
     **defines
-        Beside ``DIM``.
+        Macros beside ``DIM``.
+
+    Returns
+    -------
+    (n,) float64
+        Values at the points.
     """
     d, stride = rows.shape
     group = device.runtime.group
     program = device.program(*files, DIM=d, **defines)
     upload = device.runtime.upload
-    given = (rows, np.uint32(stride), *inputs)
-    held = [upload(value) if isinstance(value, np.ndarray) else value for value in given]
+    arguments = (rows, np.uint32(stride), *inputs)
+    held = [upload(value) if isinstance(value, np.ndarray) else value for value in arguments]
     out = device.runtime.empty(8 * stride)
     program.run(files[-1].removesuffix(".cl"), (stride // device.lanes,), (group,), *held, out)
     return device.runtime.download(out, np.empty(n))

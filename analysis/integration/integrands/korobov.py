@@ -36,7 +36,8 @@ class Korobov:
     smoothness : {2, 4, 6}
         Decay of the Fourier coefficients.
     weight : float
-        Of what varies, > 0. At 1 the variance is (1 + 2 zeta(2 smoothness))^d - 1, about 3^d.
+        Weight of the part of each factor that varies, > 0. At 1 the variance is
+        (1 + 2 zeta(2 smoothness))^d - 1, about 3^d.
 
     References
     ----------
@@ -59,28 +60,64 @@ class Korobov:
             raise InputError(f"weight of korobov must be positive; got {self.weight}")
 
     def refusal(self, d: int) -> str | None:
-        """Say why there are none in d dimensions, else None."""
+        """Return the reason why there are no such integrands in d dimensions, or None."""
         return beyond_dimensions("Korobov's functions", d)
 
     def draw(self, d: int, rng: np.random.Generator) -> KorobovProduct:
-        """Draw a shift; RefusalError where ``refusal`` has a reason."""
+        """Draw a product by a uniform shift.
+
+        Parameters
+        ----------
+        d : int
+            Dimension.
+        rng : numpy.random.Generator
+            Source of the random numbers.
+
+        Returns
+        -------
+        KorobovProduct
+            With this smoothness and weight.
+
+        Raises
+        ------
+        RefusalError
+            If ``refusal(d)`` has a reason.
+        """
         if reason := self.refusal(d):
             raise RefusalError(reason)
         return KorobovProduct(rng.random(d), self.smoothness, self.weight)
 
     def mean_energy(self, frequencies: NDArray[np.int64]) -> FloatArray:
-        """``energy``, which no shift changes: (m, d) -> (m,)."""
+        """Energy of every product, which does not depend on its shift: (m, d) -> (m,)."""
         return korobov_energy(frequencies, self.smoothness, self.weight)
 
     def frequencies(self, d: int, share: float, most: int = MOST_FREQUENCIES) -> NDArray[np.int64]:
-        """Half a hyperbolic cross of frequencies; those outside hold less than this share of the energy.
+        """List half a hyperbolic cross of frequencies; those outside hold less than a share of the energy.
+
+        Parameters
+        ----------
+        d : int
+            Dimension.
+        share : float
+            Share of the mean energy over f != 0 that may be left out, 0 < share < 1.
+        most : int
+            Longest list allowed.
+
+        Returns
+        -------
+        (m, d) int64
+            One of each pair f, -f.
+
+        Raises
+        ------
+        RefusalError
+            If more than ``most`` are needed, or the spectrum is not known in d dimensions.
 
         Notes
         -----
         Frequencies are ranked by energy, weight^(2 j) N^(-2 smoothness) for j components that are not 0 and
         the product N of their sizes; a recursion over axes counts them, and the total is a closed form. Both
-        are summed in 60 digits: shares far below the rounding of doubles are told apart. Where too many
-        frequencies are needed RefusalError tells how many.
+        are summed in 60 digits, so that shares far below the rounding of doubles are told apart.
         """
         check_share(share, self.refusal(d))
         with localcontext() as context:
@@ -125,7 +162,7 @@ class Korobov:
 
 @dataclass(frozen=True, eq=False)
 class KorobovProduct:
-    """One of them.
+    """One product of Bernoulli polynomials.
 
     Attributes
     ----------
@@ -134,7 +171,7 @@ class KorobovProduct:
     smoothness : {2, 4, 6}
         Decay of the Fourier coefficients.
     weight : float
-        Of what varies.
+        Weight of the part of each factor that varies.
     """
 
     shift: FloatArray
@@ -166,7 +203,22 @@ class KorobovProduct:
 
 
 def korobov_energy(frequencies: NDArray[np.int64], smoothness: int, weight: float) -> FloatArray:
-    """Product over axes of weight^2 |h|^(-2 smoothness), 1 where h = 0: (m, d) -> (m,)."""
+    """Energy of a product: the product over axes of weight^2 |h|^(-2 smoothness), 1 where h = 0.
+
+    Parameters
+    ----------
+    frequencies : (m, d) int64
+        Frequencies, cycles per box side.
+    smoothness : {2, 4, 6}
+        Decay of the Fourier coefficients.
+    weight : float
+        Weight of each axis, > 0.
+
+    Returns
+    -------
+    (m,) float64
+        |transform|^2.
+    """
     energy = np.ones(len(frequencies))
     for h in np.abs(frequencies.T).astype(np.float64):
         energy *= np.where(h == 0, 1.0, weight**2 * np.maximum(h, 1.0) ** (-2 * smoothness))

@@ -1,4 +1,4 @@
-"""What an integrand and a family of integrands are: protocols that ``gbnbench integrate`` takes on trust."""
+"""Protocols of an integrand with its exact integral, and of a random family of integrands."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class Integrand(Protocol):
 
     @property
     def integral(self) -> float:
-        """Over the unit box, to 1e-12 of the function's own size or better; each family says how."""
+        """Integral over the unit box, to 1e-12 of the function's own size or better; each family says how."""
         ...
 
     def __call__(self, x: FloatArray) -> FloatArray:
@@ -28,7 +28,7 @@ class Integrand(Protocol):
 
 @runtime_checkable
 class Periodic(Integrand, Protocol):
-    """A function of the torus, whose Fourier series foretells the variance of its estimates."""
+    """A function of the torus, whose Fourier series predicts the variance of its estimates."""
 
     def energy(self, frequencies: NDArray[np.int64]) -> FloatArray:
         """|integral of f(x) exp(-2 pi i f.x)|^2 at integer frequencies: (m, d) -> (m,).
@@ -43,27 +43,45 @@ class Family(Protocol):
 
     name: ClassVar[str]
     summary: ClassVar[str]  # one line with its source
-    periodic: ClassVar[bool]  # whether its integrands are ``Periodic`` and ``frequencies`` may be asked for
+    periodic: ClassVar[bool]  # whether its integrands are ``Periodic``
 
     def refusal(self, d: int) -> str | None:
-        """Say why there is none in d dimensions, else None."""
+        """Return the reason why there are no such integrands in d dimensions, or None."""
         ...
 
     def draw(self, d: int, rng: np.random.Generator) -> Integrand:
-        """Draw one."""
+        """Draw one function.
+
+        Parameters
+        ----------
+        d : int
+            Dimension.
+        rng : numpy.random.Generator
+            Source of the random numbers.
+
+        Returns
+        -------
+        Integrand
+            Of d dimensions.
+
+        Raises
+        ------
+        RefusalError
+            If ``refusal(d)`` has a reason.
+        """
         ...
 
     def frequencies(self, d: int, share: float, most: int = ...) -> NDArray[np.int64]:
-        """Half the frequencies that matter: those outside hold less than this share of the family's energy.
+        """List half the frequencies that matter: the others hold less than a share of the family's energy.
 
         Parameters
         ----------
         d : int
             Dimension.
         share : float
-            Of the mean of ``energy`` summed over all f != 0, 0 < share < 1.
+            Share of the mean energy summed over all f != 0 that may be left out, 0 < share < 1.
         most : int
-            Length of the list that is not exceeded; RefusalError, at no great cost, where it would be.
+            Longest list allowed; where more are needed the refusal costs little.
 
         Returns
         -------

@@ -1,4 +1,4 @@
-"""Band-limited sums of waves of random frequency and phase, whose variance a spectrum foretells exactly."""
+"""Band-limited sums of waves of random frequency and phase, whose variance a spectrum predicts exactly."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ from gbnbench.analysis.integration.integrands.integer_frequencies import (
     half_count,
     halved,
 )
-from gbnbench.analysis.integration.integrands.kernel_values import launch, rows_of, values
+from gbnbench.analysis.integration.integrands.kernel_values import coordinate_rows, evaluate, run_kernel
 from gbnbench.analysis.precision import Precision
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray, fixed_point
 
-POINTS = 512  # whose nominal frequency the reach is in, as the Gaussians' width
+POINTS = 512  # the unit of reach is the nominal frequency of so many points, as that of the Gaussians' width
 RADIANS = 2 * math.pi / 2.0**64
 
 
@@ -41,8 +41,8 @@ class Waves:
 
     Notes
     -----
-    Of points shifted at random on the torus, the variance of the estimate is exactly the sum of energy times
-    P(f) / n over these frequencies: nothing is cut off.
+    For points shifted at random on the torus, the variance of the estimate is exactly the sum of energy times
+    P(f) / n over these frequencies, since the integrand has no others.
     """
 
     name: ClassVar[str] = "waves"
@@ -62,7 +62,7 @@ class Waves:
         return max(1, math.floor((self.reach * math.pow(POINTS, 1 / d)) ** 2 * (1 + 1e-12)))
 
     def refusal(self, d: int) -> str | None:
-        """Say why there are none in d dimensions, else None."""
+        """Return the reason why there are no such integrands in d dimensions, or None."""
         if reason := beyond_dimensions("sums of waves", d):
             return reason
         try:
@@ -74,7 +74,25 @@ class Waves:
         return None
 
     def draw(self, d: int, rng: np.random.Generator) -> WaveSum:
-        """Draw frequencies and phases; RefusalError where ``refusal`` has a reason."""
+        """Draw a sum by its frequencies and phases.
+
+        Parameters
+        ----------
+        d : int
+            Dimension.
+        rng : numpy.random.Generator
+            Source of the random numbers.
+
+        Returns
+        -------
+        WaveSum
+            With ``count`` waves.
+
+        Raises
+        ------
+        RefusalError
+            If ``refusal(d)`` has a reason.
+        """
         if reason := self.refusal(d):
             raise RefusalError(reason)
         ball = _ball(d, self.square(d))
@@ -89,7 +107,27 @@ class Waves:
         return energy
 
     def frequencies(self, d: int, share: float, most: int = MOST_FREQUENCIES) -> NDArray[np.int64]:
-        """Half of all frequencies in reach: no share is left out."""
+        """List one of each pair f, -f within the band; no share is left out.
+
+        Parameters
+        ----------
+        d : int
+            Dimension.
+        share : float
+            Share of the mean energy over f != 0 that may be left out, 0 < share < 1.
+        most : int
+            Longest list allowed.
+
+        Returns
+        -------
+        (m, d) int64
+            One of each pair f, -f.
+
+        Raises
+        ------
+        RefusalError
+            If more than ``most`` are needed, or the spectrum is not known in d dimensions.
+        """
         check_share(share, self.refusal(d))
         count = half_count(d, self.square(d))
         check_count(f"reach={self.reach:g} of waves", d, count, "take a smaller reach", most=most)
@@ -103,7 +141,7 @@ def _ball(d: int, square: int) -> NDArray[np.int64]:
 
 @dataclass(frozen=True, eq=False)
 class WaveSum:
-    """One sum.
+    """One sum of waves.
 
     Attributes
     ----------
@@ -122,8 +160,8 @@ class WaveSum:
         return 0.0
 
     def __call__(self, x: FloatArray) -> FloatArray:
-        """Values, (..., d) -> (...), to 4e-16 a wave: f . x is found exactly, in fractions of 2^-64 turns."""
-        return values(self, x)
+        """Values, (..., d) -> (...), to 4e-16 a wave: f . x is exact, in units of 2^-64 turns."""
+        return evaluate(self, x)
 
     def by_numpy(self, points: FloatArray) -> FloatArray:
         """Values at (n, d) points in numpy."""
@@ -138,20 +176,33 @@ class WaveSum:
         return total
 
     def on_device(self, points: FloatArray, device: Precision) -> FloatArray:
-        """Values at (n, d) points by waves.cl."""
-        rows = rows_of(points, device, turns=True)
+        """Values by waves.cl.
+
+        Parameters
+        ----------
+        points : (n, d) float64
+            Points of the unit torus.
+        device : Precision
+            A device in double precision.
+
+        Returns
+        -------
+        (n,) float64
+            The sum at each point.
+        """
+        rows = coordinate_rows(points, device, turns=True)
         multiples, phases = self.waves.astype(np.uint64), fixed_point(self.phases, 64)
-        return launch(device, ("waves.cl",), rows, len(points), multiples, phases, np.uint32(len(phases)))
+        return run_kernel(device, ("waves.cl",), rows, len(points), multiples, phases, np.uint32(len(phases)))
 
     def energy(self, frequencies: NDArray[np.int64]) -> FloatArray:
         """|transform|^2 at integer frequencies, (m, d) -> (m,): |sum of exp(2 pi i phase)|^2 / 4."""
         known, amplitudes = self._spectrum
-        found: FloatArray = np.zeros(len(frequencies))
-        asked, _ = halved(np.ascontiguousarray(frequencies))
-        for k, row in enumerate(map(bytes, asked)):
+        energy: FloatArray = np.zeros(len(frequencies))
+        half, _ = halved(np.ascontiguousarray(frequencies))
+        for k, row in enumerate(map(bytes, half)):
             if row in known:
-                found[k] = abs(amplitudes[known[row]]) ** 2
-        return found
+                energy[k] = abs(amplitudes[known[row]]) ** 2
+        return energy
 
     @cached_property
     def _spectrum(self) -> tuple[dict[bytes, int], NDArray[np.complex128]]:

@@ -1,27 +1,90 @@
-"""Power at every frequency of a cube, or of the half of it with f_0 >= 0, by the two-group product."""
+"""The two-group product over a cube of frequencies, or its half with f_0 >= 0: exact in any dimension."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, ClassVar
 
 import numpy as np
 
 from gbnbench.analysis.precision import Precision, padded
 from gbnbench.analysis.spectrum.digits import Division, cheapest_division, half_size, size
-from gbnbench.analysis.spectrum.error_model import Errors, coordinates
+from gbnbench.analysis.spectrum.error_model import Errors, coordinates, rounded_at_worst
+from gbnbench.analysis.spectrum.evaluators.protocol import DeviceEvaluator, EvaluationCost
 from gbnbench.analysis.spectrum.evaluators.two_group_product import (
     AMPLITUDE_BYTES,
+    TABLE_BYTES,
     Group,
+    Slots,
     TwoGroupProduct,
+    deal,
+    norms_of,
     product_errors,
     rows_of,
 )
+from gbnbench.analysis.spectrum.evaluators.work_model import ENTRY, TILE, WRITTEN, device_cost
+from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest
 from gbnbench.core.torus import FloatArray
 from gbnbench.opencl import Program
 
 GPU_COLUMNS = 64  # frequencies of a row that one work-item of a GPU turns into power
+
+
+@dataclass(frozen=True)
+class CubeProduct(DeviceEvaluator):
+    """The two-group product on the OpenCL device, for cubes and half cubes in any dimension."""
+
+    method: ClassVar[str] = "product"
+    title: ClassVar[str] = "two-group product"
+    serves: ClassVar[tuple[Frequencies, ...]] = ("cube", "half cube")
+
+    def work(self, request: SpectrumRequest) -> float:
+        """Count the pairs of frequencies, the tables and the powers that are written."""
+        p, n, d, f = self.on_device, request.n, request.d, request.fmax
+        divided = cheapest_division(d, f, rows_of(p))
+        a, b = half_size(divided.leading), half_size(divided.trailing)
+        each = (TILE * padded(a, rows_of(p)) * b + ENTRY * (a + b)) * n
+        return request.realizations * float(each + WRITTEN * (2 * f + 1) ** d / 2)
+
+    def cost(self, request: SpectrumRequest) -> EvaluationCost:
+        """Estimate the product's cost on the device."""
+        slots = product_slots(self.on_device, request)
+        launches = 3.0 * slots.launches(request.n) * -(-request.realizations // slots.sets)
+        held = 3 * 8 * (2 * request.fmax + 1) ** request.d + 2 * TABLE_BYTES
+        return device_cost(self.on_device, request, self.work(request), launches, held)
+
+    def expected_errors(self, request: SpectrumRequest) -> Errors:
+        """State the product's errors, coordinates being exact in double and rounded at worst in float."""
+        p, n = self.on_device, request.n
+        at = rounded_at_worst(n, request.d, p.name)
+        return product_errors(p, n, product_slots(p, request), request.fmax, at)
+
+    def cube(
+        self, x: FloatArray, fmax: int, weights: FloatArray | None, *, half: bool, mean: bool
+    ) -> tuple[FloatArray, Errors]:
+        """Evaluate the power of a cube, as ``Evaluator.cube`` describes it."""
+        return cube_powers(self.on_device, x, fmax, weights, half, mean)
+
+
+def product_slots(p: Precision, request: SpectrumRequest) -> Slots:
+    """Deal the points of a request out to work-items, as the product of a cube does.
+
+    Parameters
+    ----------
+    p : Precision
+        Precision on the device.
+    request : SpectrumRequest
+        A request for a cube, or for shells of one.
+
+    Returns
+    -------
+    Slots
+    """
+    divided = cheapest_division(request.d, request.fmax, rows_of(p))
+    a, b = half_size(divided.leading), half_size(divided.trailing)
+    return deal(p, request.n, request.realizations, padded(a, rows_of(p)), padded(b, p.runtime.group))
 
 
 def cube_powers(
@@ -181,10 +244,3 @@ def covered(divided: Division, d: int) -> tuple[int, ...]:
     for axis in (*divided.leading, *divided.trailing):
         shape[axis.coordinate] *= axis.base
     return tuple(shape)
-
-
-def norms_of(weights: FloatArray | None, sets: int, n: int) -> FloatArray:
-    """Sum of squared weights of each set: (sets,) float64; n where there are no weights."""
-    if weights is None:
-        return np.full(sets, float(n))
-    return np.broadcast_to((weights**2).sum(axis=1), (sets,)).astype(np.float64)

@@ -1,17 +1,55 @@
-"""Power at listed frequencies: one sine and cosine a point and frequency, any frequency of 64 bits."""
+"""The direct sum at listed frequencies of 64 bits: a cosine and sine for each point and frequency."""
 
 from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.analysis.precision import SUM_POINTS, Precision, padded
-from gbnbench.analysis.spectrum.error_model import Coordinates, Errors, coordinates, sum_errors
-from gbnbench.analysis.spectrum.evaluators.cube_product import norms_of
+from gbnbench.analysis.spectrum.error_model import (
+    Coordinates,
+    Errors,
+    coordinates,
+    rounded_at_worst,
+    sum_errors,
+)
+from gbnbench.analysis.spectrum.evaluators.protocol import DeviceEvaluator, EvaluationCost
+from gbnbench.analysis.spectrum.evaluators.two_group_product import norms_of
+from gbnbench.analysis.spectrum.evaluators.work_model import COSINE, device_cost
+from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest
 from gbnbench.core.torus import FloatArray
 
 ITEMS = 16  # work-items a core that a few frequencies are cut into
 GPU_ITEMS = 256  # work-items a multiprocessor
+
+
+@dataclass(frozen=True)
+class DirectSum(DeviceEvaluator):
+    """The direct sum on the OpenCL device, for listed frequencies."""
+
+    method: ClassVar[str] = "direct"
+    title: ClassVar[str] = "direct sum"
+    serves: ClassVar[tuple[Frequencies, ...]] = ("listed",)
+
+    def cost(self, request: SpectrumRequest) -> EvaluationCost:
+        """Estimate the sum's cost on the device."""
+        work = request.frequencies * (COSINE + 2 * request.d) * request.n * request.realizations
+        return device_cost(self.on_device, request, work, 2.0, request.frequencies * 64)
+
+    def expected_errors(self, request: SpectrumRequest) -> Errors:
+        """State the sum's errors, coordinates being exact in double and rounded at worst in float."""
+        p, n = self.on_device, request.n
+        length = run_length(p, request.frequencies, n)
+        return listed_errors(p, n, request.fmax, length, rounded_at_worst(n, request.d, p.name))
+
+    def listed(
+        self, x: FloatArray, frequencies: NDArray[np.int64], weights: FloatArray | None
+    ) -> tuple[FloatArray, Errors]:
+        """Evaluate the power at listed frequencies, as ``Evaluator.listed`` describes it."""
+        return listed_power(self.on_device, x, frequencies, weights)
 
 
 def listed_power(

@@ -1,4 +1,4 @@
-"""Power over shells of |f| without the cube: blocks of the two-group product, reduced on the device.
+"""The two-group product over shells of |f| without the cube: its blocks are reduced as they come.
 
 Each group's frequencies are sorted by |f|^2, so that those of a ball or a band are, for each row of one
 group, a run of the other: only they are evaluated. Memory is that of a block, whatever the dimension.
@@ -6,24 +6,29 @@ group, a run of the other: only they are evaluated. Memory is that of a block, w
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.analysis.precision import Precision
-from gbnbench.analysis.spectrum.digits import Axes, size, whole_axes
-from gbnbench.analysis.spectrum.error_model import Errors, coordinates
-from gbnbench.analysis.spectrum.evaluators.cube_product import norms_of
+from gbnbench.analysis.spectrum.error_model import Errors, coordinates, rounded_at_worst
+from gbnbench.analysis.spectrum.evaluators.cube_product import CubeProduct, product_slots
+from gbnbench.analysis.spectrum.evaluators.protocol import DeviceEvaluator, EvaluationCost
 from gbnbench.analysis.spectrum.evaluators.two_group_product import (
+    TABLE_BYTES,
     Group,
     TwoGroupProduct,
+    norms_of,
     product_errors,
     rows_of,
 )
-from gbnbench.core.errors import RefusalError
+from gbnbench.analysis.spectrum.evaluators.work_model import ENTRY, SHELL, TILE, device_cost
+from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest
+from gbnbench.analysis.spectrum.shell_moments import ShellMoments
+from gbnbench.analysis.spectrum.sorted_groups import SortedGroup, count_pairs, two_sorted_groups
 from gbnbench.core.torus import FloatArray
 
 BLOCK_ROWS, BLOCK_COLUMNS = 510, 1024  # frequencies of a block's two groups: 17 MB of amplitudes
@@ -34,83 +39,42 @@ Progress = Callable[[float], None]
 
 
 @dataclass(frozen=True)
-class Moments:
-    """Count, mean and spread of power on shells, over one half space.
+class ShellProduct(DeviceEvaluator):
+    """The two-group product over shells on the OpenCL device, in memory that does not grow with d."""
 
-    Attributes
-    ----------
-    square : (s,) int64
-        |f|^2 of each shell that is not empty, ascending.
-    count : (s,) int64
-        Frequencies of the half space.
-    mean : (s,) float64
-        Of the power, averaged over sets before.
-    deviation : (s,) float64
-        Sum over the half space of (p - mean)^2.
-    """
+    method: ClassVar[str] = "shells"
+    title: ClassVar[str] = "streamed two-group product"
+    serves: ClassVar[tuple[Frequencies, ...]] = ("shells",)
 
-    square: NDArray[np.int64]
-    count: NDArray[np.int64]
-    mean: FloatArray
-    deviation: FloatArray
+    def cost(self, request: SpectrumRequest) -> EvaluationCost:
+        """Estimate the cost of the blocks that hold a frequency of the shells."""
+        points = request.n * request.realizations
+        a, b = two_sorted_groups(request.d, request.fmax, request.high)
+        count = count_pairs(a, b, request.low, request.high)
+        blocks = max(1.0, count / (BLOCK_ROWS * BLOCK_COLUMNS))
+        entries = blocks * min(BLOCK_ROWS + BLOCK_COLUMNS, len(a.order) + len(b.order))
+        work = (TILE * count + ENTRY * entries) * points + SHELL * count
+        launches = 3 * blocks * max(1.0, points / 1024)
+        return device_cost(self.on_device, request, work, launches, 3 * (8 << 20) + TABLE_BYTES + (64 << 20))
 
+    def expected_errors(self, request: SpectrumRequest) -> Errors:
+        """State the product's errors, coordinates being exact in double and rounded at worst in float."""
+        p, n = self.on_device, request.n
+        at = rounded_at_worst(n, request.d, p.name)
+        return product_errors(p, n, product_slots(p, request), request.fmax, at)
 
-@dataclass(frozen=True)
-class SortedGroup:
-    """Half space of a group within a ball, ascending in |f|^2.
-
-    Attributes
-    ----------
-    axes : tuple of Axis
-        Its axes.
-    order : (count,) uint64
-        Indices in base-(2F+1) digits.
-    square : (count,) int64
-        |f|^2 of each.
-    """
-
-    axes: Axes
-    order: NDArray[np.uint64]
-    square: NDArray[np.int64]
-
-
-def sorted_group(axes: Axes, most: int) -> SortedGroup:
-    """Half space of |f|^2 <= most, built up axis by axis so that nothing outside is ever listed.
-
-    Raises
-    ------
-    RefusalError
-        If the group's indices do not fit in 64 bits.
-    """
-    if size(axes) >= 1 << 63:
-        raise RefusalError(
-            f"a group of {len(axes)} axes has {float(size(axes)):.2g} frequencies, beyond 2^63"
-        )
-    index, square = np.zeros(1, np.int64), np.zeros(1, np.int64)
-    for axis in axes:
-        reach = min(axis.largest, math.isqrt(most))
-        digit = np.arange(axis.largest - reach, axis.largest + reach + 1)
-        total = square[:, None] + (digit - axis.largest) ** 2
-        keep = total <= most
-        index = (index[:, None] * axis.base + digit)[keep]
-        square = total[keep]
-    half = index >= size(axes) // 2
-    index, square = index[half], square[half]
-    order = np.lexsort((index, square))
-    return SortedGroup(axes, index[order].astype(np.uint64), square[order])
-
-
-def two_groups(d: int, fmax: int, most: int) -> tuple[SortedGroup, SortedGroup]:
-    """Leading and trailing half of the axes, sorted."""
-    axes = whole_axes(d, fmax)
-    return sorted_group(axes[: d // 2], most), sorted_group(axes[d // 2 :], most)
-
-
-def pairs(a: SortedGroup, b: SortedGroup, low: int, high: int) -> int:
-    """Count pairs whose squares add up to low .. high: each stands for up to four frequencies."""
-    start = np.searchsorted(b.square, low - a.square)
-    end = np.searchsorted(b.square, high - a.square, side="right")
-    return int(np.maximum(end - start, 0).sum())
+    def shells(
+        self,
+        x: FloatArray,
+        request: SpectrumRequest,
+        weights: FloatArray | None,
+        progress: Progress | None = None,
+    ) -> tuple[ShellMoments, Errors]:
+        """Evaluate the shells, as ``Evaluator.shells`` describes it; d = 1 has no second group of axes."""
+        if request.d == 1:
+            return CubeProduct(self.precision).shells(x, request, weights, progress)
+        p = self.on_device
+        return shell_moments(p, x, request.fmax, request.low, request.high, weights, progress)
 
 
 def shell_moments(
@@ -121,8 +85,8 @@ def shell_moments(
     high: int,
     weights: FloatArray | None = None,
     progress: Progress | None = None,
-) -> tuple[Moments, Errors]:
-    """Moments of power on every shell low <= |f|^2 <= high of the cube |f_a| <= fmax.
+) -> tuple[ShellMoments, Errors]:
+    """ShellMoments of power on every shell low <= |f|^2 <= high of the cube |f_a| <= fmax.
 
     Parameters
     ----------
@@ -141,21 +105,21 @@ def shell_moments(
 
     Returns
     -------
-    moments : Moments
+    moments : ShellMoments
         Of the shells that hold a frequency; DC is left out.
     errors : Errors
         Of the square root of any frequency's power.
     """
     sets, n, d = x.shape
     at, rms, bound = coordinates(x, p.name, weights), 0.0, 0.0
-    a, b = two_groups(d, fmax, high)
+    a, b = two_sorted_groups(d, fmax, high)
     bins = high - low + 1
     device = p.runtime.device
     strips = max(1, min(STRIPS * device.compute_units, BIN_BYTES // (24 * bins)))
     out = p.runtime.upload(np.zeros(strips * bins * 2, p.sum))
     counts = p.runtime.upload(np.zeros(strips * bins, np.uint32))
     norms = p.runtime.upload(norms_of(weights, sets, n).astype(p.sum))
-    work, done = pairs(a, b, low, high), 0
+    work, done = count_pairs(a, b, low, high), 0
     power = p.runtime.empty(2 * BLOCK_ROWS * BLOCK_COLUMNS * np.dtype(p.sum).itemsize)
     for rows, columns, bounds in blocks(a, b, low, high, rows_of(p)):
         leading, trailing = Group(a.axes, a.order[rows]), Group(b.axes, b.order[columns])
@@ -224,11 +188,11 @@ def blocks(
                 yield slice(i, i + BLOCK_ROWS), slice(j, stop), bounds.astype(np.uint32)
 
 
-def merged(count: NDArray[np.int64], mean: FloatArray, deviation: FloatArray, low: int) -> Moments:
+def merged(count: NDArray[np.int64], mean: FloatArray, deviation: FloatArray, low: int) -> ShellMoments:
     """Merge strips' counts, means and departures, each (strips, bins), shell by shell (Chan et al. 1979)."""
     total = count.sum(axis=0)
     held = total > 0
     count, mean, deviation, total = count[:, held], mean[:, held], deviation[:, held], total[held]
     middle = (count * mean).sum(axis=0) / total
     spread = deviation.sum(axis=0) + (count * (mean - middle) ** 2).sum(axis=0)
-    return Moments(low + np.flatnonzero(held), total, middle, spread)
+    return ShellMoments(low + np.flatnonzero(held), total, middle, spread)

@@ -398,3 +398,23 @@ def product_errors(p: Precision, n: int, slots: Slots, fmax: int, at: Coordinate
     beyond = p.lanes.bit_length() + (2 if sums > COMPENSATED_FROM else sums) + slots.splits
     in_registers = min(SUM_POINTS, -(-slots.length // p.lanes))
     return sum_errors(p.name, "double" if p.sum is np.float64 else "float", at, fmax, 3, in_registers, beyond)
+
+
+def norms_of(weights: FloatArray | None, sets: int, n: int) -> FloatArray:
+    """Sum the squared weights of each set.
+
+    Parameters
+    ----------
+    weights : (sets or 1, n) float64 or None
+        Weights of the points; every weight is 1 where there are none.
+    sets, n : int
+        Number of sets, and of points in each.
+
+    Returns
+    -------
+    (sets,) float64
+        By which squared amplitudes are divided to give power.
+    """
+    if weights is None:
+        return np.full(sets, float(n))
+    return np.broadcast_to((weights**2).sum(axis=1), (sets,)).astype(np.float64)

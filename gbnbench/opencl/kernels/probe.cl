@@ -1,5 +1,5 @@
-/* What our kernels do with vectors: loads, integer phases, conversions, selects, sums and stores.
- * One work-item computes LANES values; the host has the same in numpy (opencl/probe.py). */
+/* One of each operation that our kernels do on vectors: loads, integer phases, conversions, selects, sums, stores.
+ * One work-item computes LANES values; opencl/width_probe.py compares them with the same in numpy. */
 __kernel void probe(__global const REAL *a, __global const TURN *b, __global REAL *out)
 {
     REALV x = LOADV(a, 0);

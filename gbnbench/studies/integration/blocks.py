@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.analysis.integration.estimator import Series, estimate_errors, foretold_variance, series_of
+from gbnbench.analysis.integration.estimator import estimate_errors
 from gbnbench.analysis.integration.integrands.protocol import Family, Integrand
+from gbnbench.analysis.integration.spectral_variance import FourierSeries, fourier_series, predicted_variance
 from gbnbench.core.settings import specification
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.monitor import Watch, Watchable
@@ -98,7 +99,7 @@ def estimate_block(
         drawn, series = _known(family, d, seed, instances)  # type: ignore[arg-type]  # frozen: hashable
         found[f"{text} errors"] = errors_of(drawn, sets, first, seed, shifts)
         if series is not None:
-            found[f"{text} foretold"] = foretold_variance(series, sets)
+            found[f"{text} foretold"] = predicted_variance(series, sets)
             found[f"{text} beyond"] = np.asarray(series.beyond / n)
     return found
 
@@ -129,7 +130,9 @@ def _origin(source: Source, first: int, count: int) -> Generator | FloatArray:
 
 
 @lru_cache(maxsize=16)
-def _known(family: Family, d: int, seed: int, instances: int) -> tuple[tuple[Integrand, ...], Series | None]:
+def _known(
+    family: Family, d: int, seed: int, instances: int
+) -> tuple[tuple[Integrand, ...], FourierSeries | None]:
     """Integrands and their series, in a worker once for all of its pieces."""
     drawn = tuple(instances_of(family, d, seed, instances))
-    return drawn, series_of(family, drawn, d)
+    return drawn, fourier_series(family, drawn, d)

@@ -13,7 +13,8 @@ from gbnbench.analysis.spatial.bond_order import bond_order, psi6
 from gbnbench.analysis.spatial.delaunay import neighbours
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import wrap
-from tests.published_sets import grid, hexagonal, published
+from tests.oracles.lattices import grid, hexagonal
+from tests.published_sets import published
 
 
 def slow(x: np.ndarray) -> tuple[float, float]:

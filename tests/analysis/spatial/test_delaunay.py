@@ -1,64 +1,21 @@
 from __future__ import annotations
 
-import itertools
 import math
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.spatial import Voronoi
 
-from gbnbench.analysis.spatial.delaunay import Neighbours, neighbours, valence, valence6
+from gbnbench.analysis.spatial.delaunay import Neighbours, neighbours, plane_neighbours
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import wrap
-from tests.published_sets import grid, hexagonal, published
-
-
-def rounded(vectors: np.ndarray) -> list[tuple[float, ...]]:
-    return sorted(tuple(row) for row in np.round(vectors, 9) + 0.0)
+from tests.oracles.lattices import grid
+from tests.oracles.neighbours import by_empty_circles, by_voronoi, rounded
 
 
 def by_point(made: Neighbours) -> list[list[tuple[float, ...]]]:
     return [rounded(part) for part in np.split(made.vector, made.indptr[1:-1])]
-
-
-def tiling(x: np.ndarray, rings: int) -> np.ndarray:
-    shifts = sorted(itertools.product(range(-rings, rings + 1), repeat=x.shape[1]), key=lambda s: any(s))
-    return np.concatenate([x + np.array(shift) for shift in shifts])
-
-
-def by_voronoi(x: np.ndarray, rings: int) -> list[list[tuple[float, ...]]]:
-    """Neighbours as pairs of cells with a common ridge in the Voronoi diagram of the whole tiling."""
-    tiled = tiling(x, rings)
-    found: list[list[np.ndarray]] = [[] for _ in x]
-    for p, q in Voronoi(tiled).ridge_points:
-        if p < len(x):
-            found[p].append(tiled[q] - tiled[p])
-        if q < len(x):
-            found[q].append(tiled[p] - tiled[q])
-    return [rounded(np.array(vectors)) for vectors in found]
-
-
-def by_empty_circles(x: np.ndarray) -> list[list[tuple[float, ...]]]:
-    """Neighbours from every triangle of the tiling whose circumscribed circle holds no point."""
-    tiled = tiling(x, 2)
-    found = []
-    for p in x:
-        rest = tiled[np.any(tiled != p, axis=1)] - p
-        i, j = np.triu_indices(len(rest), 1)
-        a, b = rest[i], rest[j]
-        twice = 2 * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
-        proper = np.abs(twice) > 1e-12
-        a, b, i, j, twice = a[proper], b[proper], i[proper], j[proper], twice[proper]
-        aa, bb = (a**2).sum(1), (b**2).sum(1)
-        centre = np.column_stack([b[:, 1] * aa - a[:, 1] * bb, a[:, 0] * bb - b[:, 0] * aa]) / twice[:, None]
-        gap = np.full(len(centre), np.inf)
-        for q in rest:
-            np.minimum(gap, ((q - centre) ** 2).sum(1) - (centre**2).sum(1), out=gap)
-        empty = gap > -1e-12
-        found.append(rounded(rest[np.unique(np.concatenate([i[empty], j[empty]]))]))
-    return found
 
 
 @pytest.mark.parametrize("n", [2, 3, 4, 7])
@@ -95,13 +52,6 @@ def test_cycles_turn_once_and_lead_to_their_points() -> None:
         turns = np.angle(np.roll(z, -1) / z)
         assert (turns > 0).all()
         assert turns.sum() == pytest.approx(2 * math.pi)
-
-
-def test_hexagonal_lattice_has_valence_six() -> None:
-    histogram = valence(hexagonal(26, 15))
-    assert histogram.degree.tolist() == [6]
-    assert histogram.share.tolist() == [1.0]
-    assert valence6(hexagonal(26, 15)).tolist() == [1.0]
 
 
 @pytest.mark.parametrize("shift", [0.0, 0.1, 1 / 3])
@@ -143,28 +93,6 @@ def test_cubic_lattices(cell: list[tuple[float, float, float]], degree: int) -> 
     assert set(neighbours(x)[0].degree.tolist()) == {degree}
 
 
-def test_random_points_have_the_known_mean_degrees() -> None:
-    rng = np.random.default_rng(4)
-    plane = valence(rng.random((6, 1500, 2)))
-    assert plane.share @ plane.degree == pytest.approx(6, abs=1e-12)
-    assert plane.of(6).mean() == pytest.approx(0.2947, abs=0.015)  # Calka 2003
-    space = valence(rng.random((1500, 3)))
-    assert space.share @ space.degree == pytest.approx(48 * math.pi**2 / 35 + 2, abs=0.2)  # Meijering 1953
-
-
-def test_histogram_averages_the_sets() -> None:
-    x = np.random.default_rng(5).random((3, 60, 2))
-    made = valence(x)
-    np.testing.assert_allclose(made.share, made.share_by_set.mean(axis=0))
-    np.testing.assert_allclose(made.share_by_set.sum(axis=1), 1)
-    for k, points in enumerate(x):
-        degrees = neighbours(points)[0].degree
-        for degree in range(3, 12):
-            assert made.of(degree)[k] == np.mean(degrees == degree)
-    assert list(made.to_frame().columns) == ["degree", "share"]
-    np.testing.assert_array_equal(valence(neighbours(x)).share, made.share)
-
-
 def test_refusals_name_the_reason() -> None:
     x = np.random.default_rng(6).random((50, 2))
     with pytest.raises(RefusalError, match="distinct"):
@@ -176,7 +104,7 @@ def test_refusals_name_the_reason() -> None:
     with pytest.raises(RefusalError, match="too near"):
         neighbours(0.5 + 1e-9 * np.random.default_rng(7).random((50, 2)))
     with pytest.raises(RefusalError, match="d=3"):
-        valence6(np.random.default_rng(7).random((50, 3)))
+        plane_neighbours(np.random.default_rng(7).random((50, 3)), "psi6")
 
 
 @settings(deadline=None, max_examples=25)
@@ -191,8 +119,3 @@ def test_neighbours_do_not_know_the_origin_or_the_order(seed: int, n: int, d: in
         np.testing.assert_allclose(
             sorted(np.linalg.norm(part, axis=1)), sorted(np.linalg.norm(one[k], axis=1))
         )
-
-
-def test_authors_set_is_mostly_six_valent() -> None:
-    share = valence6(published("gbn-1024/official-10k-f32-1.txt"))
-    assert 0.5 < share[0] < 0.7

@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from gbnbench.analysis.spatial.distances import mean_distance, min_distance, nearest_distances
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import wrap
-from tests.published_sets import grid, hexagonal, published
+from tests.oracles.lattices import grid, hexagonal
+from tests.published_sets import published
 
 
 def even(d: int) -> np.ndarray:

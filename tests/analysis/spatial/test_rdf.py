@@ -11,7 +11,7 @@ from scipy.spatial import cKDTree
 from gbnbench.analysis.spatial.rdf import pair_counts, rdf
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import wrap
-from tests.published_sets import grid
+from tests.oracles.lattices import grid
 
 
 def all_distances(x: np.ndarray) -> np.ndarray:

@@ -10,20 +10,7 @@ from hypothesis import strategies as st
 from gbnbench.analysis.spectrum.limits import check_fmax, check_harmonic, largest_fmax
 from gbnbench.analysis.spectrum.periodogram import each_power, periodogram
 from gbnbench.core.errors import InputError
-
-
-def exact_amplitudes(x, frequencies):
-    """Integer phases on the 2^-53 grid and long double cosines: shares nothing with the kernels."""
-    grid = (np.asarray(x) * 2.0**53).astype(object)
-    turns = np.array([[int(c) for c in row] for row in grid], dtype=object)
-    phase = (np.asarray(frequencies, dtype=object) @ turns.T) % 2**53
-    angle = phase.astype(np.longdouble) / np.longdouble(2**53) * (8 * np.arctan(np.longdouble(1)))
-    return np.hypot(np.cos(angle).sum(axis=1), np.sin(angle).sum(axis=1))
-
-
-def on_grid(rng, shape):
-    return rng.integers(0, 2**53, shape) / 2.0**53
-
+from tests.oracles.power import direct_power, on_grid, roots
 
 # d, fmax of the cube, n: |f| up to 512 in one and two dimensions as the definition of done asks.
 CUBES = ((1, 512, 333), (2, 64, 300), (3, 9, 129), (5, 2, 131), (8, 1, 257))
@@ -33,12 +20,12 @@ CUBES = ((1, 512, 333), (2, 64, 300), (3, 9, 129), (5, 2, 131), (8, 1, 257))
 @pytest.mark.parametrize(("precision", "allowed"), [("double", 1e-15), ("float", 1e-6)])
 def test_the_cube_is_exact(d, fmax, n, precision, allowed):
     rng = np.random.default_rng(d)
-    x = on_grid(rng, (n, d))
+    x = on_grid((n, d), rng)
     cube = periodogram(x, fmax, precision).power
     assert cube.shape == (2 * fmax + 1,) * d
     index = rng.integers(0, cube.size, 150)
     f = np.stack(np.unravel_index(index, cube.shape), axis=1) - fmax
-    error = np.sqrt(cube.ravel()[index] * n) - exact_amplitudes(x, f).astype(float)
+    error = (np.sqrt(cube.ravel()[index]) - roots(x, f).astype(float)) * np.sqrt(n)
     assert np.sqrt(np.mean(error**2)) <= allowed * np.sqrt(n)
     assert np.abs(error).max() <= 10 * allowed * np.sqrt(n)
 
@@ -49,12 +36,12 @@ def test_the_cube_is_exact(d, fmax, n, precision, allowed):
 )
 def test_listed_frequencies_are_exact_at_any_size(d, precision, allowed, largest):
     rng = np.random.default_rng(d)
-    x = on_grid(rng, (301, d))
+    x = on_grid((301, d), rng)
     if precision == "float":
         x = np.floor(x * 2.0**32) / 2.0**32
     f = rng.integers(-largest, largest + 1, (41, d))
     result = periodogram(x, precision=precision, frequencies=f)
-    error = np.sqrt(result.power * 301) - exact_amplitudes(x, f).astype(float)
+    error = (np.sqrt(result.power) - roots(x, f).astype(float)) * np.sqrt(301)
     assert np.sqrt(np.mean(error**2)) <= allowed * np.sqrt(301)
     assert np.array_equal(np.asarray(result), result.power)
     assert result.shape == (41,) == (len(result),)
@@ -114,10 +101,10 @@ def test_laws(d, n, seed):
 
 
 def test_points_beyond_one_chunk_of_the_tables_are_all_counted():
-    x = on_grid(np.random.default_rng(5), (20_001, 2))
+    x = on_grid((20_001, 2), 5)
     power = periodogram(x, 33).power
     f = np.array([[33, -33], [1, 0], [0, 1], [-7, 20]])
-    expected = exact_amplitudes(x, f).astype(float) ** 2 / len(x)
+    expected = direct_power(x, f)
     assert power[f[:, 0] + 33, f[:, 1] + 33] == pytest.approx(expected, rel=1e-11)
 
 

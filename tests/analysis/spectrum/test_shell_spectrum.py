@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-import os
 import re
-import subprocess
-import sys
 
 import numpy as np
 import pandas as pd
@@ -15,12 +12,13 @@ import pytest
 
 from gbnbench.analysis.radial.anisotropy import anisotropy
 from gbnbench.analysis.radial.radial_power import radial
-from gbnbench.analysis.spectrum import limits
+from gbnbench.analysis.spectrum import request
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.request import shell_request
 from gbnbench.analysis.spectrum.shell_spectrum import shells
 from gbnbench.core.errors import InputError
-from tests.analysis.spectrum.exact_sums import lattice_of, mean_power, on_grid
+from tests.oracles.power import lattice_of, mean_power, on_grid
+from tests.processes import NO_DEVICE, python
 
 
 def of_cube(spectrum, low, high):
@@ -72,7 +70,7 @@ def test_radial_and_anisotropy_are_those_of_the_cube(d, fmax, n):
     cube, got = periodogram(x, fmax), shells(x, fmax)
     for one, other in (
         (radial(cube).to_frame(), got.radial().to_frame()),
-        (anisotropy(cube), got.anisotropy()),
+        (anisotropy(cube), anisotropy(got)),
     ):
         pd.testing.assert_frame_equal(one, other, rtol=1e-9)
     pd.testing.assert_frame_equal(anisotropy(periodogram(x, fmax, half=True)), anisotropy(cube))
@@ -124,9 +122,7 @@ s = gbnbench.analysis.spectrum.shell_spectrum.shells(x, 2, corners=True)
 memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
 print(json.dumps([s.count.tolist(), float(s.power @ s.count), memory]))
 """
-    done = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, timeout=120, check=True
-    )
+    done = python(code)
     count, total, memory = json.loads(done.stdout)
     plain = np.ones(1)
     for _ in range(12):
@@ -181,9 +177,8 @@ def test_the_largest_harmonic_of_32_bits_is_the_one_that_is_named(d, corners):
 
 @pytest.mark.parametrize(("d", "fmax"), [(2, 8000), (3, 300)])
 def test_shells_and_groups_that_would_fill_the_memory_are_refused(monkeypatch, d, fmax):
-    monkeypatch.setattr(
-        limits, "memory", lambda: 8 << 20
-    )  # 6.4e7 shells; 2.8e5 frequencies in a group's ball
+    # There are 6.4e7 shells, or 2.8e5 frequencies in a group's ball.
+    monkeypatch.setattr(request, "physical_memory", lambda: 8 << 20)
     with pytest.raises(InputError, match="memory"):
         shell_request(10, d, fmax, 1, None, False)
 
@@ -198,15 +193,7 @@ try:
 except Exception as error:
     print(type(error).__name__, error)
 """
-    environment = {**os.environ, "OCL_ICD_VENDORS": "/nonexistent"}
-    done = subprocess.run(
-        [sys.executable, "-c", code],
-        env=environment,
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=False,
-    )
+    done = python(code, **NO_DEVICE)
     assert done.stdout.startswith("InputError")
     assert "memory" in done.stdout
 

@@ -9,7 +9,7 @@ from math import isqrt, sqrt
 import numpy as np
 import pytest
 
-from gbnbench.analysis.spectrum.shells import annuli, digit_classes, exact_shells, ring_of, squared_radius
+from gbnbench.analysis.spectrum.shells import annuli, digit_classes, exact_shells, squared_radius
 
 
 def enumerated(fmax, d, key):
@@ -46,8 +46,3 @@ def test_annuli_are_psas():
     expected = enumerated(12, 2, lambda f, r2: isqrt(r2) // 2)
     assert rings.count.tolist() == [expected[k] for k in sorted(expected)]
     assert ((rings.radius // 2).astype(int) == sorted(expected)).all()
-
-
-def test_rings_round_the_radius():
-    shells = exact_shells(6, 2)
-    assert ring_of(shells).tolist() == [round(r) for r in shells.radius.tolist()]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from gbnbench.generators.registry import generate
-from tests.oracles import direct_power
+from tests.oracles.power import direct_power
 
 PRIMES = (2, 3, 5, 7, 11)
 

@@ -8,7 +8,7 @@ from scipy.stats import chisquare, kstest, qmc
 
 from gbnbench.generators.direct.sobol import Sobol, owen_permutation
 from gbnbench.generators.registry import generate
-from tests.oracles import direct_power, half_space
+from tests.oracles.power import direct_power, half_space
 
 
 @pytest.mark.parametrize("m", [0, 1, 4, 8])

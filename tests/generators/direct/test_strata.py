@@ -7,7 +7,7 @@ import pytest
 
 from gbnbench.generators.lattices.regular_grid import grid_refusal, grid_side
 from gbnbench.generators.registry import generate
-from tests.oracles import direct_power, half_space
+from tests.oracles.power import direct_power, half_space
 
 
 def mean_power(

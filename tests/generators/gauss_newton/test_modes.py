@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from gbnbench.generators.gauss_newton.modes import bound, half_ball, modes
-from tests.generators.gauss_newton.explicit import half_space
+from tests.oracles.gauss_newton import half_space_below
 
 
 @pytest.mark.parametrize(("n", "d", "edge"), [(20, 1, 0.4), (64, 2, 0.72), (100, 3, 0.8), (50, 5, 0.95)])
 def test_one_of_each_pair_below_the_edge(n, d, edge):
     below = modes(n, d, edge)
-    assert sorted(map(tuple, below.f)) == sorted(map(tuple, half_space(edge, n, d)))
+    assert sorted(map(tuple, below.f)) == sorted(map(tuple, half_space_below(edge, n, d)))
     assert bound(n, d, edge) == 2 * len(below)
     assert below.nu == pytest.approx(np.linalg.norm(below.f, axis=1) * n ** (-1 / d), rel=1e-14)
     assert np.linalg.norm(below.direction, axis=1) == pytest.approx(1)

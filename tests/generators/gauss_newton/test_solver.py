@@ -14,7 +14,8 @@ from gbnbench.generators.gauss_newton.solver import reach
 from gbnbench.generators.gauss_newton.targets import aims, profile
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.protocol import realization_rng
-from tests.generators.gauss_newton.explicit import amplitudes, half_space, scaled_jacobian
+from tests.oracles.gauss_newton import half_space_below, scaled_jacobian
+from tests.oracles.power import amplitudes
 
 
 def gaussian(n, d):
@@ -28,7 +29,7 @@ def test_every_amplitude_reaches_its_target_in_phase_and_size(n, d, edge):
     outcome = reach(x, lambda nu: 1e-20 + 0 * nu, edge)
     assert outcome.converged
     assert outcome.residual <= 1
-    f = half_space(edge, n, d)
+    f = half_space_below(edge, n, d)
     before, after = amplitudes(x, f), amplitudes(outcome.x, f)
     below = modes(n, d, edge)
     order = np.lexsort(below.f.T[::-1])
@@ -42,7 +43,7 @@ def test_every_amplitude_reaches_its_target_in_phase_and_size(n, d, edge):
 def test_a_target_of_nothing_is_met_to_rounding(n, d, edge):
     outcome = reach(np.random.default_rng(1).random((n, d)), 0.0, edge)
     assert outcome.converged
-    assert (np.abs(amplitudes(outcome.x, half_space(edge, n, d))) ** 2 / n).max() < 1e-25
+    assert (np.abs(amplitudes(outcome.x, half_space_below(edge, n, d))) ** 2 / n).max() < 1e-25
 
 
 def test_the_move_is_the_shortest_to_first_order():

@@ -14,7 +14,8 @@ from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.generators.gauss_newton.gram_matrix import Convolution, Points, gram
 from gbnbench.generators.gauss_newton.modes import modes
 from gbnbench.generators.gauss_newton.wave_sums import Waves, harmonics
-from tests.generators.gauss_newton.explicit import amplitudes, scaled_jacobian
+from tests.oracles.gauss_newton import scaled_jacobian
+from tests.oracles.power import amplitudes
 
 CASES = [(30, 1, 0.4), (40, 2, 0.7), (60, 3, 0.8), (40, 4, 0.85), (40, 5, 0.9)]
 

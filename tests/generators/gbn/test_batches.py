@@ -63,6 +63,7 @@ def test_a_killed_run_goes_on_to_the_same_points_and_trace(monkeypatch, tmp_path
     assert np.array_equal(resumed.points(20), whole.points(20))
 
 
+@pytest.mark.slow
 def test_a_process_killed_outright_goes_on_from_its_file(tmp_path):
     command = [
         sys.executable, "-m", "gbnbench", "generate", "gbn[gradients=100]", "-n", "600", "--realizations",

@@ -10,28 +10,9 @@ from gbnbench.generators.gbn import operation_counts
 from gbnbench.generators.gbn.box import BoxField, domain_energy, domain_pull, fold
 from gbnbench.generators.registry import generate
 from gbnbench.opencl.runtime import Runtime
+from tests.oracles.energy import box_field
 
 ALLOWED = {"double": 5e-13, "float": 1e-5}  # of the largest component
-
-
-def quadrature(x, sigma):
-    """Gradient in spacings and excess energy: pairs in long double, the domain by Gauss-Legendre panels."""
-    n, d = x.shape
-    side = n ** (1 / d)
-    nodes, weights = np.polynomial.legendre.leggauss(12)
-    panels = np.linspace(0, side, max(2, round(side / sigma)) + 1)
-    half = np.diff(panels)[:, None] / 2
-    v, w = (panels[:-1, None] + half * (nodes + 1)).ravel(), (half * weights).ravel()
-    u = (x * side).astype(np.longdouble)
-    apart = u[:, None] - u[None]
-    pair = np.exp(-(apart**2).sum(-1) / (2 * sigma**2))
-    gradient = -(pair[..., None] * apart).sum(1) / sigma**2
-    kernel = np.exp(-((u[..., None] - v) ** 2) / (2 * sigma**2)) * w
-    along, slope = kernel.sum(-1), (-(u[..., None] - v) / sigma**2 * kernel).sum(-1)
-    for a in range(d):
-        gradient[:, a] -= slope[:, a] * np.delete(along, a, 1).prod(1)
-    whole = ((np.exp(-((v[:, None] - v) ** 2) / (2 * sigma**2)) * w).sum(-1) * w).sum() ** d
-    return gradient.astype(float), float((pair.sum() / 2 - along.prod(1).sum() + whole / 2) / n)
 
 
 CASES = [
@@ -55,7 +36,7 @@ def test_energy_and_gradient_agree_with_quadrature(n, d, sigma, precision):
     )
     at = BoxField(n, d, sigma, precision)(sets)
     for x, gradient, excess in zip(sets, at.gradient, at.excess, strict=True):
-        expected, least = quadrature(x, sigma)
+        expected, least = box_field(x, sigma)
         allowed = ALLOWED[precision] * (np.abs(expected).max() + 1 / sigma)
         assert np.abs(gradient - expected).max() <= allowed
         assert excess == pytest.approx(least, rel=ALLOWED[precision], abs=ALLOWED[precision])

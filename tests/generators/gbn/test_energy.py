@@ -17,7 +17,7 @@ from gbnbench.generators.gbn.plan import METHODS, plan
 from gbnbench.generators.gbn.theta import Theta
 from gbnbench.opencl import Runtime, runtime
 from gbnbench.opencl.width_probe import VectorWidths
-from tests.generators.gbn.energy_oracles import frequency_field, image_field, theta_field
+from tests.oracles.energy import frequency_field, image_field, theta_field
 
 EXCESS = {"double": 1e-14, "float": 1e-6}  # error of Ex, over the uniform energy and theta(0)^d
 

@@ -7,10 +7,10 @@ import math
 import numpy as np
 import pytest
 
-from gbnbench.analysis.radial import profile
+from gbnbench.analysis.radial import profile_measures
 from gbnbench.analysis.radial.radial_power import radial
-from gbnbench.analysis.spatial.delaunay import valence6
 from gbnbench.analysis.spatial.distances import min_distance
+from gbnbench.analysis.spatial.valence import valence6
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.core.errors import InputError
 from gbnbench.generators.gbn.energy import field
@@ -28,15 +28,15 @@ def spectrum():
 def test_three_hundred_gradients_reach_the_papers_ten_thousand_steps(spectrum):
     """The authors' ten sets of 1,024 points, 10,000 steps: P(1) 3.3e-10, floor 6.6e-10, peak 2.14."""
     shells = radial(spectrum)
-    assert profile.power_at_1(shells) < 3e-9
-    assert profile.noise_floor(shells) < 2e-9
-    assert 1.8 < profile.peak(shells)[0] < 2.9
+    assert profile_measures.power_at_1(shells) < 3e-9
+    assert profile_measures.noise_floor(shells) < 2e-9
+    assert 1.8 < profile_measures.peak(shells)[0] < 2.9
 
 
 def test_the_profile_is_the_papers_equation_19(spectrum):
-    fit = profile.exponential_fit(radial(spectrum))
+    fit = profile_measures.exponential_fit(radial(spectrum))
     assert fit.slope == pytest.approx(4 * math.pi**2, rel=0.03)
-    assert fit.residual_db < profile.powerlaw_fit(radial(spectrum)).residual_db / 2
+    assert fit.residual_db < profile_measures.powerlaw_fit(radial(spectrum)).residual_db / 2
 
 
 def test_the_papers_descent_is_slower_by_the_published_factor():
@@ -54,7 +54,8 @@ def test_the_papers_descent_is_slower_by_the_published_factor():
 def test_other_dimensions_and_small_sets_reach_deep_floors(n, d, floor):
     x = GaussianBlueNoise(gradients=200)(n, d, realization_rng(3, 0))
     assert (
-        profile.noise_floor(radial(periodogram(x, max(1, n // 4) if d == 1 else 1 if d == 8 else 4))) < floor
+        profile_measures.noise_floor(radial(periodogram(x, max(1, n // 4) if d == 1 else 1 if d == 8 else 4)))
+        < floor
     )
 
 
@@ -88,7 +89,7 @@ def test_the_curvature_is_the_published_one():
 
 def test_long_boxes_of_few_points_converge_too():
     x = GaussianBlueNoise()(1024, 1, realization_rng(0, 0))
-    assert profile.power_at_1(radial(periodogram(x, 4))) < 1e-20
+    assert profile_measures.power_at_1(radial(periodogram(x, 4))) < 1e-20
 
 
 def test_a_mode_of_the_low_band_is_divided_by_its_own_curvature():
@@ -134,8 +135,8 @@ def test_polish_empties_the_lowest_band_and_leaves_the_order():
     moved = np.abs(polished - plain)
     assert np.minimum(moved, 1 - moved).max() * 32 < 1e-4  # spacings
     before, after = (radial(periodogram(x, 64)) for x in (plain, polished))
-    assert profile.noise_floor(after) < 1e-26 < 1e-10 < profile.noise_floor(before)
-    assert profile.peak(after)[0] == pytest.approx(profile.peak(before)[0], rel=1e-3)
+    assert profile_measures.noise_floor(after) < 1e-26 < 1e-10 < profile_measures.noise_floor(before)
+    assert profile_measures.peak(after)[0] == pytest.approx(profile_measures.peak(before)[0], rel=1e-3)
 
 
 def test_steps_are_stable_in_small_boxes_of_high_dimension():
@@ -149,7 +150,7 @@ def test_float_forces_reach_what_double_does():
     """The excess energy is noisy in float; that must not shorten the step."""
     x = GaussianBlueNoise(gradients=900, precision="float")(256, 2, realization_rng(0, 0))
     y = GaussianBlueNoise(gradients=900)(256, 2, realization_rng(0, 0))
-    floor = [profile.noise_floor(radial(periodogram(points, 8))) for points in (x, y)]
+    floor = [profile_measures.noise_floor(radial(periodogram(points, 8))) for points in (x, y)]
     assert floor[0] < 2 * floor[1]
 
 

@@ -10,22 +10,14 @@ import pytest
 
 from gbnbench.core.errors import InputError
 from gbnbench.generators.gbn.kernel_profile import energy_profile, theta, truncated_transform
+from tests.oracles.theta import jacobi
 
 
 @pytest.mark.parametrize(("side", "sigma"), [(0.7, 1.0), (2.4, 1.0), (2.6, 1.0), (8.0, 1.3), (40.0, 1.0)])
 def test_the_profile_is_jacobis_theta(side, sigma):
     u = np.linspace(-side, 2 * side, 25)
     with mpmath.workdps(30):
-        s = mpmath.mpf(sigma) / mpmath.mpf(side)
-        nome = mpmath.exp(-2 * mpmath.pi**2 * s**2)
-        exact = [
-            float(
-                mpmath.sqrt(2 * mpmath.pi)
-                * s
-                * mpmath.jtheta(3, mpmath.pi * mpmath.mpf(float(v)) / side, nome)
-            )
-            for v in u
-        ]
+        exact = [float(jacobi(mpmath.mpf(float(v)) / side, mpmath.mpf(sigma) / side)) for v in u]
     assert theta(u, side, sigma) == pytest.approx(exact, rel=0, abs=4e-16 * max(exact))
     largest = max(theta(np.zeros(1), side, sigma))
     assert energy_profile(u, side, sigma) == pytest.approx(np.array(exact) / largest, rel=0, abs=1e-15)

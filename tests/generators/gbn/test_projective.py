@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gbnbench.analysis.spectrum.projections import projections
+from gbnbench.analysis.radial.projections import projections
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import wrap
 from gbnbench.generators.gbn.energy import field

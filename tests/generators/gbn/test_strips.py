@@ -2,35 +2,16 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 import pytest
-from scipy.stats import chi2
 
 from gbnbench.core.errors import RefusalError
 from gbnbench.generators.gbn.strips import SKIN, Strips
 from gbnbench.opencl import runtime
 from gbnbench.opencl.runtime import Runtime
+from tests.oracles.energy import pair_field
 
 ALLOWED = {"double": 5e-14, "float": 2e-6}  # of the sum of the pairs' forces, each at most exp(-1/2) / sigma
-
-
-def pair_sums(x, sigma, cutoff=math.inf):
-    """Gradient in spacings and excess energy in long double, pair by pair and image by image."""
-    n, d = x.shape
-    side = np.longdouble(n) ** (np.longdouble(1) / d)
-    between = (x[:, None].astype(np.longdouble) - x[None].astype(np.longdouble)) * side
-    reach = math.ceil(11.5 * sigma / float(side))
-    gradient, total = np.zeros((n, d), np.longdouble), np.longdouble(0)
-    for image in np.ndindex(*(2 * reach + 1,) * d):
-        u = between + (np.array(image) - reach) * side
-        r2 = (u**2).sum(-1)
-        g = np.where(r2 <= (cutoff * sigma) ** 2, np.exp(-r2 / (2 * np.longdouble(sigma) ** 2)), 0)
-        total += g.sum()
-        gradient -= (g[..., None] * u).sum(1) / np.longdouble(sigma) ** 2
-    uniform = (2 * np.pi) ** (np.longdouble(d) / 2) * sigma**d * chi2.cdf(cutoff**2, d)
-    return gradient.astype(float), float((total / n - uniform) / 2)
 
 
 def hard_sets(n, d):
@@ -57,7 +38,7 @@ def test_sums_agree_with_long_double_on_hard_sets(n, d, sigma, precision):
         return
     for name, x in hard_sets(n, d):
         at = Strips(runtime(), n, d, sigma, precision)(x[None])
-        gradient, excess = pair_sums(np.mod(x, 1.0), sigma)
+        gradient, excess = pair_field(np.mod(x, 1.0), sigma)
         scale = 1 + abs(excess) + (2 * np.pi) ** (d / 2) * sigma**d  # what the sums are made of
         allowed = ALLOWED[precision] * scale / sigma
         assert np.abs(at.gradient[0] - gradient).max() <= allowed, name
@@ -69,7 +50,7 @@ def test_sums_agree_with_long_double_on_hard_sets(n, d, sigma, precision):
 def test_a_kernel_may_end_early(cutoff, precision):
     x = np.random.default_rng(1).random((300, 2))
     at = Strips(runtime(), 300, 2, 0.9, precision, cutoff)(x[None])
-    gradient, excess = pair_sums(x, 0.9, cutoff)
+    gradient, excess = pair_field(x, 0.9, cutoff)
     assert np.abs(at.gradient[0] - gradient).max() <= ALLOWED[precision]
     assert at.excess[0] == pytest.approx(excess, abs=ALLOWED[precision])
 
@@ -84,7 +65,7 @@ def test_moves_within_and_beyond_the_skin_keep_every_pair(precision):
     for move in (0.9 * SKIN, 0.4 * SKIN, 3.0):
         angle = rng.random(n) * 2 * np.pi
         moved = x + move / n**0.5 * np.stack([np.cos(angle), np.sin(angle)], 1)
-        gradient, excess = pair_sums(moved, 1.0)
+        gradient, excess = pair_field(moved, 1.0)
         at = strips(moved[None])
         assert np.abs(at.gradient[0] - gradient).max() <= ALLOWED[precision]
         assert at.excess[0] == pytest.approx(excess, abs=ALLOWED[precision])
@@ -110,11 +91,12 @@ def test_the_form_for_gpus_agrees(monkeypatch, precision):
     monkeypatch.setattr(Runtime, "group", property(lambda _: 64))
     x = np.random.default_rng(4).random((1, 217, 3))
     at = Strips(runtime(), 217, 3, 0.3, precision)(x)
-    gradient, excess = pair_sums(x[0], 0.3)
+    gradient, excess = pair_field(x[0], 0.3)
     assert np.abs(at.gradient[0] - gradient).max() <= 3 * ALLOWED[precision]
     assert at.excess[0] == pytest.approx(excess, abs=ALLOWED[precision])
 
 
+@pytest.mark.slow
 def test_a_million_points_give_what_their_neighbours_say():
     """On a jittered million, ten points and their neighbours by distance, in long double."""
     side, d = 1000, 2

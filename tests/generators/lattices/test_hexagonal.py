@@ -8,7 +8,7 @@ import pytest
 from gbnbench.core.torus import densest_spacing
 from gbnbench.generators.lattices.hexagonal import MOST_STRAIN, Hexagonal, best_lattice
 from gbnbench.generators.registry import generate
-from tests.oracles import direct_power, half_space
+from tests.oracles.power import direct_power, half_space
 
 IDEAL = np.array([[1.0, 0.5], [0.0, np.sqrt(0.75)]])
 

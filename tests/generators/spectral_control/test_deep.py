@@ -17,7 +17,7 @@ from gbnbench.generators.protocol import realization_rng
 from gbnbench.generators.registry import find, generate
 from gbnbench.generators.spectral_control.deep import BOUND, Deep
 from gbnbench.generators.spectral_control.target_profiles import Exponential, Table
-from tests.oracles import direct_power, half_space
+from tests.oracles.power import direct_power, half_space
 
 
 def shells(x, edge):

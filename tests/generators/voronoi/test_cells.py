@@ -6,7 +6,7 @@ import pytest
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.generators.registry import generate
 from gbnbench.generators.voronoi.cells import move_to_centroids, toroidal_cells
-from tests.oracles import nearest_by_tiling
+from tests.oracles.neighbours import nearest_by_tiling
 
 
 @pytest.mark.parametrize("d", [1, 2, 3])

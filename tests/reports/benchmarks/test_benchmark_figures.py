@@ -115,6 +115,7 @@ FIGURES = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", FIGURES)
 def test_pictures_are_whole_and_their_words_apart(kind):
     figure = FIGURES[kind]()

@@ -13,6 +13,7 @@ from gbnbench.reports import style
 from gbnbench.reports.comparison import loglog, radial, spectrum, sweep, valence
 from gbnbench.reports.comparison.figure_files import FIGURES, pdf, planned, png, write_figures
 from gbnbench.runs.comparison_result import Run
+from tests.oracles.neighbours import valence_by_empty_circles
 from tests.reports import samples
 
 ODD = (
@@ -44,6 +45,7 @@ def assert_drawn(content: bytes) -> None:
     assert 0.001 < np.mean(np.any(picture < 0.98, axis=-1)) < 0.95
 
 
+@pytest.mark.slow
 def test_files_are_whole_named_and_repeatable(tmp_path: Path) -> None:
     run = samples.small_run()
     paths = write_figures(run, tmp_path / "figures")
@@ -101,7 +103,7 @@ def test_labels_are_drawn_as_they_stand() -> None:
     assert len(legend.get_texts()) >= len(ODD)
 
 
-@pytest.mark.parametrize("count", [1, 20])
+@pytest.mark.parametrize("count", [1, pytest.param(20, marks=pytest.mark.slow)])
 def test_one_source_and_twenty(count: int) -> None:
     run = odd_run(samples.random(9, 2, 2), tuple(f"source {k}" for k in range(count)), 3)
     assert len(set(style.strokes(run).values())) == count
@@ -176,34 +178,11 @@ def test_tone_map_is_that_of_psa() -> None:
     assert spectrum.tone_map(np.array([1.0]))[0] == pytest.approx(np.log(1.25) / np.log(2))
 
 
-def bruteforce_valence(x: np.ndarray) -> np.ndarray:
-    """Degrees from empty circles: every triangle of the 3 x 3 tiling whose circle holds no other point."""
-    n = len(x)
-    tiled = np.concatenate([x + np.array([i, j]) for i in (0, -1, 1) for j in (0, -1, 1)])
-    joined: list[set[int]] = [set() for _ in range(n)]
-    for i in range(n):
-        others = np.delete(np.arange(len(tiled)), i)
-        near = others[np.argsort(np.hypot(*(tiled[others] - x[i]).T))][:60]
-        a, b = (t.ravel() for t in np.meshgrid(near, near, indexing="ij"))
-        a, b = a[a < b], b[a < b]
-        u, v = tiled[a] - x[i], tiled[b] - x[i]
-        cross = 2 * (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
-        use = np.abs(cross) > 1e-12
-        a, b, u, v, cross = a[use], b[use], u[use], v[use], cross[use]
-        uu, vv = (u**2).sum(1), (v**2).sum(1)
-        centre = np.stack([v[:, 1] * uu - u[:, 1] * vv, u[:, 0] * vv - v[:, 0] * uu], 1) / cross[:, None]
-        radius = np.hypot(*centre.T)
-        distance = np.hypot(*((centre + x[i])[:, None, :] - tiled[None]).transpose(2, 0, 1))
-        empty = np.all(distance > radius[:, None] * (1 - 1e-9), axis=1)
-        joined[i] |= set(a[empty]) | set(b[empty])
-    return np.sort([len(s) for s in joined])
-
-
 def test_cells_have_the_sides_of_the_periodic_triangulation() -> None:
     x = samples.random(30, 2, 1, seed=5)[0]
     polygons, degrees = valence.cells(x)
     inside = [k for k, p in enumerate(polygons) if _site_inside(p, x)]
-    assert np.sort(degrees[inside]).tolist() == bruteforce_valence(x).tolist()
+    assert np.sort(degrees[inside]).tolist() == valence_by_empty_circles(x).tolist()
     area = [
         0.5 * abs(np.sum(p[:, 0] * np.roll(p[:, 1], -1) - np.roll(p[:, 0], -1) * p[:, 1])) for p in polygons
     ]

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 from rich.console import Console
 
-from gbnbench.analysis.catalogue import CATALOGUE
+from gbnbench.analysis.measure_definitions import DEFINITIONS
 from gbnbench.core.number_text import NOTHING, error_number, number
 from gbnbench.reports.comparison import table
 from gbnbench.runs.comparison_result import Run
@@ -57,7 +57,7 @@ def test_best_is_among_equal_n_and_d(run: Run) -> None:
 
 def test_every_measure_is_a_column_and_keeps_its_reason(run: Run) -> None:
     for row in table.rows(run):
-        assert list(row.cells) == [*(definition.name for definition in CATALOGUE), "cpu_seconds"]
+        assert list(row.cells) == [*(definition.name for definition in DEFINITIONS), "cpu_seconds"]
         for name, cell in row.cells.items():
             assert math.isnan(cell.value) == (cell.text == NOTHING) == bool(cell.reason), name
 

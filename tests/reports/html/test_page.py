@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 
-from gbnbench.analysis.catalogue import CATALOGUE
+from gbnbench.analysis.measure_definitions import DEFINITIONS
 from gbnbench.reports.html.page import page, write_report
 from gbnbench.runs.comparison_result import Run
 from tests.reports import samples
@@ -93,7 +93,7 @@ def test_every_picture_has_words(text: str) -> None:
 
 def test_words_of_the_page(text: str) -> None:
     words = " ".join(Reader(text).words)
-    for definition in CATALOGUE:
+    for definition in DEFINITIONS:
         assert definition.text in words
         assert definition.source in words
     assert "beware" in words
@@ -108,8 +108,8 @@ def test_marks_of_the_table(text: str) -> None:
     rows = re.findall(r"<tr data-order.*?</tr>", text, re.S)
     assert len(rows) == 2
     cells = [re.findall(r"<td.*?</td>", row, re.S) for row in rows]
-    assert {len(c) for c in cells} == {len(CATALOGUE) + 1}
-    names = [definition.name for definition in CATALOGUE]
+    assert {len(c) for c in cells} == {len(DEFINITIONS) + 1}
+    names = [definition.name for definition in DEFINITIONS]
     floor, peak = names.index("noise_floor"), names.index("peak")
     assert 'class="best"' in cells[1][floor]
     assert "▲ better" in cells[1][floor]
@@ -148,6 +148,7 @@ def test_file_is_replaced_whole(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == [path]
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(shutil.which("chromium") is None, reason="no chromium on PATH to open the page with")
 def test_chromium_renders_the_page(run: Run, tmp_path: Path) -> None:
     write_report(run, tmp_path / "report.html")

@@ -25,6 +25,8 @@ from gbnbench.reports.paper.data import folder_name, obtain
 from gbnbench.reports.paper.figure import Ask, Drawing
 from gbnbench.reports.paper.registry import find
 
+pytestmark = pytest.mark.slow
+
 NAMES = ("1", "2", "5", "8", "12", "14")
 
 

@@ -89,6 +89,7 @@ def test_a_folder_of_something_else_is_left_alone(tmp_path, capsys):
     assert [p.name for p in folder.iterdir()] == ["thesis.txt"]
 
 
+@pytest.mark.slow
 def test_the_page_keeps_figures_of_earlier_calls(tmp_path, capsys):
     folder = tmp_path / "figures"
     assert command(["figures", "6", "--tiny", "--out", str(folder), "--quiet"]) == 0

@@ -7,30 +7,20 @@ import numpy as np
 import pytest
 
 from gbnbench.analysis.integration.integrands import kernel_values
-from gbnbench.analysis.integration.integrands.gaussians import (
-    NEAREST,
-    Gaussians,
-    GaussianSum,
-    circle,
-    polynomial,
-)
+from gbnbench.analysis.integration.integrands.gaussians import Gaussians, GaussianSum
 from gbnbench.analysis.integration.integrands.integer_frequencies import half_ball
+from gbnbench.analysis.integration.integrands.theta_polynomial import NEAREST, circle, theta_polynomial
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray
+from tests.oracles.theta import image_sum
 
 DIMENSIONS = (1, 2, 3, 5, 8, 12, 20)
-
-
-def theta(u: float, width: float) -> mpmath.mpf:
-    """Sum of images, in 30 digits."""
-    reach, u, width = math.ceil(9 * width) + 1, mpmath.mpf(u), mpmath.mpf(width)
-    return mpmath.fsum(mpmath.exp(-((u + j) ** 2) / (2 * width**2)) for j in range(-reach, reach + 1))
 
 
 def exact(integrand: GaussianSum, x: FloatArray) -> list[mpmath.mpf]:
     def one(point: FloatArray, centre: FloatArray) -> mpmath.mpf:
         steps = [mpmath.mpf(a) - mpmath.mpf(b) for a, b in zip(point, centre, strict=True)]
-        return mpmath.fprod(theta(u, integrand.width) for u in steps)
+        return mpmath.fprod(image_sum(u, integrand.width) for u in steps)
 
     with mpmath.workdps(30):
         return [mpmath.fsum(one(point, centre) for centre in integrand.centres) for point in x]
@@ -49,7 +39,7 @@ def test_values_are_those_of_all_images(d: int, where: str, monkeypatch: pytest.
     one = Gaussians(count=3).draw(d, rng)
     near = (one.centres[0] + one.width * rng.normal(size=(2, d))) % 1.0
     x = np.concatenate([near, rng.random((2, d)), one.centres[:1]])
-    largest = 3 * float(theta(0, one.width)) ** d
+    largest = 3 * float(image_sum(0, one.width)) ** d
     assert np.array(exact(one, x) - one(x), dtype=float) == pytest.approx(0, abs=2e-15 * largest)
 
 
@@ -70,21 +60,23 @@ def test_both_forms_hold_at_the_switch(d: int, where: str, monkeypatch: pytest.M
 
 def test_the_nearest_image_is_all_there_is_up_to_the_switch() -> None:
     with mpmath.workdps(30):
-        at_half = theta(0.5, NEAREST) - mpmath.exp(-(mpmath.mpf(0.5) ** 2) / (2 * mpmath.mpf(NEAREST) ** 2))
+        at_half = image_sum(0.5, NEAREST) - mpmath.exp(
+            -(mpmath.mpf(0.5) ** 2) / (2 * mpmath.mpf(NEAREST) ** 2)
+        )
     assert float(at_half) < 2.0**-54
 
 
 @pytest.mark.parametrize("width", [0.058, 0.0625, 0.125, 0.3, 0.7, 2.0])
 def test_the_polynomial_is_theta(width: float) -> None:
-    coefficients = polynomial(width)
+    coefficients = theta_polynomial(width)
     with mpmath.workdps(30):
         mean = mpmath.sqrt(2 * mpmath.pi) * mpmath.mpf(width)
-        largest = float(theta(0, width) / mean)
+        largest = float(image_sum(0, width) / mean)
         assert np.abs(coefficients).sum() < 1.3 * largest
         for u in np.linspace(0, 0.5, 9):
             c = mpmath.cos(2 * mpmath.pi * mpmath.mpf(u))
             value = mpmath.fsum(mpmath.mpf(a) * c**k for k, a in enumerate(coefficients))
-            assert float(value - theta(u, width) / mean) == pytest.approx(0, abs=4e-16 * largest)
+            assert float(value - image_sum(u, width) / mean) == pytest.approx(0, abs=4e-16 * largest)
 
 
 def test_circles_are_exact_at_eighths() -> None:

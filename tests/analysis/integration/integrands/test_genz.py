@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from scipy.stats import qmc
 
-from gbnbench.analysis.integration.integrands.genz import DIFFICULTY, KINDS, Genz
+from gbnbench.analysis.integration.integrands.genz import DIFFICULTY, Genz
+from gbnbench.analysis.integration.integrands.genz_kinds import KINDS
 from gbnbench.core.errors import InputError, RefusalError
 
 DIMENSIONS = (1, 2, 3, 5, 8, 12, 20)

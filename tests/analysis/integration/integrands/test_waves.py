@@ -61,11 +61,11 @@ def test_variance_over_shifts_is_what_the_spectrum_foretells() -> None:
     family = Waves(count=5, reach=0.15)
     x, f = rng.random((30, 2)), family.frequencies(2, 0.1)
     one = family.draw(2, rng)
-    foretold = 2 * np.sum(one.energy(f) * periodogram(x, frequencies=f).power) / len(x)
+    predicted = 2 * np.sum(one.energy(f) * periodogram(x, frequencies=f).power) / len(x)
     m = 16  # shifts on a grid that the band, |f_a| <= 3, does not overrun: an exact mean
     shifts = np.stack(np.meshgrid(*[np.arange(m) / m] * 2), axis=-1).reshape(-1, 1, 2)
     estimates = one((x + shifts) % 1.0).mean(axis=1)
-    assert np.mean(estimates**2) == pytest.approx(foretold, rel=1e-12)
+    assert np.mean(estimates**2) == pytest.approx(predicted, rel=1e-12)
 
 
 @pytest.mark.parametrize("d", [1, 2, 3, 8, 12, 20])

@@ -15,7 +15,8 @@ from gbnbench.analysis.spectrum.evaluators import cube_product, two_group_produc
 from gbnbench.analysis.spectrum.evaluators.cube_product import covered, cube_powers, row_blocks
 from gbnbench.analysis.spectrum.evaluators.two_group_product import COMPENSATED_FROM, Group, TwoGroupProduct
 from gbnbench.opencl import runtime
-from tests.analysis.spectrum.exact_sums import distance, gpu_form, lattice_of, mean_power, on_grid, roots
+from tests.devices import gpu_form
+from tests.oracles.power import lattice_of, mean_power, on_grid, root_distance, roots
 
 UNIT = {"double": 1e-15, "float": 1e-6}  # typical error allowed, the coordinates' rounding apart
 
@@ -39,7 +40,7 @@ def check(p, x, fmax, weights=None):
     assert power.dtype == np.float64
     assert np.array_equal(power, np.flip(power))
     index, f = seen(fmax, d)
-    met = distance(power.ravel()[index], mean_power(x, f, weights))
+    met = root_distance(power.ravel()[index], mean_power(x, f, weights))
     assert met.max() <= errors.bound
     assert np.sqrt(np.mean(met**2)) <= max(UNIT[p.name], 4 * errors.rms)
     return power
@@ -73,7 +74,13 @@ def test_every_place_that_the_axis_can_be_divided_at_gives_the_same_cube(monkeyp
                 for half in (False, True):
                     power, errors = cube_powers(precision_of("double"), x, fmax, half=half)
                     wanted = truth[len(truth) // (2 * fmax + 1) * fmax :] if half else truth
-                    assert distance(power.ravel(), wanted).max() <= errors.bound, (d, fmax, at, fine, half)
+                    assert root_distance(power.ravel(), wanted).max() <= errors.bound, (
+                        d,
+                        fmax,
+                        at,
+                        fine,
+                        half,
+                    )
 
 
 @pytest.mark.parametrize("shared", [True, False])
@@ -149,7 +156,7 @@ def test_many_points_take_several_launches_and_keep_their_rounding(monkeypatch, 
     x[0, : n // 2] = x[0, : n // 2] / 8 + 0.25  # half of them in a cluster, so that the sums are large
     power, errors = cube_powers(p, x, fmax)
     f = np.array([[0, 0], [1, -1], [0, 1], [12, -12], [-7, 5]])
-    met = distance(power[tuple((f + fmax).T)], mean_power(x, f))
+    met = root_distance(power[tuple((f + fmax).T)], mean_power(x, f))
     assert met.max() <= errors.bound
     at_most = {"double": 4e-16, "float": 1e-6}[precision] * np.sqrt(n)
     assert met.max() < at_most

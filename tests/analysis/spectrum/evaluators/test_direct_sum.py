@@ -10,7 +10,8 @@ from gbnbench.analysis.spectrum.evaluators.direct_sum import listed_power, run_l
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.core.errors import InputError
 from gbnbench.opencl import runtime
-from tests.analysis.spectrum.exact_sums import distance, gpu_form, mean_power, on_grid
+from tests.devices import gpu_form
+from tests.oracles.power import mean_power, on_grid, root_distance
 
 FORMS = {
     "double": lambda: precision_of("double"),
@@ -27,7 +28,7 @@ TYPICAL = {"double": 1e-15, "float": 1e-6}
 def check(p, x, f, weights=None, scattered=True):
     w = None if weights is None else np.atleast_2d(weights)
     power, errors = listed_power(p, x, f, w)
-    met = distance(power, mean_power(x, f, weights))
+    met = root_distance(power, mean_power(x, f, weights))
     assert met.max() <= errors.bound
     assert not scattered or np.sqrt(np.mean(met**2)) <= max(TYPICAL[p.name], 3 * errors.rms)
     return power, errors

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 from gbnbench.analysis.precision import Precision, precision_of
-from gbnbench.analysis.spectrum.evaluators import gridded_product
 from gbnbench.analysis.spectrum.evaluators.cube_product import cube_powers
-from gbnbench.analysis.spectrum.evaluators.gridded_product import (
+from gbnbench.analysis.spectrum.evaluators.gridded import product as gridded_product
+from gbnbench.analysis.spectrum.evaluators.gridded.product import (
     griddable,
     gridded_powers,
     node_turns,
@@ -18,8 +16,8 @@ from gbnbench.analysis.spectrum.evaluators.gridded_product import (
 )
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.core.errors import InputError
-from gbnbench.opencl import Runtime
-from tests.oracles import direct_power
+from tests.devices import gpu_form
+from tests.oracles.power import direct_power
 
 UNIT = {"double": 2.0**-53, "float": 2.0**-24}
 
@@ -102,11 +100,10 @@ def test_a_dyadic_lattice_has_nothing_off_its_harmonics():
 @pytest.mark.parametrize("precision", ["double", "float"])
 def test_the_form_for_gpus_and_other_widths(precision):
     p = precision_of(precision)
-    device = replace(p.runtime.device, is_cpu=False)
     rng = np.random.default_rng(5)
     x = on_grid(rng, (3, 300, 2))
     exact, _ = cube_powers(precision_of("double"), x, 20)
-    for other in (Precision(Runtime(device), p.double, 1), Precision(p.runtime, p.double, 2)):
+    for other in (gpu_form(p.double), Precision(p.runtime, p.double, 2)):
         power, errors = gridded_powers(other, x, 20)
         assert np.abs(np.sqrt(power) - np.sqrt(exact)).max() <= errors.bound
 
@@ -129,11 +126,11 @@ def test_cells_and_places_are_exact():
 def test_it_is_chosen_where_it_is_cheaper_and_by_name():
     rng = np.random.default_rng(7)
     x = rng.random((4096, 2))
-    assert periodogram(x, 128).method == "gridded product"
-    assert periodogram(x[:100], 20).method == "two-group product"
-    assert periodogram(x[:100], 20, method="gridded product").method == "gridded product"
+    assert periodogram(x, 128).method == "gridded"
+    assert periodogram(x[:100], 20).method == "product"
+    assert periodogram(x[:100], 20, method="gridded").method == "gridded"
     assert not griddable(1, 1000, "double")
-    with pytest.raises(InputError, match="two-group product"):
+    with pytest.raises(InputError, match="product"):
         periodogram(x[:100], 20, method="FFT")
 
 

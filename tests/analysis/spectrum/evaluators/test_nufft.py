@@ -9,8 +9,8 @@ import time
 import numpy as np
 import pytest
 
-from gbnbench.analysis.spectrum.evaluators import nufft
-from gbnbench.analysis.spectrum.evaluators.nufft import (
+from gbnbench.analysis.spectrum.evaluators.nufft import transform as nufft
+from gbnbench.analysis.spectrum.evaluators.nufft.transform import (
     available,
     nufft_bytes,
     nufft_errors,
@@ -19,6 +19,7 @@ from gbnbench.analysis.spectrum.evaluators.nufft import (
     nufft_tolerance,
 )
 from gbnbench.core.errors import InputError
+from tests.oracles.power import roots
 
 needs_finufft = pytest.mark.skipif(not available(), reason="finufft is not installed")
 CASES = ((300, 1, 40), (5000, 1, 40), (257, 1, 4001), (200, 2, 17), (1000, 2, 64), (2000, 2, 7), (150, 3, 8))
@@ -27,14 +28,6 @@ CASES = ((300, 1, 40), (5000, 1, 40), (257, 1, 4001), (200, 2, 17), (1000, 2, 64
 def points(n, d, seed=0):
     """Draw points on the 2^-53 grid, whose phases are then exact in 64 bits."""
     return np.floor(np.random.default_rng(seed).random((n, d)) * 2.0**53) / 2.0**53
-
-
-def roots(x, f, weights=None):
-    """|sum w exp(-2 pi i f.x)| / sqrt(sum w^2) in long double, phases being exact integers."""
-    phase = (f.astype(object) @ (x * 2.0**53).astype(np.int64).astype(object).T) % 2**53
-    angle = phase.astype(np.longdouble) / np.longdouble(2) ** 53 * (8 * np.arctan(np.longdouble(1)))
-    w = np.ones(len(x), np.longdouble) if weights is None else weights.astype(np.longdouble)
-    return np.hypot((w * np.cos(angle)).sum(axis=1), (w * np.sin(angle)).sum(axis=1)) / np.sqrt((w * w).sum())
 
 
 def drawn(fmax, d, count=40):
@@ -135,7 +128,9 @@ def test_without_finufft_it_says_so(monkeypatch):
 
 
 def test_finufft_is_loaded_only_when_asked():
-    code = "import sys, gbnbench.analysis.spectrum.evaluators.nufft\nprint('finufft' in sys.modules)"
+    code = (
+        "import sys, gbnbench.analysis.spectrum.evaluators.nufft.transform\nprint('finufft' in sys.modules)"
+    )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "False"
 

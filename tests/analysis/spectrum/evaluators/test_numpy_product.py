@@ -2,37 +2,24 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gbnbench.analysis.spectrum.evaluators import numpy_product
-from gbnbench.analysis.spectrum.evaluators.numpy_product import (
+from gbnbench.analysis.spectrum.evaluators.numpy_product import product as numpy_product
+from gbnbench.analysis.spectrum.evaluators.numpy_product.product import (
     separable_errors,
     separable_power,
     separable_selected,
 )
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import wrap
-
-GRID = 1074  # every double in [0, 1) is a multiple of 2^-1074
-
-
-def amplitudes(x, f, weights=None):
-    """|sum w exp(-2 pi i f.x)| / sqrt(sum w^2) in long double, phases being exact Python integers."""
-    turns = np.array([[int(Fraction(c) * 2**GRID) for c in row] for row in x.tolist()], dtype=object)
-    phase = ((f.astype(object) @ turns.T) % 2**GRID) >> (GRID - 64)
-    phase = np.where(phase >= 2**63, phase - 2**64, phase).astype(np.longdouble)
-    angle = phase / np.longdouble(2) ** 64 * (8 * np.arctan(np.longdouble(1)))
-    w = np.ones(len(x), np.longdouble) if weights is None else weights.astype(np.longdouble)
-    return np.hypot((w * np.cos(angle)).sum(axis=1), (w * np.sin(angle)).sum(axis=1)) / np.sqrt((w * w).sum())
+from tests.oracles.power import roots
 
 
 def departures(power, x, f, weights=None):
-    return np.abs(np.sqrt(power.astype(np.longdouble)) - amplitudes(x, f, weights)).astype(float)
+    return np.abs(np.sqrt(power.astype(np.longdouble)) - roots(x, f, weights)).astype(float)
 
 
 def drawn(fmax, d, count=40):

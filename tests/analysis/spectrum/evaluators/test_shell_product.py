@@ -12,18 +12,17 @@ from gbnbench.analysis.precision import Precision, precision_of
 from gbnbench.analysis.spectrum.digits import whole_axes
 from gbnbench.analysis.spectrum.evaluators import shell_product, two_group_product
 from gbnbench.analysis.spectrum.evaluators.shell_product import (
-    Moments,
     blocks,
     merged,
-    pairs,
     shell_moments,
-    sorted_group,
-    two_groups,
 )
+from gbnbench.analysis.spectrum.shell_moments import ShellMoments
 from gbnbench.analysis.spectrum.shell_spectrum import shells
+from gbnbench.analysis.spectrum.sorted_groups import count_pairs, sorted_group, two_sorted_groups
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.opencl import runtime
-from tests.analysis.spectrum.exact_sums import gpu_form, lattice_of, mean_power, on_grid
+from tests.devices import gpu_form
+from tests.oracles.power import lattice_of, mean_power, on_grid
 
 FORMS = {
     "double": lambda: precision_of("double"),
@@ -45,7 +44,7 @@ def enumerated(x, fmax, low, high, weights=None):
     power = mean_power(x, f, weights)
     shells = np.unique(square)
     held = [power[square == s] for s in shells]
-    return Moments(
+    return ShellMoments(
         shells,
         np.array([len(p) for p in held]),
         np.array([p.mean() for p in held], dtype=np.float64),
@@ -139,7 +138,7 @@ def test_a_sorted_group_is_the_half_space_within_a_ball(d, fmax, most):
 def test_blocks_hold_every_pair_of_the_band_once(monkeypatch, d, fmax, low, high):
     monkeypatch.setattr(shell_product, "BLOCK_ROWS", 6)
     monkeypatch.setattr(shell_product, "BLOCK_COLUMNS", 5)
-    a, b = two_groups(d, fmax, high)
+    a, b = two_sorted_groups(d, fmax, high)
     met = np.zeros((len(a.order), len(b.order)), int)
     evaluated = 0
     for rows, columns, bounds in blocks(a, b, low, high, 3):
@@ -152,7 +151,7 @@ def test_blocks_hold_every_pair_of_the_band_once(monkeypatch, d, fmax, low, high
     wanted = (square >= low) & (square <= high)
     assert (met <= 1).all()
     assert (met[wanted] == 1).all()
-    assert pairs(a, b, low, high) == wanted.sum()
+    assert count_pairs(a, b, low, high) == wanted.sum()
 
 
 def test_merging_is_that_of_the_whole():

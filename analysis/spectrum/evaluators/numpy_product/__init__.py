@@ -1,0 +1,1 @@
+"""The product in plain numpy, for machines without an OpenCL device."""

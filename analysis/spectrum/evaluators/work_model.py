@@ -1,0 +1,49 @@
+"""Work of evaluations in multiply-adds, and the time it takes on an OpenCL device.
+
+The constants were measured on CPUs. They count what a pair of a leading and a trailing frequency takes for
+each point, what the tables take that it is looked up in, and what is done once with each power.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gbnbench.analysis.precision import Precision
+from gbnbench.analysis.spectrum.evaluators.protocol import EvaluationCost
+from gbnbench.analysis.spectrum.request import SpectrumRequest
+from gbnbench.opencl.peak_rate import launch_seconds, peak
+
+# Multiply-adds of one pair of frequencies and one point (four, and what a tile wastes), of an entry of a
+# table, of a cosine and sine, of a power that is written, and of a pair that is reduced to its shell.
+TILE, ENTRY, COSINE, WRITTEN, SHELL = 5.0, 40.0, 200.0, 20.0, 550.0
+CALL_SECONDS = 4e-4  # once for every request
+NUMPY_RATE = 4e9  # multiply-adds that numpy does in a second on one core
+
+
+def device_cost(
+    p: Precision, request: SpectrumRequest, work: float, launches: float, held: float
+) -> EvaluationCost:
+    """Turn work into time by the device's measured multiply-add peak.
+
+    Parameters
+    ----------
+    p : Precision
+        Precision on the device.
+    request : SpectrumRequest
+        What is evaluated.
+    work : float
+        Multiply-adds.
+    launches : float
+        Number of kernel launches.
+    held : float
+        Bytes besides the points'.
+
+    Returns
+    -------
+    EvaluationCost
+    """
+    points = request.realizations * request.n * request.d * 2 * np.dtype(p.real).itemsize
+    device = p.runtime.device
+    cores = device.compute_units if device.is_cpu else 1
+    seconds = CALL_SECONDS + launches * launch_seconds() + 2 * work / peak(p.name) / cores
+    return EvaluationCost(2 * work, int(held + points), seconds)

@@ -1,0 +1,152 @@
+"""The settings of a spectrum: which frequencies, and how exactly, for point sets of any size."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gbnbench.analysis.precision import PrecisionName
+from gbnbench.analysis.spectrum.limits import default_fmax, default_shell_fmax
+from gbnbench.analysis.spectrum.periodogram import periodogram
+from gbnbench.analysis.spectrum.plan import SpectrumPlan, plan
+from gbnbench.analysis.spectrum.shell_spectrum import shells
+from gbnbench.core.results import ShellSpectrum, Spectrum
+from gbnbench.core.torus import FloatArray
+
+
+@dataclass(frozen=True)
+class SpectrumSettings:
+    """Which frequencies are wanted and how exactly; planned before there are points, then evaluated.
+
+    Attributes
+    ----------
+    fmax : int or None
+        Largest harmonic on each axis; None for the end of the band, else the default for shells or cubes.
+    half, shells, corners : bool
+        Whether half a cube is wanted, or shells instead of one, or shells with the corners of the cube.
+    band : (float, float) or None
+        Smallest and largest |f|, for shells.
+    frequencies : (m, d) int64 or None
+        A list instead of a cube.
+    precision : {"double", "float"}
+        As in ``gbnbench.periodogram``.
+    floor : float or None
+        Smallest power that must be known to 1%.
+    sigma : float or None
+        Width of a Gaussian, in spacings, with which points are convolved.
+    """
+
+    fmax: int | None = None
+    half: bool = False
+    shells: bool = False
+    band: tuple[float, float] | None = None
+    corners: bool = False
+    frequencies: NDArray[np.int64] | None = None
+    precision: PrecisionName = "double"
+    floor: float | None = None
+    sigma: float | None = None
+
+    def largest_harmonic(self, n: int, d: int) -> int:
+        """Return the largest harmonic on each axis for sets of n points in d dimensions.
+
+        Parameters
+        ----------
+        n, d : int
+            Points in a set, and dimension.
+
+        Returns
+        -------
+        int
+        """
+        if self.frequencies is not None:
+            return max(abs(int(self.frequencies.max())), abs(int(self.frequencies.min())))
+        if self.fmax is not None:
+            return self.fmax
+        if self.band is not None:
+            return max(1, math.ceil(self.band[1]))
+        return default_shell_fmax(n, d) if self.shells else default_fmax(n, d)
+
+    def plan(self, n: int, d: int, realizations: int) -> SpectrumPlan:
+        """Choose the evaluator, before there are any points.
+
+        Parameters
+        ----------
+        n, d, realizations : int
+            Points in a set, dimension, and number of sets.
+
+        Returns
+        -------
+        SpectrumPlan
+
+        Raises
+        ------
+        InputError
+            As ``gbnbench.plan`` does.
+        """
+        return plan(
+            n,
+            d,
+            self.largest_harmonic(n, d),
+            self.precision,
+            realizations=realizations,
+            frequencies=None if self.frequencies is None else len(self.frequencies),
+            half=self.half,
+            shells=self.shells,
+            band=self.band,
+            corners=self.corners,
+            floor=self.floor,
+        )
+
+    def evaluate(
+        self,
+        x: FloatArray,
+        weights: FloatArray | None = None,
+        progress: Callable[[float], None] | None = None,
+    ) -> Spectrum | ShellSpectrum:
+        """Evaluate the spectrum of given points.
+
+        Parameters
+        ----------
+        x : (realizations, n, d) float64
+            Points on the unit torus, averaged over realizations.
+        weights : (n,) or (realizations, n) float64, optional
+            Weights of the points.
+        progress : callable, optional
+            Called now and then with the share done, of shells.
+
+        Returns
+        -------
+        Spectrum, or ShellSpectrum for shells
+        """
+        spectrum = self._unfiltered(x, weights, progress)
+        return spectrum if self.sigma is None else spectrum.filtered(self.sigma)
+
+    def _unfiltered(
+        self, x: FloatArray, weights: FloatArray | None, progress: Callable[[float], None] | None
+    ) -> Spectrum | ShellSpectrum:
+        """Evaluate the spectrum of the points as they are."""
+        if self.frequencies is not None:
+            return periodogram(
+                x,
+                precision=self.precision,
+                frequencies=self.frequencies,
+                weights=weights,
+                floor=self.floor,
+            )
+        fmax = self.largest_harmonic(*x.shape[1:])
+        if self.shells:
+            return shells(
+                x,
+                fmax,
+                self.precision,
+                band=self.band,
+                corners=self.corners,
+                weights=weights,
+                floor=self.floor,
+                progress=progress,
+            )
+        return periodogram(x, fmax, self.precision, weights=weights, half=self.half, floor=self.floor)

@@ -1,0 +1,135 @@
+"""Delaunay triangulations and Voronoi diagrams on the torus, by images of the points (Dolbilin & Huson 1997).
+
+A set is tiled by images of its points as far as a margin round the unit box, and Qhull treats the tiling as
+points of space. Triangles and cells are those of the torus if their empty balls lie inside the tiled box
+(``overhang``), for then no image left out could change them. Where one does not, the caller widens the margin
+and tries again.
+
+References
+----------
+Dolbilin & Huson, "Periodic Delone tilings", Periodica Mathematica Hungarica 34, 1997. Caroli & Teillaud,
+"Computing 3D periodic triangulations", European Symposium on Algorithms, 2009.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gbnbench.core.torus import FloatArray
+
+if TYPE_CHECKING:
+    from scipy.spatial import Delaunay, Voronoi
+
+
+def with_images(x: FloatArray, margin: float) -> tuple[FloatArray, NDArray[np.intp]]:
+    """Append to one point set the periodic images that lie within margin of the unit box.
+
+    Parameters
+    ----------
+    x : (n, d) float64
+        Points on the unit torus.
+    margin : float
+        Width of the border, in (0, 1].
+
+    Returns
+    -------
+    tiled : (m, d) float64
+        The n points first, then their images in [-margin, 1 + margin)^d.
+    owner : (m,) intp
+        Index in x of which each row is an image.
+    """
+    tiled, owner = x, np.arange(len(x), dtype=np.intp)
+    for axis in range(x.shape[1]):
+        low, high = tiled[:, axis] < margin, tiled[:, axis] >= 1 - margin
+        step = np.zeros(x.shape[1])
+        step[axis] = 1.0
+        tiled = np.concatenate([tiled, tiled[low] + step, tiled[high] - step])
+        owner = np.concatenate([owner, owner[low], owner[high]])
+    return tiled, owner
+
+
+def copies(x: FloatArray, shifts: Iterable[ArrayLike]) -> tuple[FloatArray, NDArray[np.intp]]:
+    """Repeat a whole set at given shifts, as where a margin of 1 is not enough.
+
+    Parameters
+    ----------
+    x : (n, d) float64
+        Points on the unit torus.
+    shifts : iterable of (d,) array_like
+        Whole numbers of boxes.
+
+    Returns
+    -------
+    tiled : (shifts * n, d) float64
+        One copy of the set after the other.
+    owner : (shifts * n,) intp
+        Index in x of which each row is an image.
+    """
+    tiled = np.concatenate([x + np.asarray(shift) for shift in shifts])
+    return tiled, np.tile(np.arange(len(x), dtype=np.intp), len(tiled) // len(x))
+
+
+def overhang(centre: FloatArray, radius: FloatArray, side: float = 1.0) -> float:
+    """Distance by which balls stick out of the box [0, side]^d: the margin that proves them empty.
+
+    Parameters
+    ----------
+    centre : (..., d) float64
+        Circumcentres, or Voronoi vertices.
+    radius : (...) float64
+        Their distances to the nearest points of the tiling.
+    side : float
+        Side of the box.
+
+    Returns
+    -------
+    float
+        Largest over all balls, negative where all lie well inside; -inf where there are none.
+    """
+    beyond = np.maximum(-centre, centre - side).max(axis=-1) + radius
+    return float(beyond.max(initial=-np.inf))
+
+
+def circumcentre(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Circumcentres of triangles, from their common corner: solves 2 a.c = |a|^2 and 2 b.c = |b|^2.
+
+    Parameters
+    ----------
+    a, b : (m, 2) float64
+        Sides from that corner to the other two.
+
+    Returns
+    -------
+    (m, 2) float64
+        Infinite or nan for flat triangles.
+    """
+    aa, bb = np.sum(a * a, axis=1), np.sum(b * b, axis=1)
+    double_area = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+    normal = np.stack([b[:, 1] * aa - a[:, 1] * bb, a[:, 0] * bb - b[:, 0] * aa], axis=1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        centre: FloatArray = normal / (2 * double_area)[:, None]
+    return centre
+
+
+def triangulation(tiled: FloatArray) -> Delaunay | None:
+    """Delaunay triangulation by Qhull, None where the points do not span the space."""
+    from scipy.spatial import Delaunay, QhullError
+
+    try:
+        return Delaunay(tiled)
+    except QhullError:  # too few images, or all on one line or plane
+        return None
+
+
+def voronoi_diagram(tiled: FloatArray) -> Voronoi | None:
+    """Voronoi diagram by Qhull, None where the points do not span the space."""
+    from scipy.spatial import QhullError, Voronoi
+
+    try:
+        return Voronoi(tiled)
+    except QhullError:  # too few images, or all on one line or plane
+        return None
