@@ -88,7 +88,7 @@ def test_the_patches_fit_and_the_commands_then_know_both(place: Path) -> None:
     for patch in blocks("diff"):
         apply(patch, place)
     program = (
-        "from pathlib import Path; from gbnbench.studies.comparison import compare;"
+        "from pathlib import Path; from gbnbench.studies.comparison import run_comparison;"
         "from gbnbench.runs.sources import resolve;"
         "found, _ = resolve(['antithetic[width=0.5]', 'latin', 'grid'], [128], [2], 2);"
         "compare(found, Path('run'), jobs=1);"
