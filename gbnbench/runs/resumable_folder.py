@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import shutil
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -11,8 +10,8 @@ from typing import Any
 
 from gbnbench.core import atomic_write
 from gbnbench.core.errors import InputError
+from gbnbench.io import data_files
 from gbnbench.io.folder_lock import FolderLock
-from gbnbench.runs import source_files
 
 FORMAT = 1  # of the folder; another number is refused
 SETTINGS, MANIFEST = "settings.json", "manifest.json"
@@ -46,7 +45,7 @@ class ResumableFolder:
     def _check(self) -> None:
         settings = self.path / SETTINGS
         if settings.exists():
-            there = read_json(settings)
+            there = data_files.read_json(settings)
             if there != self.identity:
                 raise InputError(
                     f"{self.path} holds a {self.kind} with other settings "
@@ -74,11 +73,11 @@ class ResumableFolder:
         self._check()
         (self.path / MANIFEST).unlink(missing_ok=True)
         atomic_write.remove_leftovers(self.path)
-        atomic_write.write_whole(self.path / SETTINGS, source_files.to_json(self.identity))
+        atomic_write.write_whole(self.path / SETTINGS, data_files.to_json(self.identity))
 
     def finish(self, manifest: Mapping[str, Any]) -> None:
         """Declare it whole: the manifest is the very last file."""
-        atomic_write.write_whole(self.path / MANIFEST, source_files.to_json({**manifest, "format": FORMAT}))
+        atomic_write.write_whole(self.path / MANIFEST, data_files.to_json({**manifest, "format": FORMAT}))
 
     def drop(self, name: str) -> None:
         """Delete a folder below it that is no longer needed."""
@@ -97,11 +96,6 @@ def explain_interruption(folder: Path) -> Iterator[None]:
     except OSError as error:  # a full disk above all
         text = f"{error.strerror}; what is finished is kept and the same command goes on"
         raise OSError(error.errno, text, error.filename or str(folder)) from error
-
-
-def read_json(path: Path) -> dict[str, Any]:
-    """Read an object; raises FormatError naming the file."""
-    return source_files.reading(path, lambda p: dict(json.loads(p.read_text(encoding="utf-8"))))
 
 
 def _is_ours(name: str) -> bool:

@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from numpy.typing import NDArray
 
 from gbnbench import __version__
-from gbnbench.runs.resumable import Arrays, Task, TaskFolder, run_tasks
+from gbnbench.runs.resumable import Task, run_tasks
+from gbnbench.runs.task_folder import Arrays, TaskFolder
 
 if TYPE_CHECKING:
     from gbnbench.execution.progress import Progress
@@ -129,17 +130,19 @@ def obtain(request: DataRequest, folder: Path, seed: int, jobs: int, progress: P
             integrands=request.integrands, instances=request.instances, shifts=request.shifts, seed=seed,
             jobs=jobs, command="gbnbench figures", progress=progress,
         ).study  # fmt: skip
-    keeper = TaskFolder(folder, {"gbnbench": __version__, **_asked(request)})
+    store = TaskFolder(folder, {"gbnbench": __version__, **_asked(request)})
     name = request.function.__name__.replace("_", " ")
-    pieces = [
+    tasks = [
         Task(key, f"{name}: {key}", request.function, arguments) for key, arguments in request.calls.items()
     ]
-    with keeper.lock():
-        if not keeper.whole:
-            keeper.begin()
-            run_tasks(keeper, pieces, jobs, progress)
-            keeper.finish({"version": __version__})
-        return {piece.key: keeper.read(piece.key) or {} for piece in pieces}
+    with store.lock():
+        whole = store.whole
+        if not whole:
+            store.begin()
+        results = run_tasks(tasks, store, jobs, progress).results
+        if not whole:
+            store.finish({"version": __version__})
+        return results
 
 
 def _asked(request: DataRequest) -> dict[str, Any]:

@@ -16,7 +16,7 @@ from gbnbench.reports.integration import variance
 from gbnbench.reports.paper.data import DataRequest, IntegrationRequest, TableRequest
 from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
 from gbnbench.reports.paper.shared import stroke, title_of
-from gbnbench.runs.resumable import Arrays
+from gbnbench.runs.task_folder import Arrays
 from gbnbench.studies.integration.blocks import instances_of
 
 FAMILIES = ("gaussians", "half-space")

@@ -13,11 +13,12 @@ from gbnbench import __version__
 from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.errors import DeviceError, GbnbenchError, UnfinishedError
 from gbnbench.execution.progress import Progress
+from gbnbench.io import data_files
+from gbnbench.opencl import choose
 from gbnbench.reports import style
 from gbnbench.reports.comparison.figure_files import pdf, png
 from gbnbench.reports.paper.data import FigureData, folder_name, obtain
 from gbnbench.reports.paper.figure import Ask, PaperFigure, compose, signs
-from gbnbench.runs import source_files
 from gbnbench.runs.resumable_folder import ResumableFolder, explain_interruption
 
 DPI = 220
@@ -106,8 +107,6 @@ class FigureFolder(ResumableFolder):
 
 def _device() -> str:
     """Name the device, or say that there is none: some figures are of closed forms alone."""
-    from gbnbench.opencl import choose
-
     try:
         return str(choose().describe().get("name", "an OpenCL device"))
     except DeviceError:
@@ -167,7 +166,7 @@ def _write_pages(folder: Path, made: Sequence[Made], captions: bool) -> None:
         title = f"{_heading(one.figure)} {one.figure.title}"
         known[one.stem] = {"title": title, "paper": one.figure.paper, "caption": one.caption}
     known = {stem: known[stem] for stem in sorted(known)}
-    write_whole(index, source_files.to_json(known))
+    write_whole(index, data_files.to_json(known))
     texts, parts = [], []
     for stem, about in known.items():
         title, caption = html.escape(about["title"]), html.escape(about["caption"])

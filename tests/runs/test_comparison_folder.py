@@ -15,7 +15,8 @@ from gbnbench.analysis.measure_definitions import DEFINITIONS
 from gbnbench.core import atomic_write
 from gbnbench.core.errors import FormatError, InputError
 from gbnbench.core.results import Measures, RadialPower, Spectrum
-from gbnbench.runs import comparison_folder, source_files
+from gbnbench.io import data_files
+from gbnbench.runs import comparison_folder
 from gbnbench.runs.comparison_result import Run, SourceResult
 
 AWKWARD = (0.1, 1 / 3, 5e-324, -0.0, 1e300, math.nan, math.inf, -math.inf, 0.1 + 0.2)
@@ -231,8 +232,8 @@ def test_default_folders_follow_the_settings() -> None:
 def test_csv_floats_read_back_the_same(tmp_path: Path) -> None:
     numbers = np.concatenate([np.random.default_rng(3).random(500) * 10.0 ** np.arange(-250, 250), AWKWARD])
     path = tmp_path / "v.csv"
-    path.write_bytes(source_files.to_csv(pd.DataFrame({"v": numbers})))
+    path.write_bytes(data_files.to_csv(pd.DataFrame({"v": numbers})))
     assert (
         np.array([float(word) for word in path.read_text().splitlines()[1:]]).tobytes() == numbers.tobytes()
     )
-    assert source_files.read_csv(path)["v"].to_numpy().tobytes() == numbers.tobytes()
+    assert data_files.read_csv(path)["v"].to_numpy().tobytes() == numbers.tobytes()

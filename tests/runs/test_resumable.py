@@ -12,8 +12,9 @@ import pytest
 
 from gbnbench.core.errors import InputError, UnfinishedError
 from gbnbench.execution.progress import Progress
-from gbnbench.runs.resumable import Task, TaskFolder, run_tasks
+from gbnbench.runs.resumable import Task, run_tasks
 from gbnbench.runs.resumable_folder import ResumableFolder
+from gbnbench.runs.task_folder import TaskFolder
 
 
 class Heard(Progress):
@@ -51,14 +52,14 @@ def opened(tmp_path, **identity):
 
 def test_only_what_is_missing_is_done_again(tmp_path):
     mark = str(tmp_path / "mark")
-    pieces = [Task(f"a/{k}", f"roots {k}", roots, (k, mark)) for k in (3, 4, 5)]
+    tasks = [Task(f"a/{k}", f"roots {k}", roots, (k, mark)) for k in (3, 4, 5)]
     folder = opened(tmp_path)
-    assert run_tasks(folder, pieces, 2, Progress()) == 0
+    assert run_tasks(tasks, folder, 2, Progress()).reused == 0
     for k in (3, 4, 5):
         assert folder.read(f"a/{k}")["root"].tolist() == [math.sqrt(j) for j in range(k)]
     (folder.path / "pieces/a/4.npz").write_bytes(b"spoilt")
     heard = Heard()
-    assert run_tasks(folder, pieces, 2, heard) == 2
+    assert run_tasks(tasks, folder, 2, heard).reused == 2
     assert heard.counts[-1] == (3, 2)
     assert any("2 of 3" in line for line in heard.lines)
     done = [int(line.split()[0]) for line in Path(mark).read_text().splitlines()]
@@ -67,10 +68,10 @@ def test_only_what_is_missing_is_done_again(tmp_path):
 
 
 def test_a_failure_is_named_and_the_rest_kept(tmp_path):
-    pieces = [Task("good", "the good", roots, (4,)), Task("bad", "the bad", fails, ("too odd",))]
+    tasks = [Task("good", "the good", roots, (4,)), Task("bad", "the bad", fails, ("too odd",))]
     folder = opened(tmp_path)
     with pytest.raises(UnfinishedError, match=r"1 of 2 pieces failed.*the bad: too odd"):
-        run_tasks(folder, pieces, 1, Progress())
+        run_tasks(tasks, folder, 1, Progress())
     assert folder.read("good") is not None
     assert folder.read("bad") is None
 

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from gbnbench.core.errors import InputError
-from gbnbench.execution.worker_tasks import draw_set
 from gbnbench.generators.registry import find
 from gbnbench.runs.comparison_folder import read_run
 from gbnbench.runs.comparison_result import Run
 from gbnbench.runs.sources import resolve
 from gbnbench.studies.comparison import ComparisonOutcome, _require_common, run_comparison
+from gbnbench.studies.comparison_tasks import draw_realization
 
 
 @pytest.fixture(scope="module")
@@ -72,13 +72,13 @@ def test_stopped_while_drawing_it_is_not_whole_and_goes_on(
 
 def test_only_the_first_set_of_a_worker_may_hold_its_set_up() -> None:
     generator = find("random")
-    marks = [draw_set(generator, 16, 2, 0, k)[2] for k in range(3)]
+    marks = [draw_realization(generator, 16, 2, 0, k).first for k in range(3)]
     assert marks == [True, False, False]
-    assert draw_set(generator, 17, 2, 0, 0)[2]
-    x, _, first = draw_set(generator, 18, 2, 0, 1, again=True)
-    assert not first
+    assert draw_realization(generator, 17, 2, 0, 0).first
+    drawn = draw_realization(generator, 18, 2, 0, 1, redraw=True)
+    assert not drawn.first
     stream = np.random.default_rng(np.random.SeedSequence(0, spawn_key=(1,)))
-    np.testing.assert_array_equal(x, stream.random((18, 2)))
+    np.testing.assert_array_equal(drawn.x, stream.random((18, 2)))
 
 
 def test_bad_numbers_are_refused_before_anything_is_written(tmp_path: Path) -> None:

@@ -23,11 +23,14 @@ from gbnbench.core.errors import DeviceError, FormatError, InputError, RefusalEr
 from gbnbench.core.settings import specification
 from gbnbench.core.torus import as_realizations
 from gbnbench.execution.progress import Progress
-from gbnbench.runs import comparison_folder, source_files
+from gbnbench.io import data_files
+from gbnbench.opencl import choose
+from gbnbench.runs import comparison_folder
 from gbnbench.runs.provenance import versions
-from gbnbench.runs.resumable import TaskFolder, run_tasks
-from gbnbench.runs.resumable_folder import MANIFEST, SETTINGS, explain_interruption, read_json
+from gbnbench.runs.resumable import run_tasks
+from gbnbench.runs.resumable_folder import MANIFEST, SETTINGS, explain_interruption
 from gbnbench.runs.sources import Source, resolve
+from gbnbench.runs.task_folder import TaskFolder
 from gbnbench.studies.integration.blocks import errors_of, instances_of, tasks_of
 from gbnbench.studies.integration.tables import gather, tables
 
@@ -220,19 +223,17 @@ def run_integration_study(
         "instances": instances,
         "shifts": shifts,
     }
-    keeper = StudyFolder(Path(folder or comparison_folder.default_folder(settings, "integrate")), settings)
+    store = StudyFolder(Path(folder or comparison_folder.default_folder(settings, "integrate")), settings)
     largest_first = sorted(given, key=lambda source: -source.n * source.d)
-    pieces = [
-        piece for source in largest_first for piece in tasks_of(source, families, instances, shifts, seed)
-    ]
-    with keeper.lock(), explain_interruption(keeper.path):
-        if keeper.whole:
-            study = read_integration(keeper.path)
-            return IntegrationOutcome(study, keeper.path, len(pieces), len(pieces), time.monotonic() - began)
-        keeper.begin()
-        reused = run_tasks(keeper, pieces, jobs or os.cpu_count() or 1, progress)
+    tasks = [task for source in largest_first for task in tasks_of(source, families, instances, shifts, seed)]
+    with store.lock(), explain_interruption(store.path):
+        if store.whole:
+            study = read_integration(store.path)
+            return IntegrationOutcome(study, store.path, len(tasks), len(tasks), time.monotonic() - began)
+        store.begin()
+        work = run_tasks(tasks, store, jobs or os.cpu_count() or 1, progress)
         errors = {
-            (source.key, specification(family)): gather(keeper, source, family)
+            (source.key, specification(family)): gather(work.results, source, family)
             for source in given for family in families
         }  # fmt: skip
         manifest = {
@@ -247,12 +248,12 @@ def run_integration_study(
             "skipped": list(skipped),
         }
         study = IntegrationStudy(manifest, *tables(given, families, instances, shifts, errors))
-        keeper.write_tables(study)
+        store.write_tables(study)
         if draw is not None:
             progress.advance("drawing", 0)
-            draw(study, keeper.path)
-        keeper.finish(manifest)
-    return IntegrationOutcome(study, keeper.path, reused, len(pieces), time.monotonic() - began)
+            draw(study, store.path)
+        store.finish(manifest)
+    return IntegrationOutcome(study, store.path, work.reused, len(tasks), time.monotonic() - began)
 
 
 class StudyFolder(TaskFolder):
@@ -263,13 +264,13 @@ class StudyFolder(TaskFolder):
     def write_tables(self, study: IntegrationStudy) -> None:
         """Write ``variance.csv`` and ``slopes.csv``."""
         for name in TABLES:
-            atomic_write.write_whole(self.path / f"{name}.csv", source_files.to_csv(getattr(study, name)))
+            atomic_write.write_whole(self.path / f"{name}.csv", data_files.to_csv(getattr(study, name)))
 
 
 def is_study(folder: str | Path) -> bool:
     """Whether a folder is a study of integration, finished or not."""
     settings = Path(folder) / SETTINGS
-    return settings.is_file() and "integrands" in read_json(settings)
+    return settings.is_file() and "integrands" in data_files.read_json(settings)
 
 
 def read_integration(folder: str | Path) -> IntegrationStudy:
@@ -286,11 +287,11 @@ def read_integration(folder: str | Path) -> IntegrationStudy:
     if not (path / MANIFEST).is_file():
         state = "an unfinished" if (path / SETTINGS).is_file() else "no"
         raise InputError(f"{path} is {state} study of integration: it has no {MANIFEST}")
-    manifest = read_json(path / MANIFEST)
+    manifest = data_files.read_json(path / MANIFEST)
     if "integrands" not in manifest.get("settings", {}):
         raise FormatError(path / MANIFEST, "is not of a study of integration")
     tables = (
-        source_files.reading(path / f"{name}.csv", lambda p: source_files.read_csv(p, text=TEXT))
+        data_files.read_or_explain(path / f"{name}.csv", lambda p: data_files.read_csv(p, text=TEXT))
         for name in TABLES
     )
     return IntegrationStudy(manifest, *tables)
@@ -309,8 +310,6 @@ def _refuse(family: Family, d: int) -> None:
 
 def _device() -> dict[str, Any] | str:
     """Name the device, or what stands in for it: spectra and integrands have forms in numpy."""
-    from gbnbench.opencl import choose
-
     try:
         return dict(choose().describe())
     except DeviceError:
