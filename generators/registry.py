@@ -26,7 +26,6 @@ from gbnbench.generators.protocol import Generator, checked_draw, realization_rn
 from gbnbench.generators.spectral_control.deep import Deep
 from gbnbench.generators.spectral_control.stealthy import Stealthy
 from gbnbench.generators.voronoi.lloyd import Lloyd
-from gbnbench.opencl import use_device
 
 GENERATORS: dict[str, type[Generator]] = {
     "random": Uniform,
@@ -114,7 +113,6 @@ def generate(
     seed: int = 0,
     realizations: int = 1,
     watch: Watch | None = None,
-    device: str | None = None,
     **settings: object,
 ) -> FloatArray:
     """Draw point sets on the unit torus.
@@ -135,8 +133,6 @@ def generate(
         Sets, >= 1.
     watch : Watch, optional
         Progress, a trace of the optimiser, checkpoints to go on from.
-    device : str, optional
-        Part of the name of the OpenCL device, or its position, as in ``GBNBENCH_DEVICE``, which it overrides.
     **settings
         The generator's settings, where it is named.
 
@@ -152,8 +148,6 @@ def generate(
         checkpoint is asked of a generator that has none, or what was drawn is no set of n points.
     RefusalError
         If the generator cannot make n points in d dimensions.
-    DeviceError
-        If a device is named and fits none or several.
 
     Examples
     --------
@@ -167,9 +161,7 @@ def generate(
         raise RefusalError(f"{realizations} sets of n={n} points in d={d} {reason}; draw fewer at a time")
     if reason := generator.refusal(n, d):
         raise RefusalError(reason)
-    with use_device(device):
-        rngs = [realization_rng(seed, k) for k in range(realizations)]
-        sets = _draw(generator, n, d, rngs, watch or Watch())
+    sets = _draw(generator, n, d, [realization_rng(seed, k) for k in range(realizations)], watch or Watch())
     return sets[0] if realizations == 1 else sets
 
 
