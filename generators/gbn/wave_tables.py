@@ -9,24 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.integer_frequencies import shell_counts
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn import kernel
 
 TILE = (4, 3)  # rows of the leading and the trailing table that are multiplied at once
 MOST_ROWS = 20_000  # of a table
-
-
-def shell_counts(d: int, square: int) -> FloatArray:
-    """Count the integer vectors of d dimensions with |f|^2 = 0, 1, ..., square: (square + 1,) float64."""
-    one = np.zeros(square + 1)
-    one[0] = 1
-    one[np.arange(1, math.isqrt(square) + 1) ** 2] = 2
-    counts = np.zeros(square + 1)
-    counts[0] = 1
-    for _ in range(d):  # one axis more: only squares are not 0
-        counts = sum((one[f * f] * np.r_[np.zeros(f * f), counts[: square + 1 - f * f]]
-                      for f in range(math.isqrt(square) + 1)), np.zeros(square + 1))  # fmt: skip
-    return counts
 
 
 def needed(n: int, d: int, sigma: float, precision: str) -> int:
@@ -62,7 +50,7 @@ def volume(d: int, square: int) -> float:
     if d < 2:
         return 1.0 + 2 * d * math.isqrt(square)
     if square * math.sqrt(square) * d <= 3e5:
-        return float(shell_counts(d, square).sum())
+        return float(shell_counts(d, square)[1].sum())
     return math.pow(math.pi, d / 2) / math.gamma(d / 2 + 1) * math.pow(math.sqrt(square) + 0.5, d)
 
 
