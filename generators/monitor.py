@@ -22,7 +22,7 @@ CHECKPOINT_SECONDS = 30.0
 CHECKPOINT_VARIABLE = "GBNBENCH_CHECKPOINT_SECONDS"
 
 
-class Watched(Protocol):
+class OptimiserState(Protocol):
     """What a trace reads of an optimiser."""
 
     x: FloatArray
@@ -52,7 +52,9 @@ class Trace:
     rows: list[tuple[int, int, float, float, float, float]] = dataclasses.field(default_factory=list)
     kept: dict[int, list[FloatArray]] = dataclasses.field(default_factory=dict)
 
-    def record(self, optimiser: Watched, first: int, inside: Callable[[FloatArray], FloatArray]) -> None:
+    def record(
+        self, optimiser: OptimiserState, first: int, inside: Callable[[FloatArray], FloatArray]
+    ) -> None:
         """Add a row for each set of a batch, whose first set has this number; inside keeps to the domain."""
         for k, (excess, largest, step) in enumerate(
             zip(optimiser.excess, optimiser.largest, optimiser.size, strict=True)
@@ -90,7 +92,7 @@ class Trace:
 
 
 @dataclass
-class Watch:
+class Monitor:
     """What a caller wants of a long draw; by default nothing.
 
     Attributes
@@ -114,7 +116,7 @@ class Watch:
     )
 
 
-def only_progress(watch: Watch, name: str) -> None:
+def refuse_all_but_progress(monitor: Monitor, name: str) -> None:
     """Refuse a trace or a checkpoint that a generator cannot keep.
 
     Raises
@@ -123,14 +125,14 @@ def only_progress(watch: Watch, name: str) -> None:
         If one is asked for.
     """
     for what in ("trace", "checkpoint"):
-        if getattr(watch, what) is not None:
+        if getattr(monitor, what) is not None:
             raise InputError(f"{name} has no {what}: gbn and deep have, which optimise in many small steps")
 
 
 @runtime_checkable
-class Watchable(Protocol):
+class MonitoredGenerator(Protocol):
     """A generator that draws many sets at once and can be watched."""
 
-    def draw(self, n: int, d: int, rngs: Sequence[np.random.Generator], watch: Watch) -> FloatArray:
+    def draw(self, n: int, d: int, rngs: Sequence[np.random.Generator], monitor: Monitor) -> FloatArray:
         """Draw one set from each stream: (len(rngs), n, d), each bitwise the same as drawn alone."""
         ...

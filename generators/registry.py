@@ -21,7 +21,7 @@ from gbnbench.generators.fpo.generator import FarthestPoint
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.lattices.hexagonal import Hexagonal
 from gbnbench.generators.lattices.regular_grid import Grid
-from gbnbench.generators.monitor import Watch, Watchable, only_progress
+from gbnbench.generators.monitor import Monitor, MonitoredGenerator, refuse_all_but_progress
 from gbnbench.generators.protocol import Generator, checked_draw, realization_rng
 from gbnbench.generators.spectral_control.deep import Deep
 from gbnbench.generators.spectral_control.stealthy import Stealthy
@@ -112,7 +112,7 @@ def generate(
     d: int = 2,
     seed: int = 0,
     realizations: int = 1,
-    watch: Watch | None = None,
+    monitor: Monitor | None = None,
     **settings: object,
 ) -> FloatArray:
     """Draw point sets on the unit torus.
@@ -131,7 +131,7 @@ def generate(
         whatever the generator and however many are asked for.
     realizations : int
         Sets, >= 1.
-    watch : Watch, optional
+    monitor : Monitor, optional
         Progress, a trace of the optimiser, checkpoints to go on from.
     **settings
         The generator's settings, where it is named.
@@ -161,19 +161,23 @@ def generate(
         raise RefusalError(f"{realizations} sets of n={n} points in d={d} {reason}; draw fewer at a time")
     if reason := generator.refusal(n, d):
         raise RefusalError(reason)
-    sets = _draw(generator, n, d, [realization_rng(seed, k) for k in range(realizations)], watch or Watch())
+    sets = _draw(
+        generator, n, d, [realization_rng(seed, k) for k in range(realizations)], monitor or Monitor()
+    )
     return sets[0] if realizations == 1 else sets
 
 
-def _draw(generator: Generator, n: int, d: int, rngs: list[np.random.Generator], watch: Watch) -> FloatArray:
-    if isinstance(generator, Watchable):
-        return generator.draw(n, d, rngs, watch)
-    only_progress(watch, generator.name)
+def _draw(
+    generator: Generator, n: int, d: int, rngs: list[np.random.Generator], monitor: Monitor
+) -> FloatArray:
+    if isinstance(generator, MonitoredGenerator):
+        return generator.draw(n, d, rngs, monitor)
+    refuse_all_but_progress(monitor, generator.name)
     sets = []
     for k, rng in enumerate(rngs):
         sets.append(checked_draw(generator, generator(n, d, rng), n, d))
-        if watch.progress is not None:
-            watch.progress(k + 1, len(rngs), generator.name)
+        if monitor.progress is not None:
+            monitor.progress(k + 1, len(rngs), generator.name)
     return np.stack(sets)
 
 

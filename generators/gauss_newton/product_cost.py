@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from gbnbench.generators.gauss_newton.modes import count, squared_reach
+from gbnbench.generators.gauss_newton.modes import ball_count, largest_square
 
 TRANSFORM = 5.0  # a real transform's operations over N log2 N, in the time of a matrix product's; measured
 LARGEST_GRID = 2**28  # 2 GB; two or three are alive at once
@@ -12,13 +12,13 @@ STEPS, PRODUCTS = 8, 300  # of a typical set
 WORK = 5e14  # most operations: some hours; a million points in the plane come to half of it
 
 
-def tables(n: int, d: int, reach: int) -> float:
+def wave_sum_operations(n: int, d: int, reach: int) -> float:
     """Operations of one sum over n points of all waves with |f|**2 <= reach."""
     lead = math.ceil(d / 2)
-    return 2.0 * n * (count(reach, lead) + 2) * (count(reach, d - lead) + 2)
+    return 2.0 * n * (ball_count(reach, lead) + 2) * (ball_count(reach, d - lead) + 2)
 
 
-def transforms(d: int, reach: int) -> float:
+def convolution_operations(d: int, reach: int) -> float:
     """Operations of one product with the Gram matrix by convolutions; inf where the grid is too large."""
     side = 4.0 * math.isqrt(reach) + 1
     if d * math.log(side) > math.log(LARGEST_GRID):
@@ -26,30 +26,30 @@ def transforms(d: int, reach: int) -> float:
     return 2 * d * TRANSFORM * side**d * math.log2(side**d)
 
 
-def by_transforms(n: int, d: int, reach: int) -> bool:
+def convolutions_are_cheaper(n: int, d: int, reach: int) -> bool:
     """Whether convolutions are the cheaper product."""
-    return transforms(d, reach) < 4 * tables(n, d, reach)
+    return convolution_operations(d, reach) < 4 * wave_sum_operations(n, d, reach)
 
 
-def work(n: int, d: int, edge: float) -> float:
+def solver_operations(n: int, d: int, edge: float) -> float:
     """Operations of a typical run of ``reach``; 1e10 a second is a slow processor.
 
     Each step sums the amplitudes once and the displacement twice, and for convolutions the amplitudes up to
     twice the edge in single precision.
     """
-    reach = squared_reach(n, d, edge)
+    reach = largest_square(n, d, edge)
     if reach == 0:
         return 0.0
-    product, step = 4 * tables(n, d, reach), 3 * tables(n, d, reach)
-    if transforms(d, reach) < product:
-        product = transforms(d, reach)
-        step += tables(n, d, 4 * reach) / 2
+    product, step = 4 * wave_sum_operations(n, d, reach), 3 * wave_sum_operations(n, d, reach)
+    if convolution_operations(d, reach) < product:
+        product = convolution_operations(d, reach)
+        step += wave_sum_operations(n, d, 4 * reach) / 2
     return STEPS * step + PRODUCTS * product
 
 
-def too_much(n: int, d: int, edge: float) -> str | None:
+def too_long(n: int, d: int, edge: float) -> str | None:
     """Why a run would be too long; None where it is not."""
-    operations = work(n, d, edge)
+    operations = solver_operations(n, d, edge)
     if operations <= WORK:
         return None
     return (

@@ -12,11 +12,11 @@ from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gauss_newton.modes import Modes
 from gbnbench.generators.gauss_newton.wave_sums import ComplexArray
 
-Target = Callable[[FloatArray], FloatArray]
+TargetPower = Callable[[FloatArray], FloatArray]
 PASSES = 4  # corrections of the start's profile by its rings' means
 
 
-def target_power(target: Target | float, modes: Modes) -> FloatArray:
+def target_power(target: TargetPower | float, modes: Modes) -> FloatArray:
     """Power asked for at each mode, (m,).
 
     Raises
@@ -36,7 +36,7 @@ def target_power(target: Target | float, modes: Modes) -> FloatArray:
     return power
 
 
-def profile(amplitudes: ComplexArray, modes: Modes) -> FloatArray:
+def smooth_radial_power(amplitudes: ComplexArray, modes: Modes) -> FloatArray:
     """Smooth radial power of one set at each mode, (m,), all > 0.
 
     Means over rings one unit of |f| wide, joined by straight lines in ln P over nu, and corrected by the
@@ -56,7 +56,7 @@ def profile(amplitudes: ComplexArray, modes: Modes) -> FloatArray:
     return smooth_power
 
 
-def aims(amplitudes: ComplexArray, modes: Modes, power: FloatArray) -> ComplexArray:
+def target_amplitudes(amplitudes: ComplexArray, modes: Modes, power: FloatArray) -> ComplexArray:
     """Scale the amplitudes so that their smooth radial power becomes ``power``; phase and spread are kept.
 
     Parameters
@@ -68,11 +68,11 @@ def aims(amplitudes: ComplexArray, modes: Modes, power: FloatArray) -> ComplexAr
     power : (m,) float64
         Target, >= 0.
     """
-    scaled: ComplexArray = amplitudes * np.sqrt(power / profile(amplitudes, modes))
+    scaled: ComplexArray = amplitudes * np.sqrt(power / smooth_radial_power(amplitudes, modes))
     return scaled
 
 
-def rounding(modes: Modes) -> FloatArray:
+def rounding_error(modes: Modes) -> FloatArray:
     """Error of each amplitude over sqrt(n) that rounding the coordinates to double can leave, (m,).
 
     A coordinate errs by 2**-53 / sqrt(12) of the box, a wave by 2 pi |f| times that, and so does their sum

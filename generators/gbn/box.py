@@ -20,7 +20,7 @@ from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn import operation_counts
 from gbnbench.generators.gbn.images import Images
 from gbnbench.generators.gbn.optimiser import largest_curvature
-from gbnbench.generators.gbn.protocol import Gradient
+from gbnbench.generators.gbn.protocol import EnergyGradient
 from gbnbench.generators.gbn.strips import Strips
 from gbnbench.opencl import runtime
 
@@ -109,7 +109,7 @@ def box_curvature(n: int, d: int, sigma: float) -> float:
     return float(np.nanmax(curvature))
 
 
-class BoxField:
+class BoxEnergy:
     """The box's energy for any x: a coordinate beyond a face stands for its mirror image inside.
 
     So the energy is defined wherever an optimiser's step may lead, as on the torus it is by periods, and
@@ -160,7 +160,7 @@ class BoxField:
         if isinstance(self._torus, Strips):
             self._torus.anchor = x
 
-    def __call__(self, x: FloatArray) -> Gradient:
+    def __call__(self, x: FloatArray) -> EnergyGradient:
         """Gradient and excess energy at x, (sets, n, d) float64 in box sides; see ``Field``."""
         mirrored = np.mod(x, 2.0) >= 1
         self.mirrored = int(np.count_nonzero((x < 0) | (x >= 1)))
@@ -171,4 +171,4 @@ class BoxField:
         gradient[mirrored] *= -1
         domain = potential.sum(axis=1) - self._least / 2
         excess = pairs.excess - domain / self.n
-        return Gradient(gradient, excess)
+        return EnergyGradient(gradient, excess)

@@ -12,14 +12,14 @@ from numpy.typing import NDArray
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn import kernel, operation_counts
-from gbnbench.generators.gbn.protocol import Gradient
+from gbnbench.generators.gbn.protocol import EnergyGradient
 from gbnbench.opencl import Program, Runtime
 
 PACKAGE = "gbnbench.generators"
 CHUNK = 256  # points summed before their sum is added to the rest, so that float keeps its digits
 
 
-class Evaluation(ABC):
+class DeviceEvaluation(ABC):
     """Sets of n points in d dimensions on a device, at one sigma and precision.
 
     Attributes
@@ -96,7 +96,7 @@ class Evaluation(ABC):
         """Size of a set's buffers."""
         return 4 * self.stride * self.d * self.bytes
 
-    def __call__(self, x: FloatArray) -> Gradient:
+    def __call__(self, x: FloatArray) -> EnergyGradient:
         """Evaluate; see ``Field``."""
         if x.ndim != 3 or x.shape[1:] != (self.n, self.d):
             raise InputError(f"x must be (sets, {self.n}, {self.d}); got shape {x.shape}")
@@ -104,16 +104,16 @@ class Evaluation(ABC):
         parts = [self._sums(x[k : k + step]) for k in range(0, len(x), step)]
         if len(parts) == 1:
             return parts[0]
-        return Gradient(
+        return EnergyGradient(
             np.concatenate([p.gradient for p in parts]), np.concatenate([p.excess for p in parts])
         )
 
     @abstractmethod
-    def _sums(self, x: FloatArray) -> Gradient:
+    def _sums(self, x: FloatArray) -> EnergyGradient:
         """Evaluate as many sets as buffers hold."""
 
 
-class AllPairs(Evaluation):
+class AllPairs(DeviceEvaluation):
     """Sums of each point over all points of its set, a work-item for each vector of points."""
 
     def program(self, *files: str, **defines: object) -> Program:

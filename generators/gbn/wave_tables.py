@@ -17,7 +17,7 @@ TILE = (4, 3)  # rows of the leading and the trailing table that are multiplied 
 MOST_ROWS = 20_000  # of a table
 
 
-def needed(n: int, d: int, sigma: float, precision: str) -> int:
+def square_needed(n: int, d: int, sigma: float, precision: str) -> int:
     """Return |f|^2 beyond which no frequency shows in a gradient of the precision.
 
     Notes
@@ -45,7 +45,7 @@ def _log_strength(n: int, d: int, sigma: float) -> float:
     return math.log(kernel.largest_force(n, d, sigma)) - mean - math.log(2 * math.pi / side)
 
 
-def volume(d: int, square: int) -> float:
+def ball_volume(d: int, square: int) -> float:
     """Count the frequencies with |f|^2 <= square, exactly where that is quick."""
     if d < 2:
         return 1.0 + 2 * d * math.isqrt(square)
@@ -63,7 +63,7 @@ def ball_square(n: int, d: int, sigma: float, precision: str, edge: float | None
         If edge is not positive, or so small that no frequency is left.
     """
     if edge is None:
-        return needed(n, d, sigma, precision)
+        return square_needed(n, d, sigma, precision)
     if not edge > 0:
         raise InputError(f"edge must be positive, in nu = |f| n^(-1/d); got {edge}")
     side = kernel.side_of(n, d)
@@ -72,11 +72,11 @@ def ball_square(n: int, d: int, sigma: float, precision: str, edge: float | None
             f"edge={edge} leaves no frequency of {n} points in {d}D: the lowest is {1 / side:.4g}"
         )
     within = math.floor((edge * side) ** 2 * (1 + 1e-12)) if math.isfinite(edge) else 1 << 60
-    return min(within, needed(n, d, sigma, precision))
+    return min(within, square_needed(n, d, sigma, precision))
 
 
 @dataclass(frozen=True)
-class Group:
+class AxisGroup:
     """The waves of some axes, in ascending |f|^2, padded to whole tiles by rows of no weight.
 
     Attributes
@@ -125,7 +125,7 @@ class Group:
 PADDING = 1 << 40
 
 
-def group(first: int, axes: int, square: int, tile: int) -> Group:
+def axis_group(first: int, axes: int, square: int, tile: int) -> AxisGroup:
     """List the waves of some axes with |f|^2 <= square.
 
     Raises
@@ -133,7 +133,7 @@ def group(first: int, axes: int, square: int, tile: int) -> Group:
     RefusalError
         If they are too many.
     """
-    count = volume(axes, square)
+    count = ball_volume(axes, square)
     if count > MOST_ROWS:
         raise RefusalError(
             f"{count:.3g} waves of {axes} axes are within reach; method harmonics takes {MOST_ROWS}: a "
@@ -149,11 +149,11 @@ def group(first: int, axes: int, square: int, tile: int) -> Group:
     index, squares = index[order], squares[order]
     pad = -len(index) % tile
     index = np.concatenate([index, np.zeros((pad, index.shape[1]), np.int64)])
-    return Group(first, index.astype(np.uint32), np.concatenate([squares, np.full(pad, PADDING)]))
+    return AxisGroup(first, index.astype(np.uint32), np.concatenate([squares, np.full(pad, PADDING)]))
 
 
 @dataclass(frozen=True)
-class Modes:
+class WaveTables:
     """All frequencies of a ball.
 
     Attributes
@@ -167,8 +167,8 @@ class Modes:
     """
 
     square: int
-    leading: Group
-    trailing: Group
+    leading: AxisGroup
+    trailing: AxisGroup
     tiles: NDArray[np.uint32]
 
     @property
@@ -194,12 +194,12 @@ class Modes:
         return out
 
 
-def ball(d: int, square: int) -> Modes:
+def ball_waves(d: int, square: int) -> WaveTables:
     """Frequencies with 0 < |f|^2 <= square, in d dimensions."""
     lead = (d + 1) // 2
-    leading = group(0, lead, square, TILE[0])
+    leading = axis_group(0, lead, square, TILE[0])
     # The one-dimensional case has the wave 1 of its own axis for a trailing row.
-    trailing = group(lead, d - lead, square, TILE[1]) if d > 1 else group(0, 1, 0, TILE[1])
+    trailing = axis_group(lead, d - lead, square, TILE[1]) if d > 1 else axis_group(0, 1, 0, TILE[1])
     least = leading.square[:: TILE[0], None] + trailing.square[:: TILE[1]]
     tiles = np.argwhere(least <= square) * np.array(TILE)
-    return Modes(square, leading, trailing, tiles.astype(np.uint32))
+    return WaveTables(square, leading, trailing, tiles.astype(np.uint32))
