@@ -1,4 +1,4 @@
-"""How a long draw is watched: progress, a trace of what the optimiser did, and checkpoints to go on from."""
+"""Monitoring of a long draw: progress, a trace of what the optimiser did, checkpoints to go on from."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ CHECKPOINT_VARIABLE = "GBNBENCH_CHECKPOINT_SECONDS"
 
 
 class OptimiserState(Protocol):
-    """What a trace reads of an optimiser."""
+    """The state of an optimiser that a trace records."""
 
     x: FloatArray
     gradients: int
@@ -55,7 +55,17 @@ class Trace:
     def record(
         self, optimiser: OptimiserState, first: int, inside: Callable[[FloatArray], FloatArray]
     ) -> None:
-        """Add a row for each set of a batch, whose first set has this number; inside keeps to the domain."""
+        """Add a row for each set of a batch.
+
+        Parameters
+        ----------
+        optimiser : OptimiserState
+            The batch, after an evaluation.
+        first : int
+            Number of the batch's first set.
+        inside : callable
+            Brings points into their domain.
+        """
         for k, (excess, largest, step) in enumerate(
             zip(optimiser.excess, optimiser.largest, optimiser.size, strict=True)
         ):
@@ -93,7 +103,7 @@ class Trace:
 
 @dataclass
 class Monitor:
-    """What a caller wants of a long draw; by default nothing.
+    """What a caller wants to be told of a long draw; by default nothing.
 
     Attributes
     ----------
@@ -119,6 +129,13 @@ class Monitor:
 def refuse_all_but_progress(monitor: Monitor, name: str) -> None:
     """Refuse a trace or a checkpoint that a generator cannot keep.
 
+    Parameters
+    ----------
+    monitor : Monitor
+        What the caller wants.
+    name : str
+        The generator, for the message.
+
     Raises
     ------
     InputError
@@ -131,8 +148,23 @@ def refuse_all_but_progress(monitor: Monitor, name: str) -> None:
 
 @runtime_checkable
 class MonitoredGenerator(Protocol):
-    """A generator that draws many sets at once and can be watched."""
+    """A generator that draws many sets at once and reports to a monitor."""
 
     def draw(self, n: int, d: int, rngs: Sequence[np.random.Generator], monitor: Monitor) -> FloatArray:
-        """Draw one set from each stream: (len(rngs), n, d), each bitwise the same as drawn alone."""
+        """Draw one set from each stream.
+
+        Parameters
+        ----------
+        n, d : int
+            Points and dimension.
+        rngs : sequence of numpy.random.Generator
+            One for each set.
+        monitor : Monitor
+            What the caller wants to be told and kept.
+
+        Returns
+        -------
+        (len(rngs), n, d) float64
+            Each set bit by bit as if it were drawn alone.
+        """
         ...
