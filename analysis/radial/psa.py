@@ -128,19 +128,6 @@ def spectral_statistics(x: ArrayLike) -> SpectralStatistics:
     )
 
 
-def effective_nyquist(x: ArrayLike) -> FloatArray:
-    """Effective Nyquist frequency of each set, over sqrt(n)/2: (realizations,).
-
-    ``spectral_statistics`` has the definition.
-    """
-    return spectral_statistics(x).effective_nyquist_by_set
-
-
-def oscillations(x: ArrayLike) -> FloatArray:
-    """PSA's Omega of each set: (realizations,); see ``spectral_statistics``."""
-    return spectral_statistics(x).oscillations_by_set
-
-
 def _excess_density(sets: FloatArray, total: int) -> FloatArray:
     """2 pi n (g - 1) r dr on the bins that the window covers, trapezoid: (bins, realizations)."""
     n = sets.shape[1]

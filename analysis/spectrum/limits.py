@@ -13,7 +13,7 @@ from gbnbench.core.memory import physical_memory
 MEMORY_SHARE = 0.5  # of the machine's memory that one cube may take
 BYTES = 24  # a frequency: on the device, on the host, and room to work with it
 LARGEST_COUNT = 1 << 63
-FLOOR_NU = 0.25  # upper end of the band whose mean is the noise floor
+FLOOR_NU = 0.25  # end of the band whose mean power is the noise floor
 LARGEST_NU = 2.0  # what the peak and the pictures need
 FLOOR_NU = 0.25  # end of the band whose mean power is the noise floor
 MOST_FREQUENCIES = 6_000_000  # of one cube, 48 MB: F = 3 in d = 8

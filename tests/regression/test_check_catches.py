@@ -9,6 +9,8 @@ import textwrap
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 PRELUDE = """
 import importlib, re, sys
 
@@ -17,8 +19,6 @@ import numpy as np
 from gbnbench.cli import run
 from gbnbench.generators.gbn import energy, generator
 from gbnbench.generators.gbn.protocol import EnergyGradient
-
-pytestmark = pytest.mark.slow
 
 met = []
 

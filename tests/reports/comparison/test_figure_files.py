@@ -103,7 +103,7 @@ def test_labels_are_drawn_as_they_stand() -> None:
     assert len(legend.get_texts()) >= len(ODD)
 
 
-@pytest.mark.parametrize("count", [1, 20])
+@pytest.mark.parametrize("count", [1, pytest.param(20, marks=pytest.mark.slow)])
 def test_one_source_and_twenty(count: int) -> None:
     run = odd_run(samples.random(9, 2, 2), tuple(f"source {k}" for k in range(count)), 3)
     assert len(set(style.strokes(run).values())) == count
