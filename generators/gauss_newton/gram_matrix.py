@@ -30,7 +30,21 @@ class GramProduct(Protocol):
 
 
 def gram_product(x: FloatArray, modes: Modes, waves: WaveSums) -> GramProduct:
-    """Choose the cheaper of the two products: by transforms, or by sums over the points."""
+    """Choose the cheaper of the two products: by transforms, or by sums over the points.
+
+    Parameters
+    ----------
+    x : (n, d) float64
+        Points, box sides.
+    modes : Modes
+        Frequencies below the edge.
+    waves : WaveSums
+        Their sums at x.
+
+    Returns
+    -------
+    GramProduct
+    """
     if convolutions_are_cheaper(modes.n, modes.d, int(modes.square.max())):
         return Convolutions(x, modes)
     return PointSums(modes, waves)

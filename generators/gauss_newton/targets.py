@@ -17,7 +17,18 @@ PASSES = 4  # corrections of the start's profile by its rings' means
 
 
 def target_power(target: TargetPower | float, modes: Modes) -> FloatArray:
-    """Power asked for at each mode, (m,).
+    """Evaluate a target at each mode.
+
+    Parameters
+    ----------
+    target : callable or float
+        Power as a function of nu, or one power for all.
+    modes : Modes
+        Frequencies below the edge.
+
+    Returns
+    -------
+    (m,) float64
 
     Raises
     ------
@@ -37,11 +48,23 @@ def target_power(target: TargetPower | float, modes: Modes) -> FloatArray:
 
 
 def smooth_radial_power(amplitudes: ComplexArray, modes: Modes) -> FloatArray:
-    """Smooth radial power of one set at each mode, (m,), all > 0.
+    """Smooth the radial power of one set, and give it at each mode.
 
     Means over rings one unit of |f| wide, joined by straight lines in ln P over nu, and corrected by the
     rings' means of what they leave: the profile is steep within a ring. Exact shells would be too narrow: the
     mean of two or four amplitudes takes away a good part of their spread.
+
+    Parameters
+    ----------
+    amplitudes : (m,) complex128
+        Of the set.
+    modes : Modes
+        Their frequencies.
+
+    Returns
+    -------
+    (m,) float64
+        All > 0.
     """
     power = np.maximum(np.abs(amplitudes) ** 2 / modes.n, 1e-300)
     ring = np.rint(np.sqrt(modes.square)).astype(np.int64)
@@ -67,6 +90,10 @@ def target_amplitudes(amplitudes: ComplexArray, modes: Modes, power: FloatArray)
         Their frequencies.
     power : (m,) float64
         Target, >= 0.
+
+    Returns
+    -------
+    (m,) complex128
     """
     scaled: ComplexArray = amplitudes * np.sqrt(power / smooth_radial_power(amplitudes, modes))
     return scaled

@@ -64,7 +64,20 @@ class WaveSums:
         return self._gather(sums, self._sign)
 
     def gradient(self, y: ComplexArray, side: float) -> FloatArray:
-        """Return the gradient at each point of sum_f Re(y_f exp(i q.u)), u = x side, (n, d)."""
+        """Return the gradient at each point of sum_f Re(y_f exp(i q.u)), u being x in spacings.
+
+        Parameters
+        ----------
+        y : (m,) complex128
+            Weights of the waves.
+        side : float
+            Of the box, in spacings.
+
+        Returns
+        -------
+        (n, d) float64
+            Per spacing.
+        """
         weights = np.zeros(self.shape)
         for sign in (1, -1):  # within one sign no place comes twice
             some = self._sign == sign
@@ -85,7 +98,19 @@ class WaveSums:
         return out
 
     def divergence(self, move: FloatArray, side: float) -> ComplexArray:
-        """Return sum_k (q.move_k) exp(-i q.u_k), (m,): the transpose of ``gradient``."""
+        """Return sum_k (q.move_k) exp(-i q.u_k), the transpose of ``gradient``.
+
+        Parameters
+        ----------
+        move : (n, d) float64
+            Displacements, in spacings.
+        side : float
+            Of the box, in spacings.
+
+        Returns
+        -------
+        (m,) complex128
+        """
         leading, trailing = np.zeros(self.shape), np.zeros(self.shape)
         turn = 2 * math.pi / side
         for block, first, second in self._blocks():
@@ -132,15 +157,26 @@ class WaveSums:
         return table.astype(self._kind)
 
 
-def axis_waves(x: FloatArray, reach: int) -> ComplexArray:
-    """exp(2 pi i f x) for f = 0..reach, then -reach..-1: (points, 2 reach + 1), to a few roundings.
+def axis_waves(x: FloatArray, fmax: int) -> ComplexArray:
+    """Evaluate exp(2 pi i f x) for f = 0..fmax, then -fmax..-1, to a few roundings.
 
-    Two levels, f = coarse j + i, take a sine and a cosine for about 2 sqrt(reach) multiples of x alone.
+    Two levels, f = coarse j + i, take a sine and a cosine for about 2 sqrt(fmax) multiples of x alone.
+
+    Parameters
+    ----------
+    x : (n,) float64
+        Coordinates on one axis, box sides.
+    fmax : int
+        Highest frequency.
+
+    Returns
+    -------
+    (n, 2 fmax + 1) complex128
     """
-    coarse = math.isqrt(reach) + 1
+    coarse = math.isqrt(fmax) + 1
     fine = _sines_and_cosines(x, np.arange(coarse))
-    steps = _sines_and_cosines(x, np.arange(0, reach + 1, coarse))
-    up = (steps[:, :, None] * fine[:, None, :]).reshape(len(x), -1)[:, : reach + 1]
+    steps = _sines_and_cosines(x, np.arange(0, fmax + 1, coarse))
+    up = (steps[:, :, None] * fine[:, None, :]).reshape(len(x), -1)[:, : fmax + 1]
     return np.concatenate([up, np.conj(up[:, :0:-1])], axis=1)
 
 

@@ -76,7 +76,22 @@ def domain_pull(u: FloatArray, side: float, sigma: float) -> tuple[FloatArray, F
 
 
 def domain_energy(side: float, d: int, sigma: float) -> float:
-    """W = (sqrt(2 pi) sigma L erf(t) - 2 sigma^2 (1 - exp(-t^2)))^d, t = L / sqrt(2) sigma."""
+    """Energy W of the uniform domain with itself.
+
+    Parameters
+    ----------
+    side : float
+        Of the box, in spacings.
+    d : int
+        Dimension.
+    sigma : float
+        Kernel width, in spacings.
+
+    Returns
+    -------
+    float
+        (sqrt(2 pi) sigma L erf(t) - 2 sigma^2 (1 - exp(-t^2)))^d, t = L / sqrt(2) sigma.
+    """
     reach = side / (math.sqrt(2) * sigma)
     axis = math.sqrt(2 * math.pi) * sigma * side * math.erf(reach) + 2 * sigma**2 * math.expm1(-(reach**2))
     return axis**d
@@ -84,6 +99,17 @@ def domain_energy(side: float, d: int, sigma: float) -> float:
 
 def box_curvature(n: int, d: int, sigma: float) -> float:
     """Largest curvature of the energy at a uniform density, as ``largest_curvature`` is on the torus.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    sigma : float
+        Kernel width, in spacings.
+
+    Returns
+    -------
+    float
 
     Notes
     -----
@@ -157,11 +183,12 @@ class BoxEnergy:
 
     @anchor.setter
     def anchor(self, x: FloatArray) -> None:
+        """Go on as if the points had last been sorted at x."""
         if isinstance(self._torus, Strips):
             self._torus.anchor = x
 
     def __call__(self, x: FloatArray) -> EnergyGradient:
-        """Gradient and excess energy at x, (sets, n, d) float64 in box sides; see ``Field``."""
+        """Gradient and excess energy at x, (sets, n, d) float64 in box sides; see ``EnergyEvaluation``."""
         mirrored = np.mod(x, 2.0) >= 1
         self.mirrored = int(np.count_nonzero((x < 0) | (x >= 1)))
         inside = fold(x)

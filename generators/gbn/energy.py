@@ -39,6 +39,10 @@ def energy_evaluation(
     precision : {"double", "float"}, optional
         Double where the device has it.
 
+    Returns
+    -------
+    EnergyEvaluation
+
     Raises
     ------
     InputError, RefusalError

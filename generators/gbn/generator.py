@@ -142,7 +142,18 @@ class GaussianBlueNoise:
         self._step(2, 2)
 
     def refusal(self, n: int, d: int) -> str | None:
-        """Why this energy cannot be had for n points in d dimensions; None for the whole kernel."""
+        """Say why this energy cannot be had for n points in d dimensions; the whole kernel always can.
+
+        Parameters
+        ----------
+        n, d : int
+            Points and dimension.
+
+        Returns
+        -------
+        str or None
+            The reason, with the nearest numbers that can; None where they can.
+        """
         if reason := too_large(NUMBERS * 8 * n * d):
             return f"n={n} points in d={d} {reason}; take fewer points"
         side = n ** (1 / d)
@@ -177,7 +188,21 @@ class GaussianBlueNoise:
         return one
 
     def draw(self, n: int, d: int, rngs: Sequence[np.random.Generator], monitor: Monitor) -> FloatArray:
-        """Draw one set from each stream; see ``MonitoredGenerator``.
+        """Draw one set from each stream.
+
+        Parameters
+        ----------
+        n, d : int
+            Points and dimension.
+        rngs : sequence of numpy.random.Generator
+            One for each set.
+        monitor : Monitor
+            What the caller wants to be told and kept.
+
+        Returns
+        -------
+        (len(rngs), n, d) float64
+            Each set bit by bit as if it were drawn alone.
 
         Raises
         ------
@@ -201,7 +226,19 @@ class GaussianBlueNoise:
         return self.iterations or (PAPER_ITERATIONS if self.method == "descent" else self.gradients)
 
     def explain(self, n: int, d: int, sets: int = 1) -> str:
-        """Say how the energy of n points in d dimensions is found, and what the others would cost."""
+        """Say how the energy of n points in d dimensions is evaluated, and what other evaluations would cost.
+
+        Parameters
+        ----------
+        n, d : int
+            Points and dimension.
+        sets : int
+            Sets of a call.
+
+        Returns
+        -------
+        str
+        """
         if self.domain == "box" or self.projections != "none":
             energy = self._energy(n, d)
             return f"{self.name}: {energy.method}, error {energy.error:.1e}"

@@ -19,7 +19,7 @@ LINE = 64  # bytes
 
 
 class Harmonics(DeviceEvaluation):
-    """The weighted power of every frequency that matters; see ``Field`` and kernels/gbn_harmonics.cl.
+    """The weighted power of every frequency that matters; see kernels/gbn_harmonics.cl.
 
     Parameters
     ----------

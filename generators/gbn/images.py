@@ -12,7 +12,7 @@ from gbnbench.opencl import Runtime
 
 
 class Images(AllPairs):
-    """All pairs by the nearest images in each dimension; see ``Field`` and kernels/gbn_images.cl.
+    """All pairs by the nearest images in each dimension; see ``EnergyEvaluation`` and kernels/gbn_images.cl.
 
     Notes
     -----

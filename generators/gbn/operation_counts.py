@@ -1,4 +1,4 @@
-"""What each evaluation of the energy does, counted in instructions, for plans and benchmarks.
+"""Instruction counts of each evaluation of the energy, for plans and benchmarks.
 
 One instruction is a multiplication, an addition or both in one, of one number; comparisons and conversions
 count as one too. Loads and stores do not count. All numbers are of one set.
@@ -49,7 +49,7 @@ class EnergyCost:
     instructions : float
         A set, by count; nothing on memory or launches.
     error : float
-        Bound as ``Field.error``.
+        Bound as ``EnergyEvaluation.error``.
     """
 
     method: str
@@ -65,7 +65,19 @@ class EnergyCost:
 
 
 def images_needed(ratio: float, precision: str) -> int:
-    """Count the images of a point within the cut-off of another, a dimension, in a box of so many sigmas.
+    """Count the images of a point, a dimension, that lie within the cut-off of another.
+
+    Parameters
+    ----------
+    ratio : float
+        Side of the box, in sigmas.
+    precision : {"double", "float"}
+        Of the arithmetic.
+
+    Returns
+    -------
+    int
+        At least 1.
 
     Notes
     -----
@@ -76,6 +88,19 @@ def images_needed(ratio: float, precision: str) -> int:
 
 def theta(n: int, d: int, sigma: float, precision: str) -> EnergyCost:
     """All pairs by polynomials: 2 degree + 9 instructions a pair and dimension.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    sigma : float
+        Kernel width, in spacings.
+    precision : {"double", "float"}
+        Of the arithmetic.
+
+    Returns
+    -------
+    EnergyCost
 
     Raises
     ------
@@ -96,6 +121,21 @@ def theta(n: int, d: int, sigma: float, precision: str) -> EnergyCost:
 
 def images(n: int, d: int, sigma: float, precision: str, side: float | None = None) -> EnergyCost:
     """All pairs by exponentials: one a pair, and one for each image of each dimension beyond the nearest.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    sigma : float
+        Kernel width, in spacings.
+    precision : {"double", "float"}
+        Of the arithmetic.
+    side : float, optional
+        Of the torus, in spacings, where it is not n^(1/d).
+
+    Returns
+    -------
+    EnergyCost
 
     Raises
     ------
@@ -120,7 +160,19 @@ def images(n: int, d: int, sigma: float, precision: str, side: float | None = No
 
 
 def theta_at_0(n: int, d: int, sigma: float) -> float:
-    """Value of theta where two points coincide."""
+    """Value of theta where two points coincide.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    sigma : float
+        Kernel width, in spacings.
+
+    Returns
+    -------
+    float
+    """
     ratio = kernel.side_of(n, d) / sigma
     reach = math.ceil(9 / ratio)
     return 1 + 2 * sum(math.exp(-0.5 * (j * ratio) ** 2) for j in range(1, reach + 1))
@@ -128,6 +180,21 @@ def theta_at_0(n: int, d: int, sigma: float) -> float:
 
 def harmonics(n: int, d: int, sigma: float, precision: str, edge: float | None = None) -> EnergyCost:
     """Frequencies of a ball: three products a point and frequency, over tables of waves.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    sigma : float
+        Kernel width, in spacings.
+    precision : {"double", "float"}
+        Of the arithmetic.
+    edge : float or None
+        Highest nu that is summed.
+
+    Returns
+    -------
+    EnergyCost
 
     Raises
     ------
@@ -167,6 +234,23 @@ def strips(
     n: int, d: int, sigma: float, precision: str, cutoff: float | None = None, side: float | None = None
 ) -> EnergyCost:
     """Pairs within the cut-off only: in double every image of them, in float the nearest.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    sigma : float
+        Kernel width, in spacings.
+    precision : {"double", "float"}
+        Of the arithmetic.
+    cutoff : float, optional
+        Where the kernel itself ends, in sigmas.
+    side : float, optional
+        Of the torus, in spacings, where it is not n^(1/d).
+
+    Returns
+    -------
+    EnergyCost
 
     Raises
     ------

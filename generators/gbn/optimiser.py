@@ -20,6 +20,17 @@ PRECONDITION_ABOVE = 45  # spacings a side; below, 300 gradients bring the lowes
 def largest_curvature(n: int, d: int, sigma: float) -> float:
     """Largest eigenvalue of the energy's Hessian at a uniform density, in spacings.
 
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    sigma : float
+        Kernel width, in spacings.
+
+    Returns
+    -------
+    float
+
     Notes
     -----
     max over q != 0 of |q|^2 (2 pi)^(d/2) sigma^d exp(-sigma^2 |q|^2 / 2), q = 2 pi f n^(-1/d): 4.62 for d =
@@ -35,6 +46,17 @@ def largest_curvature(n: int, d: int, sigma: float) -> float:
 def step_size(n: int, d: int, sigma: float) -> float:
     """First step of both methods, in squared spacings.
 
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    sigma : float
+        Kernel width, in spacings.
+
+    Returns
+    -------
+    float
+
     Notes
     -----
     Nesterov's method is stable up to 4/3 over the largest curvature. In boxes of a few spacings a side, those
@@ -44,12 +66,38 @@ def step_size(n: int, d: int, sigma: float) -> float:
 
 
 def stable_step(curvature: float, d: int, sigma: float) -> float:
-    """Step for a largest curvature at a uniform density."""
+    """Return the step for a largest curvature at a uniform density.
+
+    Parameters
+    ----------
+    curvature : float
+        Per squared spacing.
+    d : int
+        Dimension.
+    sigma : float
+        Kernel width, in spacings.
+
+    Returns
+    -------
+    float
+        In squared spacings.
+    """
     return (1.2 if d <= 3 else 1.0) / max(curvature, 2 / sigma**2)
 
 
 def authors_step(n: int, d: int) -> float:
-    """Step of the authors' programs, 0.25 / n for box sides, in squared spacings: fit for d = 2 only."""
+    """Return the step of the authors' programs, 0.25 / n for box sides; right in scale for d = 2 only.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+
+    Returns
+    -------
+    float
+        In squared spacings.
+    """
     return 0.25 * float(n ** (2 / d)) / n
 
 

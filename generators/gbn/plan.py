@@ -1,4 +1,4 @@
-"""Which evaluation of the energy is used, and why: the cheapest of those that are exact to the precision."""
+"""The choice between evaluations of the energy: the cheapest of those that are exact to the precision."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ class EnergyPlan:
         Of the arithmetic.
     cutoff, edge : float or None
         Kernel truncated in space (sigmas) or in frequency (nu).
-    chosen : Cost
+    chosen : EnergyCost
         The evaluation.
     why : str
         In words.
-    others : tuple of Cost
+    others : tuple of EnergyCost
         What would do as well, cheapest first, then what would lose digits.
     refused : tuple of (str, str)
         Methods that cannot, and why.
@@ -57,7 +57,7 @@ class EnergyPlan:
 
     @property
     def error(self) -> float:
-        """Bound on a component's error, as ``Field.error``."""
+        """Bound on a component's error, as ``EnergyEvaluation.error``."""
         return self.chosen.error
 
     @property
@@ -120,6 +120,10 @@ def plan_energy(
         Truncate the energy in frequency: only 0 < nu <= edge, a ball. Harmonics only.
     method : {"strips", "images", "theta", "harmonics"}, optional
         Instead of the cheapest.
+
+    Returns
+    -------
+    EnergyPlan
 
     Raises
     ------

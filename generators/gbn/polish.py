@@ -20,6 +20,10 @@ def empty_band(x: FloatArray, edge: float) -> FloatArray:
     edge : float
         In nu.
 
+    Returns
+    -------
+    (n, d) float64
+
     Raises
     ------
     RefusalError

@@ -93,6 +93,11 @@ def shares(n: int, d: int, chosen: Sequence[Subset], edge: float | None = None) 
     edge : float, optional
         nu, in the projections' own spacings, up to which their energies see; by default 0.72 counts.
 
+    Returns
+    -------
+    dict
+        Subset -> share; the whole set stands under all its coordinates.
+
     Notes
     -----
     2 chi m / d, chi = V_m edge^m / 2 m and m = |S|, counted over actual frequencies. Frequencies of a
@@ -126,7 +131,7 @@ class ProjectiveEnergy:
     Attributes
     ----------
     method, error
-        As ``Field``; the error is that of the worst term.
+        As ``EnergyEvaluation``; the error is that of the worst term.
     scale : dict
         Subset -> c_S.
 
@@ -176,6 +181,7 @@ class ProjectiveEnergy:
 
     @anchor.setter
     def anchor(self, x: FloatArray) -> None:
+        """Go on as if the points had last been sorted at x."""
         begin = 0
         for axes, term in self._fields.items():
             if hasattr(term, "anchor"):
@@ -183,7 +189,7 @@ class ProjectiveEnergy:
                 begin += len(axes)
 
     def __call__(self, x: FloatArray) -> EnergyGradient:
-        """Gradient and energy sum of c_S Ex_S at x, (sets, n, d) float64 in box sides; see ``Field``."""
+        """Gradient and energy, the sum of c_S Ex_S, at x, (sets, n, d) float64 in box sides."""
         gradient, excess = np.zeros(x.shape), np.zeros(len(x))
         for axes, term in self._fields.items():
             at = term(np.ascontiguousarray(x[:, :, axes]))

@@ -1,4 +1,4 @@
-"""What evaluates the energy of Gaussian Blue Noise: many sets at once, gradient and excess energy of each."""
+"""The protocol of evaluations of the Gaussian Blue Noise energy: many sets at once, gradient and excess."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from gbnbench.core.torus import FloatArray
 
 @dataclass(frozen=True)
 class EnergyGradient:
-    """What one evaluation of several sets gives.
+    """Gradients and excess energies of several sets.
 
     Attributes
     ----------

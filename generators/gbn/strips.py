@@ -98,12 +98,13 @@ class Strips:
 
     @anchor.setter
     def anchor(self, x: FloatArray) -> None:
+        """Go on as if the points had last been sorted at x."""
         self._allocate(len(x))
         for k, points in enumerate(x):
             self._sort(k, points)
 
     def __call__(self, x: FloatArray) -> EnergyGradient:
-        """Evaluate; see ``Field``."""
+        """Evaluate; see ``EnergyEvaluation``."""
         if len(x) != len(self._anchor):
             self.anchor = x
         moved = x - self._anchor

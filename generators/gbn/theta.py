@@ -14,7 +14,7 @@ from gbnbench.opencl import Runtime
 
 
 class Theta(AllPairs):
-    """All pairs by polynomials in cos 2 pi (x_k - x_l); see ``Field`` and kernels/gbn_theta.cl.
+    """All pairs by polynomials in cos 2 pi (x_k - x_l); see ``EnergyEvaluation`` and kernels/gbn_theta.cl.
 
     Notes
     -----

@@ -20,6 +20,19 @@ MOST_ROWS = 20_000  # of a table
 def square_needed(n: int, d: int, sigma: float, precision: str) -> int:
     """Return |f|^2 beyond which no frequency shows in a gradient of the precision.
 
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    sigma : float
+        Kernel width, in spacings.
+    precision : {"double", "float"}
+        Of the arithmetic.
+
+    Returns
+    -------
+    int
+
     Notes
     -----
     The forces of one pair at frequencies left out add up to less than half a rounding of the largest force:
@@ -46,7 +59,19 @@ def _log_strength(n: int, d: int, sigma: float) -> float:
 
 
 def ball_volume(d: int, square: int) -> float:
-    """Count the frequencies with |f|^2 <= square, exactly where that is quick."""
+    """Count the frequencies with |f|^2 <= square, exactly where that is quick.
+
+    Parameters
+    ----------
+    d : int
+        Dimension.
+    square : int
+        Largest |f|^2.
+
+    Returns
+    -------
+    float
+    """
     if d < 2:
         return 1.0 + 2 * d * math.isqrt(square)
     if square * math.sqrt(square) * d <= 3e5:
@@ -56,6 +81,21 @@ def ball_volume(d: int, square: int) -> float:
 
 def ball_square(n: int, d: int, sigma: float, precision: str, edge: float | None) -> int:
     """Return the largest |f|^2 that is summed.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    sigma : float
+        Kernel width, in spacings.
+    precision : {"double", "float"}
+        Of the arithmetic.
+    edge : float or None
+        Highest nu that is summed.
+
+    Returns
+    -------
+    int
 
     Raises
     ------
@@ -128,6 +168,21 @@ PADDING = 1 << 40
 def axis_group(first: int, axes: int, square: int, tile: int) -> AxisGroup:
     """List the waves of some axes with |f|^2 <= square.
 
+    Parameters
+    ----------
+    first : int
+        Axis of the points at which the group begins.
+    axes : int
+        How many axes it has.
+    square : int
+        Largest |f|^2.
+    tile : int
+        Rows are padded to a multiple of this.
+
+    Returns
+    -------
+    AxisGroup
+
     Raises
     ------
     RefusalError
@@ -195,7 +250,19 @@ class WaveTables:
 
 
 def ball_waves(d: int, square: int) -> WaveTables:
-    """Frequencies with 0 < |f|^2 <= square, in d dimensions."""
+    """Build the tables for the frequencies with 0 < |f|^2 <= square.
+
+    Parameters
+    ----------
+    d : int
+        Dimension.
+    square : int
+        Largest |f|^2.
+
+    Returns
+    -------
+    WaveTables
+    """
     lead = (d + 1) // 2
     leading = axis_group(0, lead, square, TILE[0])
     # The one-dimensional case has the wave 1 of its own axis for a trailing row.

@@ -105,7 +105,19 @@ class Deep(BandGenerator):
         return self.profile(d)[1]
 
     def too_bound(self, n: int, d: int, bound: float) -> str:
-        """Say that a profile binds too many coordinates; see ``BandGenerator``."""
+        """Say that a profile binds too many coordinates, and what would do.
+
+        Parameters
+        ----------
+        n, d : int
+            Points and dimension.
+        bound : float
+            Coordinates that it binds.
+
+        Returns
+        -------
+        str
+        """
         return (
             f"a profile up to nu={self.band_edge(d):.4g} binds {bound:.6g} of the {n * d} coordinates of "
             f"n={n} points in d={d}, and no disordered set can meet more than {self.most_bound:.0%}; lower "

@@ -31,7 +31,19 @@ USUAL = 10  # Gauss-Newton steps that progress expects
 
 
 def band_power(x: FloatArray, edge: float) -> FloatArray:
-    """Power of one set, (n, d) in box sides, at one of each pair f, -f with 0 < nu < edge: (m,) float64."""
+    """Power of one set at one of each pair f, -f with 0 < nu < edge.
+
+    Parameters
+    ----------
+    x : (n, d) float64
+        Points, box sides.
+    edge : float
+        In nu.
+
+    Returns
+    -------
+    (m,) float64
+    """
     n, d = x.shape
     amplitudes = WaveSums(wrap(x), modes_below(n, d, edge).f).amplitudes()
     return np.asarray(np.abs(amplitudes) ** 2 / n)
@@ -105,7 +117,19 @@ class Stealthy(BandGenerator):
         return edge_binding(SHARE, d) if self.edge is None else self.edge
 
     def too_bound(self, n: int, d: int, bound: float) -> str:
-        """Say that an empty band binds too many coordinates; see ``BandGenerator``."""
+        """Say that an empty band binds too many coordinates, and what would do.
+
+        Parameters
+        ----------
+        n, d : int
+            Points and dimension.
+        bound : float
+            Coordinates that it binds.
+
+        Returns
+        -------
+        str
+        """
         lower = edge_binding(0.8, d)
         return (
             f"an empty band below nu={self.band_edge(d):.4g} binds {bound:.6g} of the {n * d} coordinates of "
