@@ -104,7 +104,9 @@ def test_killed_in_the_middle_it_resumes_to_the_same_bits(tmp_path: Path) -> Non
     assert resumed.returncode == 0, resumed.stderr
     assert f"{len(kept)} of 7 pieces reused" in resumed.stdout
     sources, _ = resolve(["lloyd"], (144,), (2,), 6)
-    straight = gbnbench.studies.comparison.run_comparison(sources, tmp_path / "straight", jobs=1).run.sources[0]
+    straight = gbnbench.studies.comparison.run_comparison(sources, tmp_path / "straight", jobs=1).run.sources[
+        0
+    ]
     after = read_run(out).sources[0]
     assert after.points.tobytes() == straight.points.tobytes()
     assert after.spectrum.power.tobytes() == straight.spectrum.power.tobytes()
