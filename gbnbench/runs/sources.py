@@ -1,4 +1,4 @@
-"""What the user named, resolved: generators, files and folders become sources of one n and d each."""
+"""Sources of point sets, each of one n and d, made from the names of generators, files and folders."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class Source:
     kind: Literal["generator", "files", "array"] = "generator"
 
     def identity(self) -> dict[str, Any]:
-        """Tell what decides its points and numbers, JSON-ready: equal identities make equal results."""
+        """Return what decides its points, JSON-ready: sources of equal identity give equal results."""
         from gbnbench.generators.registry import GENERATORS
 
         same = {
@@ -106,7 +106,7 @@ def array_source(x: ArrayLike, label: str = "array") -> Source:
 def resolve(
     names: Iterable[str | Path | Generator | Source], n: Sequence[int], d: Sequence[int], realizations: int
 ) -> tuple[tuple[Source, ...], tuple[str, ...]]:
-    """Turn what was typed into sources, in the order asked for.
+    """Turn names into sources, in their order.
 
     Parameters
     ----------
