@@ -33,8 +33,8 @@ from gbnbench.core.errors import GbnbenchError, RefusalError
 from gbnbench.core.results import RadialPower
 from gbnbench.core.torus import FloatArray
 from gbnbench.execution.progress import Progress
-from gbnbench.generators.gauss_newton.solver import reach
-from gbnbench.generators.gbn.energy import field
+from gbnbench.generators.gauss_newton.solver import solve_for_amplitudes
+from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.generators.spectral_control.target_profiles import Exponential
@@ -167,7 +167,7 @@ def row(key: tuple[Any, ...], x: FloatArray, edge: float, **told: object) -> dic
     return {
         **dict(zip(KEY, key, strict=True)),
         **told,
-        "excess": float(field(n, d, 1.0)(x[None]).excess[0]),
+        "excess": float(energy_evaluation(n, d, 1.0)(x[None]).excess[0]),
         "noise_floor": noise_floor(shells),
         "power_at_1": power_at_1(shells),
         "evacuated_energy": or_nan(lambda: evacuated_energy(spectrum.power, n, d, spectrum.fmax)),
@@ -297,7 +297,7 @@ def deep_row(key: tuple[Any, ...], starts: Sequence[Start]) -> dict[str, Any]:
     (start,) = starts
     _, _, d, c, edge, _, _ = key
     before = time.process_time()
-    outcome = reach(start.x, Exponential(c * math.pi**2, edge), edge)
+    outcome = solve_for_amplitudes(start.x, Exponential(c * math.pi**2, edge), edge)
     told: dict[str, Any] = {
         "chi": chi(d, edge), "converged": outcome.converged, "steps": outcome.steps,
         "products": outcome.products, "cpu_s": start.seconds + time.process_time() - before,

@@ -28,7 +28,7 @@ from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.execution.progress import Progress
-from gbnbench.generators.gbn.energy import field
+from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.operation_counts import CUTOFF
 from gbnbench.generators.gbn.optimiser import Descent, Nesterov, authors_step, step_size
 from gbnbench.generators.gbn.published_quality import AUTHORS_FLOOR
@@ -168,7 +168,7 @@ class _Runner:
 
 def _optimiser(case: Case, curve: Curve, start: FloatArray) -> tuple[str, Descent]:
     n, d = case.n, case.d
-    energy = field(n, d, SIGMA, curve.precision, cutoff=curve.cutoff or None)
+    energy = energy_evaluation(n, d, SIGMA, curve.precision, cutoff=curve.cutoff or None)
     step = authors_step(n, d) if curve.step == "authors" else step_size(n, d, SIGMA)
     if curve.method == "descent":
         return energy.method, Descent(energy, start, step)
@@ -194,7 +194,7 @@ def measured(x: FloatArray) -> dict[str, float]:
     return {
         "noise_floor": noise_floor(shells),
         "power_at_1": power_at_1(shells),
-        "excess": float(field(n, d, SIGMA, precision)(x[None]).excess[0]),
+        "excess": float(energy_evaluation(n, d, SIGMA, precision)(x[None]).excess[0]),
         "peak": summit,
         "valence6": math.nan if around is None else float(valence6(around)[0]),
         "psi6": math.nan if around is None else float(psi6(around)[0]),

@@ -117,7 +117,7 @@ def _field(case: Case, seed: int) -> Mapping[str, Values]:
     from gbnbench.generators.gbn import energy
 
     x = fixed_points(case.n, case.d, seed)
-    at = energy.field(case.n, case.d, case.sigma, case.precision)(x[None])
+    at = energy.energy_evaluation(case.n, case.d, case.sigma, case.precision)(x[None])
     return {
         "excess": (float(at.excess[0]),),
         "gradient": tuple(listed(at.gradient[0]).tolist()),

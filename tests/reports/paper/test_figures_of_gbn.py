@@ -15,7 +15,7 @@ from gbnbench import generate, periodogram, radial, save, shells
 from gbnbench.analysis.radial.profile_measures import noise_floor
 from gbnbench.cli import gbnbench
 from gbnbench.execution.progress import Progress
-from gbnbench.generators.monitor import Trace, Watch
+from gbnbench.generators.monitor import Monitor, Trace
 from gbnbench.reports import style
 from gbnbench.reports.paper import axes, figure_07
 from gbnbench.reports.paper.data import folder_name, obtain
@@ -138,7 +138,7 @@ def test_evolution_is_that_of_the_points(made: tuple[Path, Ask]) -> None:
     figure, material, caption = drawn(made, "7")
     assert [figure_07.gradients(steps) for steps in (1, 100, 10_000)] == [3, 30, 300]
     trace = Trace(keep_at=(30,))
-    generate("gbn[iterations=300]", n=64, realizations=2, watch=Watch(trace=trace))
+    generate("gbn[iterations=300]", n=64, realizations=2, monitor=Monitor(trace=trace))
     expected = shells(trace.points(30)).radial()
     raw = lines(panel(figure, "a"))
     assert list(raw) == ["1", "3", "10", "30", "100", "300"]
