@@ -70,9 +70,9 @@ def nufft_power(
     Notes
     -----
     Weights are real, so the half of the frequencies with f_1 >= 0 gives the rest. With strengths
-    w exp(-2 pi i s x_1), s = (fmax + 1) // 2, a grid of fmax + 1 modes on the first axis holds that half. This
-    halves the FFT for one sine and cosine a point, and is done unless points outnumber frequencies. FINUFFT
-    is given 2 pi (x - rint(x)), where the difference is exact; 2 pi x would round twice as coarsely.
+    w exp(-2 pi i s x_1), s = (fmax + 1) // 2, a grid of fmax + 1 modes on the first axis holds that half.
+    This halves the FFT for one sine and cosine a point, and is done unless points outnumber frequencies.
+    FINUFFT is given 2 pi (x - rint(x)), where the difference is exact; 2 pi x would round twice as coarsely.
     """
     check_tolerance(x.shape[1], tolerance)
     if not available():

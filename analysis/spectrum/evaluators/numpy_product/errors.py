@@ -74,8 +74,8 @@ def numpy_errors(
       |cc| + |ss| <= 1 for each point; real and imaginary part make that sqrt(2). Chunks are added in double.
       Listed frequencies are summed pairwise.
 
-    The typical error is the root of the sum of the parts' variances, with factors that were measured on random
-    sets of 16 to 1e5 points.
+    The typical error is the root of the sum of the parts' variances, with factors that were measured on
+    random sets of 16 to 1e5 points.
     """
     u = float(np.finfo(real_type(precision)).eps) / 2
     u64 = 2.0**-53
