@@ -1,32 +1,25 @@
-"""Point sets made by other people's programs, which are no part of this project.
-
-Tests that measure them run where their folder stands beside the checkout, or where GBNBENCH_PUBLISHED_SETS
-names it, and are skipped elsewhere: what they hold is held against slow references in every checkout too.
-"""
+"""Point sets made by other people's programs, which stand in tests/data with their sources and licences."""
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import numpy as np
-import pytest
 
 from tests.paths import ROOT
 
-FOLDER = Path(os.environ.get("GBNBENCH_PUBLISHED_SETS") or ROOT.parent / "shared" / "points")
+FOLDER = ROOT / "tests" / "data"
 
 
 def published_files(pattern: str) -> list[Path]:
-    """Files whose path below the folder fits, in order; the test is skipped where there are none."""
-    files = sorted(FOLDER.glob(pattern))
-    if not files:
-        pytest.skip(f"{pattern} of other people's point sets is not here")
+    """Files whose path below the folder fits the pattern, in order; at least one."""
+    files = sorted(path for path in FOLDER.glob(pattern) if path.parent != FOLDER)
+    assert files, f"no file of {FOLDER} fits {pattern}"
     return files
 
 
 def published(name: str) -> np.ndarray:
-    """Rows of one set, its leading count dropped; the test is skipped where the file is not there."""
+    """Rows of one set, its leading count dropped."""
     (path,) = published_files(name)
     rows = [line.split() for line in path.read_text().splitlines() if line.strip()]
     d = len(rows[-1])

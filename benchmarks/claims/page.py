@@ -15,8 +15,8 @@ from pathlib import Path
 from gbnbench.benchmarks.claims.claim import BESIDE, VERDICTS, Claim, verdict
 from gbnbench.benchmarks.claims.registry import CLAIMS
 from gbnbench.benchmarks.claims.run import Table, read
+from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.errors import InputError
-from gbnbench.io.atomic import write_whole
 
 HEAD = "head.md"  # how the page begins, a count of verdicts left to be filled in
 PLACEHOLDER = re.compile(r"\{([A-Za-z0-9.\-]+)\}")

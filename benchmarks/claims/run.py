@@ -22,15 +22,17 @@ from gbnbench.benchmarks.claims.claim import COLUMNS, Claim
 from gbnbench.benchmarks.claims.registry import CLAIMS
 from gbnbench.benchmarks.claims.sets import MissingError, Sets
 from gbnbench.benchmarks.timing.machine import describe
-from gbnbench.core.errors import InputError
+from gbnbench.core.atomic_write import write_whole
+from gbnbench.core.errors import GbnbenchError, InputError
+from gbnbench.execution.progress import Progress
 from gbnbench.execution.worker_pool import ONE_THREAD
-from gbnbench.io.atomic import write_whole
+from gbnbench.runs.resumable import Task, TaskRun
 
 Table = dict[str, list[dict[str, str]]]
 
 
 def read(path: Path) -> Table:
-    """Rows of a table by claim, as text."""
+    """Read the rows of a table by claim, as text."""
     table: Table = {}
     if path.exists():
         with path.open(newline="", encoding="utf-8") as file:
@@ -40,7 +42,15 @@ def read(path: Path) -> Table:
 
 
 def write(path: Path, table: Mapping[str, list[dict[str, str]]]) -> None:
-    """Write a table whole, its claims in the order of the paper."""
+    """Write a table whole, its claims in the order of the paper.
+
+    Parameters
+    ----------
+    path : Path
+        Where it stands.
+    table : mapping of str to list of dict
+        Rows by claim.
+    """
     text = io.StringIO()
     writer = csv.DictWriter(text, COLUMNS, lineterminator="\n")
     writer.writeheader()
@@ -51,6 +61,18 @@ def write(path: Path, table: Mapping[str, list[dict[str, str]]]) -> None:
 
 def measure(claim: Claim, sets: Sets) -> list[dict[str, str]]:
     """Measure one claim; its rows as text, with the CPU seconds of each.
+
+    Parameters
+    ----------
+    claim : Claim
+        What to measure.
+    sets : Sets
+        The point sets that claims are measured with.
+
+    Returns
+    -------
+    list of dict
+        Its rows.
 
     Raises
     ------
@@ -67,25 +89,79 @@ def measure(claim: Claim, sets: Sets) -> list[dict[str, str]]:
     return rows
 
 
+def measure_or_explain(claim: Claim, sets: Sets) -> list[dict[str, str]] | str:
+    """Measure one claim, or say which sets by others it needs that are not there.
+
+    Parameters
+    ----------
+    claim : Claim
+        What to measure.
+    sets : Sets
+        The point sets that claims are measured with.
+
+    Returns
+    -------
+    list of dict, or str
+        The rows, or what is missing.
+    """
+    try:
+        return measure(claim, sets)
+    except MissingError as missing:
+        return str(missing)
+
+
+class ClaimTable:
+    """The table of claims as a store of results, written whole after every claim.
+
+    Parameters
+    ----------
+    path : Path
+        Of the table; it need not exist.
+    again : bool
+        Find nothing in it, so that all is measured again.
+    """
+
+    def __init__(self, path: Path, again: bool = False) -> None:
+        self.path, self._again, self._table = path, again, read(path)
+
+    def read(self, key: str) -> list[dict[str, str]] | None:
+        """Return the rows of a claim; None where it has still to be measured."""
+        return None if self._again else self._table.get(key)
+
+    def write(self, key: str, result: list[dict[str, str]] | str) -> None:
+        """Keep the rows of a claim; one that was left out has none."""
+        if not isinstance(result, str):
+            self._table[key] = result
+            write(self.path, self._table)
+
+
 def _cell(value: object) -> str:
     return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
 def fill(path: Path, claims: Sequence[Claim], sets: Sets, again: bool = False) -> None:
-    """Measure the claims that the table does not have, or all again; keep each as soon as it is known."""
-    table = read(path)
-    for claim in claims:
-        if claim.name in table and not again:
+    """Measure the claims that the table does not have, or all again; keep each as soon as it is known.
+
+    Parameters
+    ----------
+    path : Path
+        Of the table.
+    claims : sequence of Claim
+        What to measure.
+    sets : Sets
+        The point sets that they are measured with.
+    again : bool
+        Measure also what the table has already.
+    """
+    tasks = [Task(claim.name, claim.name, measure_or_explain, (claim, sets)) for claim in claims]
+    for done in TaskRun(tasks, ClaimTable(path, again)).complete(None, Progress()):
+        if done.failure:
+            raise GbnbenchError(f"{done.key} could not be measured: {done.failure}")
+        if isinstance(done.value, str):
+            print(f"{done.key}: left out, {done.value}", flush=True)
             continue
-        try:
-            rows = measure(claim, sets)
-        except MissingError as missing:
-            print(f"{claim.name}: left out, {missing}", flush=True)
-            continue
-        table[claim.name] = rows
-        write(path, table)
-        for row in rows:
-            print(f"{claim.name}.{row['row']}: {row['measured']} ({row['paper']}) {row['holds']}", flush=True)
+        for row in done.value:
+            print(f"{done.key}.{row['row']}: {row['measured']} ({row['paper']}) {row['holds']}", flush=True)
 
 
 def named(names: Sequence[str]) -> list[Claim]:
@@ -110,9 +186,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("out", type=Path, metavar="OUT.csv")
     parser.add_argument("--sets", action="append", default=[], metavar="NAME=FOLDER")
     parser.add_argument("--again", action="store_true", help="measure what the table has already, too")
-    asked = parser.parse_args(arguments)
-    folders = {name: Path(folder) for name, _, folder in (given.partition("=") for given in asked.sets)}
+    given = parser.parse_args(arguments)
+    folders = {name: Path(folder) for name, _, folder in (text.partition("=") for text in given.sets)}
     os.environ.update(ONE_THREAD)  # before the device is opened
-    claims = named(asked.claims)
-    write_whole(asked.out.with_name("machine.json"), (json.dumps(describe(), indent=1) + "\n").encode())
-    fill(asked.out, claims, Sets(folders), asked.again)
+    claims = named(given.claims)
+    write_whole(given.out.with_name("machine.json"), (json.dumps(describe(), indent=1) + "\n").encode())
+    fill(given.out, claims, Sets(folders), given.again)

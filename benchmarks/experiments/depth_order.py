@@ -10,10 +10,11 @@ import json
 import math
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -27,14 +28,17 @@ from gbnbench.analysis.spatial.valence import valence6
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.shells import exact_shells
 from gbnbench.benchmarks.timing.machine import Rows, describe
-from gbnbench.core.errors import RefusalError
+from gbnbench.core.atomic_write import write_whole
+from gbnbench.core.errors import GbnbenchError, RefusalError
 from gbnbench.core.results import RadialPower
 from gbnbench.core.torus import FloatArray
+from gbnbench.execution.progress import Progress
 from gbnbench.generators.gauss_newton.solver import reach
 from gbnbench.generators.gbn.energy import field
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.generators.spectral_control.target_profiles import Exponential
+from gbnbench.runs.resumable import Task, TaskRun
 
 BEYOND = 0.15  # width in nu of the band beyond the edge that is looked at
 KEY = ("generator", "n", "d", "c_pi2", "edge", "gradients", "seed")
@@ -144,37 +148,101 @@ def or_nan(compute: Callable[[], float]) -> float:
         return math.nan
 
 
-def rows(plan: Map, done: set[tuple[str, ...]]) -> Iterator[dict[str, Any]]:
-    """One row a set, but for those whose keys, as text, are done."""
-    GaussianBlueNoise(gradients=2)(plan.n, plan.d, realization_rng(0, 0))  # builds the kernels
+@dataclass(frozen=True)
+class Start:
+    """A set of Gaussian Blue Noise that deep sets start from.
+
+    Attributes
+    ----------
+    x : (n, d) float64
+        The points.
+    seconds : float
+        CPU seconds that they cost.
+    """
+
+    x: FloatArray
+    seconds: float
+
+
+def tasks_of(plan: Map) -> list[Task]:
+    """List the tasks of a map: a start a seed and number of gradients, and a row for each of its sets."""
+    tasks = []
     for seed in range(plan.seeds):
         for gradients in sorted({*plan.starts, *plan.gbn}):
             targets = [(c, edge) for c in plan.c for edge in plan.edges] if gradients in plan.starts else []
+            start = f"start {plan.n} {plan.d} {gradients} {seed}"
             beside = ("gbn", plan.n, plan.d, math.nan, math.nan, gradients, seed)
-            keys = [beside, *(("deep", plan.n, plan.d, c, edge, gradients, seed) for c, edge in targets)]
-            keys = [key for key in keys if text(key) not in done]
-            if not keys:
-                continue
-            before = time.process_time()
-            x = GaussianBlueNoise(gradients=gradients)(plan.n, plan.d, realization_rng(seed, 0))
-            seconds = time.process_time() - before
-            for key in keys:
-                if key is beside:
-                    yield row(
-                        key, x, plan.edge, chi=math.nan, converged=True, steps=0, products=0, cpu_s=seconds
-                    )
-                else:
-                    yield deepened(key, x, seconds)
+            tasks.append(Task(start, start, draw_start, (plan.n, plan.d, gradients, seed)))
+            tasks.append(_row_task(gbn_row, (beside, plan.edge), start))
+            for c, edge in targets:
+                tasks.append(
+                    _row_task(deep_row, (("deep", plan.n, plan.d, c, edge, gradients, seed),), start)
+                )
+    return tasks
 
 
-def deepened(key: tuple[Any, ...], x: FloatArray, seconds: float) -> dict[str, Any]:
-    """Bring one start to one profile; a set that does not converge has no measures."""
+def _row_task(function: Callable[..., dict[str, Any]], arguments: tuple[Any, ...], start: str) -> Task:
+    key = " ".join(text(arguments[0]))
+    return Task(key, key, function, arguments, (start,))
+
+
+def draw_start(n: int, d: int, gradients: int, seed: int) -> Start:
+    """Draw a start of so many gradients.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    gradients : int
+        Gradients of its optimisation.
+    seed : int
+        Of its first realization.
+    """
+    _build_kernels(n, d)
+    before = time.process_time()
+    x = GaussianBlueNoise(gradients=gradients)(n, d, realization_rng(seed, 0))
+    return Start(x, time.process_time() - before)
+
+
+@cache
+def _build_kernels(n: int, d: int) -> None:
+    """Build the kernels before anything is timed."""
+    GaussianBlueNoise(gradients=2)(n, d, realization_rng(0, 0))
+
+
+def gbn_row(key: tuple[Any, ...], edge: float, starts: Sequence[Start]) -> dict[str, Any]:
+    """Measure a start itself.
+
+    Parameters
+    ----------
+    key : tuple
+        As ``KEY`` says.
+    edge : float
+        Where the band beyond the edge is taken to begin, in nu.
+    starts : sequence of one Start
+        The set.
+    """
+    (start,) = starts
+    return row(key, start.x, edge, chi=math.nan, converged=True, steps=0, products=0, cpu_s=start.seconds)
+
+
+def deep_row(key: tuple[Any, ...], starts: Sequence[Start]) -> dict[str, Any]:
+    """Bring one start to one profile and measure it; a set that does not converge has no measures.
+
+    Parameters
+    ----------
+    key : tuple
+        As ``KEY`` says.
+    starts : sequence of one Start
+        The set to start from.
+    """
+    (start,) = starts
     _, _, d, c, edge, _, _ = key
     before = time.process_time()
-    outcome = reach(x, Exponential(c * math.pi**2, edge), edge)
+    outcome = reach(start.x, Exponential(c * math.pi**2, edge), edge)
     told: dict[str, Any] = {
         "chi": chi(d, edge), "converged": outcome.converged, "steps": outcome.steps,
-        "products": outcome.products, "cpu_s": seconds + time.process_time() - before,
+        "products": outcome.products, "cpu_s": start.seconds + time.process_time() - before,
     }  # fmt: skip
     if outcome.converged:
         return row(key, outcome.x, edge, **told)
@@ -186,23 +254,71 @@ def text(key: tuple[Any, ...]) -> tuple[str, ...]:
     return tuple(f"{cell:.6g}" if isinstance(cell, float) else str(cell) for cell in key)
 
 
+class RowStore:
+    """The table of a map as a store of results: a line a set. Starts are not kept.
+
+    Parameters
+    ----------
+    path : Path
+        Of the table; it need not exist.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        earlier: list[dict[str, str]] = []
+        if path.exists():
+            with path.open(newline="", encoding="utf-8") as file:
+                earlier = list(csv.DictReader(file))
+        self._earlier = {" ".join(line[name] for name in KEY): line for line in earlier}
+
+    def __enter__(self) -> Self:
+        """Open the table and write what it held before."""
+        self._rows = Rows(self.path, COLUMNS).__enter__()
+        for line in self._earlier.values():
+            self._rows.add(line)
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        """Close the table; the rows are there already."""
+        self._rows.__exit__(None, None, None)
+
+    def read(self, key: str) -> Mapping[str, Any] | None:
+        """Return the row that an earlier run left."""
+        return self._earlier.get(key)
+
+    def write(self, key: str, result: Mapping[str, Any] | Start) -> None:  # noqa: ARG002 - the row holds it
+        """Write a row."""
+        if not isinstance(result, Start):
+            self._rows.add(result)
+
+
 def main(arguments: list[str], maps: tuple[Map, ...] = MAPS) -> None:
-    """Fill the table in the file named, from where it was left."""
+    """Fill the table in the file named, from where it was left.
+
+    Parameters
+    ----------
+    arguments : list of one str
+        The file.
+    maps : tuple of Map
+        What is drawn.
+
+    Raises
+    ------
+    GbnbenchError
+        If a set cannot be made or measured.
+    """
     path = Path(arguments[0])
-    kept: list[dict[str, str]] = []
-    if path.exists():
-        with path.open(newline="", encoding="utf-8") as file:
-            kept = list(csv.DictReader(file))
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.with_name("machine.json").write_text(json.dumps(describe(), indent=1) + "\n", encoding="utf-8")
-    with Rows(path, COLUMNS) as table:
-        for old in kept:
-            table.add(old)
-        done = {tuple(old[name] for name in KEY) for old in kept}
-        for plan in maps:
-            for new in rows(plan, done):
-                table.add(new)
-                print(*text(tuple(new[name] for name in (*KEY, "converged", "noise_floor"))), flush=True)
+    write_whole(path.with_name("machine.json"), (json.dumps(describe(), indent=1) + "\n").encode())
+    with RowStore(path) as store:
+        for done in TaskRun([task for plan in maps for task in tasks_of(plan)], store).complete(
+            None, Progress()
+        ):
+            if done.failure:
+                raise GbnbenchError(f"{done.key} failed: {done.failure}")
+            if not isinstance(done.value, Start):
+                shown = tuple(done.value[name] for name in (*KEY, "converged", "noise_floor"))
+                print(*text(shown), flush=True)
 
 
 if __name__ == "__main__":

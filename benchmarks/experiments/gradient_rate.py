@@ -22,11 +22,11 @@ import numpy as np
 
 from gbnbench.benchmarks.timing.interleaved import Timing, interleave
 from gbnbench.benchmarks.timing.machine import Rows, describe
+from gbnbench.core.atomic_write import write_whole
 from gbnbench.execution.worker_pool import ONE_THREAD
 from gbnbench.generators.gbn.energy import field
 from gbnbench.generators.gbn.operation_counts import Cost
 from gbnbench.generators.gbn.plan import plan
-from gbnbench.io.atomic import write_whole
 from gbnbench.opencl.peak_rate import fma_peak
 
 COLUMNS = (

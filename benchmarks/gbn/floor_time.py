@@ -24,6 +24,7 @@ from gbnbench.benchmarks.gbn.cutoffs import FORCES, forces
 from gbnbench.benchmarks.gbn.floor_cases import SIGMA, Case, Curve, Plan
 from gbnbench.benchmarks.timing.machine import Rows, describe
 from gbnbench.benchmarks.timing.threads import one_blas_thread
+from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.execution.progress import Progress
@@ -31,7 +32,6 @@ from gbnbench.generators.gbn.energy import field
 from gbnbench.generators.gbn.operation_counts import CUTOFF
 from gbnbench.generators.gbn.optimiser import Descent, Nesterov, authors_step, step_size
 from gbnbench.generators.protocol import realization_rng
-from gbnbench.io.atomic import write_whole
 from gbnbench.opencl import runtime
 
 # Mean over the ten sets of 1,024 points made by the authors' own program, 10,000 steps each.

@@ -21,9 +21,9 @@ from gbnbench.analysis.spectrum.evaluators.nufft.limits import DIMENSIONS
 from gbnbench.analysis.spectrum.evaluators.registry import Method, title_of
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.benchmarks.spectra.hard_cases import Frequencies, HardCase, hard_cases
+from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.results import Spectrum, resolvable_power
 from gbnbench.core.torus import FloatArray
-from gbnbench.io.atomic import write_whole
 from gbnbench.opencl import runtime
 
 PRECISIONS: tuple[PrecisionName, ...] = ("double", "float")

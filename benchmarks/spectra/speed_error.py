@@ -23,11 +23,11 @@ from gbnbench.benchmarks.spectra.tile import tile_share
 from gbnbench.benchmarks.timing.interleaved import Timing, interleave
 from gbnbench.benchmarks.timing.machine import Rows, describe, peaks
 from gbnbench.benchmarks.timing.threads import one_blas_thread
+from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.errors import InputError
 from gbnbench.core.results import resolvable_power
 from gbnbench.core.torus import FloatArray
 from gbnbench.execution.progress import Progress
-from gbnbench.io.atomic import write_whole
 
 STEEP = 1e7  # operations from which a slope is fitted: below, launching the kernels is what costs
 TIMES = ("cpu_ms", "cpu_ms_median", "wall_ms", "wall_ms_median")

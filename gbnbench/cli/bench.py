@@ -10,7 +10,7 @@ import click
 
 from gbnbench.cli import options
 from gbnbench.cli.bench_gbn import gbn
-from gbnbench.cli.text_table import aligned, number
+from gbnbench.core.text_table import aligned, number
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -67,7 +67,7 @@ def periodogram(quick: bool, out: Path, quiet: bool, tiny: bool) -> None:
 
 def _draw(outcome: Outcome, out: Path) -> None:
     """Write the two pictures as PNG and PDF."""
-    from gbnbench.io.atomic import write_whole
+    from gbnbench.core.atomic_write import write_whole
     from gbnbench.reports.benchmarks import scaling, speed_error
     from gbnbench.reports.comparison.figure_files import pdf, png
 

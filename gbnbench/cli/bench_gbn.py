@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from gbnbench.cli import options
-from gbnbench.cli.text_table import aligned, number
+from gbnbench.core.text_table import aligned, number
 
 if TYPE_CHECKING:
     from gbnbench.benchmarks.gbn.floor_time import Outcome
@@ -66,7 +66,7 @@ def gbn(quick: bool, out: Path, quiet: bool, tiny: bool) -> None:
 
 def draw(outcome: Outcome, out: Path) -> None:
     """Write the picture as PNG and PDF."""
-    from gbnbench.io.atomic import write_whole
+    from gbnbench.core.atomic_write import write_whole
     from gbnbench.reports.benchmarks import floor_time
     from gbnbench.reports.comparison.figure_files import pdf, png
 

@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from gbnbench.cli import options
-from gbnbench.cli.text_table import aligned
+from gbnbench.core.text_table import aligned
 
 if TYPE_CHECKING:
     from gbnbench.execution.progress import Progress
     from gbnbench.regression.cases import Case
-    from gbnbench.regression.runner import Change
+    from gbnbench.regression.runner import ExpectationChange
     from gbnbench.regression.verdict import Verdict
 
 MARKS = {"ok": "ok", "better": "▲ better", "worse": "▼ worse", "skipped": "skipped"}
@@ -162,7 +162,7 @@ def _table(verdicts: Sequence[Verdict], quiet: bool) -> Iterator[str]:
     yield f"{len(verdicts)} values of {cases} cases: {counts}"
 
 
-def _changes(changes: Sequence[Change]) -> Iterator[str]:
+def _changes(changes: Sequence[ExpectationChange]) -> Iterator[str]:
     """Lay out old -> new of every value."""
     from gbnbench.regression.verdict import allowed, shown, title
 
@@ -179,8 +179,8 @@ def _changes(changes: Sequence[Change]) -> Iterator[str]:
     )  # fmt: skip
 
 
-def _moved(change: Change) -> str:
-    from gbnbench.reports.numbers import number
+def _moved(change: ExpectationChange) -> str:
+    from gbnbench.core.number_text import number
 
     if not change.before.expected:
         return "new"
@@ -209,7 +209,7 @@ def _entry(verdict: Verdict) -> dict[str, Any]:
     }
 
 
-def _change_entry(change: Change) -> dict[str, Any]:
+def _change_entry(change: ExpectationChange) -> dict[str, Any]:
     sides = {"before": change.before, "after": change.after}
     return {
         "case": change.case,

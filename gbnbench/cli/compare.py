@@ -13,7 +13,7 @@ from gbnbench.cli import options
 from gbnbench.cli.report import draw
 
 if TYPE_CHECKING:
-    from gbnbench.studies.comparison import Outcome
+    from gbnbench.studies.comparison import ComparisonOutcome
 
 EPILOG = """\b
 Examples:
@@ -60,7 +60,7 @@ def compare(
     """
     from gbnbench.execution import progress
     from gbnbench.runs.sources import DEFAULT_SOURCES, resolve
-    from gbnbench.studies.comparison import compare as run_comparison
+    from gbnbench.studies.comparison import run_comparison
 
     found, skipped = resolve(sources or DEFAULT_SOURCES, n, d, realizations)
     for line in skipped:
@@ -82,7 +82,7 @@ def compare(
         click.get_current_context().exit(1)
 
 
-def _tell(outcome: Outcome) -> None:
+def _tell(outcome: ComparisonOutcome) -> None:
     """Print the table, what to beware of, the verdicts, and where everything is."""
     from gbnbench.reports.comparison.table import terminal_text
 

@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING
 import click
 
 from gbnbench.cli import options
-from gbnbench.cli.text_table import aligned, number
+from gbnbench.core.text_table import aligned, number
 
 if TYPE_CHECKING:
     import pandas as pd
 
     from gbnbench.analysis.integration.integrands.protocol import Family
-    from gbnbench.studies.integration.study import Integration
+    from gbnbench.studies.integration.study import IntegrationStudy
 
 UNTOLD = " (nothing foretold: not periodic, or its spectrum not known or too long here)"
 EPILOG = """\b
@@ -107,11 +107,10 @@ def integrate(
     family is periodic. Stopped in any way, the same command goes on where it was.
     """
     from gbnbench.execution import progress
-    from gbnbench.studies.integration.study import DEFAULT_INTEGRANDS, DEFAULT_SOURCES
-    from gbnbench.studies.integration.study import integrate as run
+    from gbnbench.studies.integration.study import DEFAULT_INTEGRANDS, DEFAULT_SOURCES, run_integration_study
 
     with progress.choose(quiet) as teller:
-        outcome = run(
+        outcome = run_integration_study(
             sources or DEFAULT_SOURCES,
             out,
             n=n,
@@ -134,9 +133,9 @@ def integrate(
     click.echo(f"\nfolder: {outcome.folder} ({outcome.seconds:.1f} s{kept})")
 
 
-def draw(study: Integration, folder: Path) -> None:
+def draw(study: IntegrationStudy, folder: Path) -> None:
     """Write the picture as PNG and PDF."""
-    from gbnbench.io.atomic import write_whole
+    from gbnbench.core.atomic_write import write_whole
     from gbnbench.reports.comparison.figure_files import pdf, png
     from gbnbench.reports.integration.variance import figure
 
@@ -145,7 +144,7 @@ def draw(study: Integration, folder: Path) -> None:
     write_whole(folder / "integration.pdf", pdf(drawn))
 
 
-def report(study: Integration) -> Iterator[str]:
+def report(study: IntegrationStudy) -> Iterator[str]:
     """Lay out a table for each family and d: a row a source, a column an n, and the slope."""
     for _, part in study.variance.groupby(["integrand", "d"], sort=False):
         family, d = str(part["integrand"].iloc[0]), int(part["d"].iloc[0])

@@ -11,6 +11,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from gbnbench.core.atomic_write import write_whole
+
 
 def is_writable(folder: Path) -> bool:
     """Whether a file can really be made in folder, which is created if need be."""
@@ -49,10 +51,5 @@ def recall(name: str) -> Any | None:
 
 def remember(name: str, value: Any) -> None:
     """Keep a JSON value under name, whole or not at all; a cache that cannot be written costs only time."""
-    path = cache_folder() / f"{name}.json"
-    partial = path.with_name(f".{path.name}.{os.getpid()}")
-    try:
-        partial.write_text(json.dumps(value))
-        partial.replace(path)
-    except OSError:
-        partial.unlink(missing_ok=True)
+    with contextlib.suppress(OSError):
+        write_whole(cache_folder() / f"{name}.json", json.dumps(value).encode())

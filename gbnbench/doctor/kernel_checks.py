@@ -1,4 +1,4 @@
-"""Whether a device can be trusted: every kernel of ours against plain numpy, on the user's own device.
+"""Checks of every OpenCL kernel of gbnbench against plain numpy, on the user's own device.
 
 Runtimes have miscompiled kernels on some processors (PoCL's tracker, issue 979), so nothing is believed that
 was not tried on the device, driver and version at hand.
@@ -10,14 +10,12 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-import gbnbench
 from gbnbench.analysis.precision import PrecisionName
-from gbnbench.core.cache_folder import recall, remember
-from gbnbench.core.errors import DeviceError, GbnbenchError
-from gbnbench.core.torus import FloatArray, displacement, spacing
-from gbnbench.opencl import Device, choose, runtime
+from gbnbench.core.errors import GbnbenchError
+from gbnbench.core.torus import displacement
+from gbnbench.doctor.numpy_references import numpy_box_gradient, numpy_gradient, numpy_power
+from gbnbench.opencl import Device, choose
 
 # n, d, fmax: none a multiple of a vector, a tile or a chunk.
 PERIODOGRAMS = ((7, 1, 19), (131, 2, 11), (333, 2, 5), (61, 3, 3), (29, 5, 1))
@@ -96,29 +94,6 @@ class Examination:
         )
 
 
-def numpy_power(x: FloatArray, frequencies: NDArray[np.int64]) -> FloatArray:
-    """Power at listed frequencies by integer phases and numpy's own cosines: (m,) float64."""
-    turns = np.rint(x * 2.0**64).astype(np.uint64)
-    phase = np.zeros((len(frequencies), len(x)), np.uint64)
-    for a in range(x.shape[1]):
-        phase += frequencies[:, a].astype(np.uint64)[:, None] * turns[:, a]
-    angle = 2 * np.pi * (phase.astype(np.int64) / 2.0**64)
-    power: FloatArray = (np.cos(angle).sum(axis=1) ** 2 + np.sin(angle).sum(axis=1) ** 2) / len(x)
-    return power
-
-
-def numpy_gradient(x: FloatArray, sigma: float) -> FloatArray:
-    """Gradient of the energy by points in spacings, images summed one by one: (n, d) float64."""
-    n, d = x.shape
-    side = 1 / spacing(n, d)
-    images = np.arange(-np.ceil(9 * sigma / side) - 1, np.ceil(9 * sigma / side) + 2) * side
-    u = ((x[:, None] - x[None]) * side)[..., None] + images
-    gauss = np.exp(-(u**2) / (2 * sigma**2))
-    value, slope = gauss.sum(axis=-1), (-u / sigma**2 * gauss).sum(axis=-1)
-    others = [np.prod(np.delete(value, a, axis=-1), axis=-1) for a in range(d)]
-    return np.stack([(slope[..., a] * others[a]).sum(axis=1) for a in range(d)], axis=1)
-
-
 def _periodogram(n: int, d: int, fmax: int, precision: PrecisionName) -> Iterator[Check]:
     from gbnbench.analysis.spectrum.evaluators.gridded.product import griddable
     from gbnbench.analysis.spectrum.periodogram import periodogram
@@ -159,21 +134,6 @@ def _energy(n: int, d: int, sigma: float, precision: str) -> Iterator[Check]:
         yield Check(
             f"gbn gradient, {method}", f"n={n} d={d} sigma={sigma}", precision, error, GRADIENT[precision]
         )
-
-
-def numpy_box_gradient(x: FloatArray, sigma: float) -> FloatArray:
-    """Gradient of the box's energy, pairs less the pull of a uniform density (Eq. 24-26): (n, d) float64."""
-    from scipy.special import erf
-
-    n, d = x.shape
-    side, root = 1 / spacing(n, d), np.sqrt(2) * sigma
-    u = x * side
-    apart = u[:, None] - u[None]
-    pairs = np.exp(-(apart**2).sum(axis=-1) / (2 * sigma**2))
-    within = sigma * np.sqrt(np.pi / 2) * (erf((side - u) / root) + erf(u / root))
-    slope = np.exp(-((u / root) ** 2)) - np.exp(-(((side - u) / root) ** 2))
-    pull = np.stack([slope[:, a] * np.prod(np.delete(within, a, axis=1), axis=1) for a in range(d)], axis=1)
-    return np.asarray(-(pairs[..., None] * apart).sum(axis=1) / sigma**2 - pull)
 
 
 def _box(n: int, d: int, sigma: float, precision: str) -> Iterator[Check]:
@@ -230,21 +190,3 @@ def examine(quick: bool = False) -> Examination:
             except (GbnbenchError, RuntimeError) as error:
                 checks.append(Check(check.__name__.strip("_"), str(case), precision, np.inf, 0.0, str(error)))
     return Examination(device, tuple(checks))
-
-
-def ensure_trusted() -> None:
-    """Examine the chosen device quickly, once for each device, driver and version of ours, and remember.
-
-    Raises
-    ------
-    DeviceError
-        If there is no device, or a kernel departs from numpy on it.
-    """
-    device = runtime().device
-    key = f"trusted-{gbnbench.__version__}-{device.fingerprint}"
-    if recall(key) is True:
-        return
-    examination = examine(quick=True)
-    if not examination.trusted:
-        raise DeviceError(examination.verdict)
-    remember(key, True)

@@ -9,10 +9,10 @@ from importlib import resources
 from pathlib import Path
 from typing import Any, NoReturn, cast, get_args
 
+from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.errors import FormatError, InputError
 from gbnbench.core.settings import nearest
 from gbnbench.generators.registry import find
-from gbnbench.io.atomic import write_whole
 from gbnbench.regression.cases import Better, Case, Expectation, Scale, Spread, Values
 from gbnbench.regression.measurement import NAMES, lattice
 

@@ -1,29 +1,29 @@
-"""Measuring cases again, in worker processes or in this one, judging them, and remaking what is expected."""
+"""The regression check: cases are measured again and judged, or what they expect is measured anew."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import cast
 
 import numpy as np
 from scipy import stats
 
 from gbnbench.core.errors import GbnbenchError, InputError
 from gbnbench.execution.progress import Progress
-from gbnbench.execution.worker_pool import Finished, Pool
+from gbnbench.execution.worker_pool import Finished
 from gbnbench.opencl import choose
 from gbnbench.regression.cases import Case, Expectation, Spread, Values
 from gbnbench.regression.measurement import observe
 from gbnbench.regression.verdict import Verdict, failed, judge, skipped, title
+from gbnbench.runs.resumable import Task, TaskRun
 
 FALSE_ALARM = 1e-4  # chance that another seed, or another device, alone makes a measure worse
 ROUNDING = 1e-9  # relative spread below which seeds do not matter
 
 
 @dataclass(frozen=True)
-class Change:
+class ExpectationChange:
     """An expectation before and after an update."""
 
     case: str
@@ -65,8 +65,9 @@ def check(cases: Sequence[Case], *, jobs: int = 1, progress: Progress | None = N
                 )
     able = [case for case in cases if _reason(case) is None]
     verdicts = {case.name: skipped(case, _reason(case) or "") for case in cases}
-    for done in _each([(case, case.seed) for case in able], jobs, progress or Progress()):
-        case = next(c for c in able if (c.name, c.seed) == done.key)
+    by_key = {_key(case, case.seed): case for case in able}
+    for done in _measure([(case, case.seed) for case in able], jobs, progress or Progress()):
+        case = by_key[str(done.key)]
         verdicts[case.name] = (
             failed(case, done.failure)
             if done.failure
@@ -77,7 +78,7 @@ def check(cases: Sequence[Case], *, jobs: int = 1, progress: Progress | None = N
 
 def update(
     cases: Sequence[Case], seeds: int, *, jobs: int = 1, progress: Progress | None = None
-) -> tuple[tuple[Case, ...], tuple[Change, ...]]:
+) -> tuple[tuple[Case, ...], tuple[ExpectationChange, ...]]:
     """Measure anew what cases expect, over several seeds; what has a reference stays.
 
     Parameters
@@ -93,7 +94,7 @@ def update(
     -------
     cases : tuple of Case
         With new values, spreads and tolerances.
-    changes : tuple of Change
+    changes : tuple of ExpectationChange
         Every expectation that was measured, in order.
 
     Raises
@@ -109,22 +110,22 @@ def update(
     for case in measured:
         if reason := _reason(case):
             raise InputError(f"{case.name}: {reason}")
-    found: dict[str, dict[int, dict[str, Values]]] = {case.name: {} for case in measured}
-    tasks = [(case, case.seed + k) for case in measured for k in range(seeds)]
-    for done in _each(tasks, jobs, progress or Progress()):
-        name, seed = cast(tuple[str, int], done.key)
+    found: dict[str, dict[str, Values]] = {}
+    runs = [(case, case.seed + k) for case in measured for k in range(seeds)]
+    labels = {_key(case, seed): f"{case.name}, seed {seed}" for case, seed in runs}
+    for done in _measure(runs, jobs, progress or Progress()):
         if done.failure:
-            raise GbnbenchError(f"{name}, seed {seed}, could not be measured: {done.failure}")
-        found[name][seed] = done.value
+            raise GbnbenchError(f"{labels[str(done.key)]}, could not be measured: {done.failure}")
+        found[str(done.key)] = done.value
     made, changes = [], []
     for case in cases:
         renewed = dict(case.measures)
         for measure, expectation in case.measures.items():
             if expectation.reference:
                 continue
-            values = [found[case.name][case.seed + k][measure] for k in range(seeds)]
+            values = [found[_key(case, case.seed + k)][measure] for k in range(seeds)]
             renewed[measure] = expect(f"{case.name}: {title(measure)}", expectation, values)
-            changes.append(Change(case.name, measure, expectation, renewed[measure]))
+            changes.append(ExpectationChange(case.name, measure, expectation, renewed[measure]))
         made.append(replace(case, measures=renewed))
     return tuple(made), tuple(changes)
 
@@ -186,23 +187,18 @@ def _reason(case: Case) -> str | None:
     return None
 
 
-def _each(tasks: Sequence[tuple[Case, int]], jobs: int, progress: Progress) -> Iterator[Finished]:
-    """Measure every case with every seed, the largest first; keys are (name, seed)."""
-    ordered = sorted(tasks, key=lambda task: -task[0].realizations * task[0].n ** 2)
-    progress.start(len(tasks), 0, "measuring")
-    if jobs == 1:
-        for case, seed in ordered:
-            try:
-                done = Finished((case.name, seed), observe(case, seed))
-            except GbnbenchError as error:
-                done = Finished((case.name, seed), failure=str(error))
-            progress.advance(f"measured {case.name}")
-            yield done
-        return
-    with Pool(min(jobs, max(1, len(tasks)))) as pool:
-        for case, seed in ordered:
-            pool.submit((case.name, seed), observe, case, seed)
-        while pool.pending:
-            done = pool.next()
-            progress.advance(f"measured {done.key[0]}")  # type: ignore[index]
-            yield done
+def _key(case: Case, seed: int) -> str:
+    return f"{case.name}/{seed}"
+
+
+def _measure(runs: Sequence[tuple[Case, int]], jobs: int, progress: Progress) -> Iterator[Finished]:
+    """Measure every case with its seed, the largest first."""
+    ordered = sorted(runs, key=lambda run: -run[0].realizations * run[0].n ** 2)
+    tasks = [
+        Task(_key(case, seed), f"measuring {case.name}", observe, (case, seed), done=f"measured {case.name}")
+        for case, seed in ordered
+    ]
+    # What the doctor would refuse is a verdict here.
+    return TaskRun(tasks).complete(
+        None if jobs == 1 else jobs, progress, doing="measuring", prove_device=False
+    )

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 from gbnbench.analysis.measure_definitions import BY_NAME
+from gbnbench.core.number_text import number
 from gbnbench.regression.cases import Case, Expectation, Values
-from gbnbench.reports.numbers import number
 
 Word = Literal["ok", "better", "worse", "skipped"]
 

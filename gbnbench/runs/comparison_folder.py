@@ -1,4 +1,4 @@
-"""The run folder of a comparison: its parts, its sources, and the tables."""
+"""The folder of a comparison: its realizations, the results of its sources, and its tables."""
 
 from __future__ import annotations
 
@@ -14,16 +14,17 @@ from typing import Any
 import numpy as np
 
 from gbnbench.analysis.measure_definitions import BY_NAME, DEFINITIONS
+from gbnbench.core import atomic_write
 from gbnbench.core.errors import FormatError, InputError
 from gbnbench.core.torus import FloatArray
-from gbnbench.io import atomic
+from gbnbench.io import data_files
 from gbnbench.runs import source_files
 from gbnbench.runs.comparison_result import Run, SourceResult
-from gbnbench.runs.resumable_folder import FORMAT, MANIFEST, SETTINGS, KeptFolder, read_json
+from gbnbench.runs.resumable_folder import FORMAT, MANIFEST, SETTINGS, ResumableFolder
 
 
 @dataclass(frozen=True)
-class Part:
+class Realization:
     """One generated realization.
 
     Attributes
@@ -41,31 +42,69 @@ class Part:
     first: bool
 
 
-class RunFolder(KeptFolder):
-    """One comparison on disk."""
+class ComparisonFolder(ResumableFolder):
+    """One comparison on disk, and the store of its tasks.
+
+    Notes
+    -----
+    A task whose key is a source's, such as ``gbn_n64_d2``, results in a SourceResult; one whose key is that
+    of a realization, such as ``gbn_n64_d2/000003``, in a Realization.
+    """
 
     kind = "run"
 
-    def write_part(self, key: str, k: int, part: Part) -> None:
-        """Keep realization k of a source."""
-        cost = {"cpu_seconds": np.asarray(part.cpu_seconds), "first": np.asarray(part.first)}
-        atomic.write_whole(self._part(key, k), source_files.to_npz(points=part.x, **cost))
+    def read(self, key: str) -> SourceResult | Realization | None:
+        """Return what is kept under a task's key; None where it has still to be made."""
+        source, _, number = key.partition("/")
+        return self.read_realization(source, int(number)) if number else self.read_source(source)
 
-    def read_part(self, key: str, k: int) -> Part | None:
-        """Realization k of a source, None where it has still to be made."""
+    def write(self, key: str, result: SourceResult | Realization) -> None:
+        """Keep the result of a task."""
+        if isinstance(result, Realization):
+            source, _, number = key.partition("/")
+            self.write_realization(source, int(number), result)
+        else:
+            self.write_source(result)
+
+    def write_realization(self, source: str, k: int, realization: Realization) -> None:
+        """Keep a realization.
+
+        Parameters
+        ----------
+        source : str
+            The key of its source.
+        k : int
+            Its number.
+        realization : Realization
+            The points and what they cost.
+        """
+        cost = {"cpu_seconds": np.asarray(realization.cpu_seconds), "first": np.asarray(realization.first)}
+        content = data_files.to_npz(points=realization.x, **cost)
+        atomic_write.write_whole(self._realization(source, k), content)
+
+    def read_realization(self, source: str, k: int) -> Realization | None:
+        """Return realization k of a source; None where it has still to be made.
+
+        Parameters
+        ----------
+        source : str
+            The key of the source.
+        k : int
+            The number of the realization.
+        """
         try:
-            arrays = source_files.reading(self._part(key, k), source_files.read_npz)
-            return Part(arrays["points"], float(arrays["cpu_seconds"]), bool(arrays["first"]))
+            arrays = data_files.read_or_explain(self._realization(source, k), data_files.read_npz)
+            return Realization(arrays["points"], float(arrays["cpu_seconds"]), bool(arrays["first"]))
         except (FormatError, KeyError):  # absent, or spoilt after it was written: made again
             return None
 
     def write_source(self, result: SourceResult) -> None:
-        """Keep everything of one source; its parts are then no longer needed."""
-        atomic.write_folder_whole(self.path / "sources" / result.key, source_files.encode(result))
+        """Keep everything of one source; the files of its realizations are then no longer needed."""
+        atomic_write.write_folder_whole(self.path / "sources" / result.key, source_files.encode(result))
         shutil.rmtree(self.path / "parts" / result.key, ignore_errors=True)
 
     def read_source(self, key: str) -> SourceResult | None:
-        """All that was measured of a source, None where it has still to be measured."""
+        """Return everything of one source; None where it has still to be measured."""
         try:
             return source_files.decode(self.path / "sources" / key)
         except FormatError:
@@ -74,7 +113,7 @@ class RunFolder(KeptFolder):
     def write_tables(self, run: Run) -> None:
         """Write ``measures.csv`` (a row a source and measure) and ``table.csv`` (a row a source)."""
         for name, rows in (("measures.csv", long_table(run)), ("table.csv", wide_table(run))):
-            atomic.write_whole(self.path / name, _csv(rows))
+            atomic_write.write_whole(self.path / name, _csv(rows))
 
     def finish(self, manifest: Mapping[str, Any]) -> None:
         """Declare it whole: checksums of the data, and the manifest as the very last file."""
@@ -83,12 +122,25 @@ class RunFolder(KeptFolder):
         sums = {p.relative_to(self.path).as_posix(): _sha256(p) for p in data if p.is_file()}
         super().finish({**manifest, "sha256": sums})
 
-    def _part(self, key: str, k: int) -> Path:
-        return self.path / "parts" / key / f"{k:06d}.npz"
+    def _realization(self, source: str, k: int) -> Path:
+        return self.path / "parts" / f"{realization_key(source, k)}.npz"
+
+
+def realization_key(source: str, k: int) -> str:
+    """Name the task that makes realization k of a source, given the source's key."""
+    return f"{source}/{k:06d}"
 
 
 def default_folder(identity: Mapping[str, Any], command: str = "") -> Path:
-    """Name a folder by its settings, so that the same command finds the same one."""
+    """Name a folder by its settings, so that the same command finds the same one.
+
+    Parameters
+    ----------
+    identity : mapping
+        The settings, with ``sources`` among them.
+    command : str
+        A word that the name begins with.
+    """
     sources = identity["sources"]
     labels = dict.fromkeys(source["label"].lower() for source in sources)
     words = "-".join(re.sub(r"[^a-z0-9]+", "-", label).strip("-") for label in labels)
@@ -118,7 +170,7 @@ def read_run(folder: str | Path) -> Run:
         if (path / SETTINGS).is_file():
             raise InputError(f"{path} is an unfinished run; the same gbnbench compare command finishes it")
         raise InputError(f"{path} is not a run of gbnbench: it has no {MANIFEST}")
-    manifest = read_json(path / MANIFEST)
+    manifest = data_files.read_json(path / MANIFEST)
     if manifest.get("format") != FORMAT:
         found = manifest.get("format")
         raise FormatError(path / MANIFEST, f"has format {found!r}; this version reads {FORMAT}")
@@ -176,7 +228,7 @@ def wide_table(run: Run) -> list[dict[str, object]]:
 def _csv(rows: list[dict[str, object]]) -> bytes:
     import pandas as pd
 
-    return source_files.to_csv(pd.DataFrame(rows))
+    return data_files.to_csv(pd.DataFrame(rows))
 
 
 def _sha256(path: Path) -> str:

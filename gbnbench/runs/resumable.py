@@ -1,126 +1,255 @@
-"""Work in pieces: done side by side in workers, each kept as it comes, only what is missing done again."""
+"""Tasks that depend on each other: every result is kept as it comes, and only what is missing is done."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
+from pathlib import Path
+from typing import Any, Protocol
 
-from numpy.typing import NDArray
-
-from gbnbench.core.errors import DeviceError, FormatError, UnfinishedError
+from gbnbench.core.errors import GbnbenchError, UnfinishedError
 from gbnbench.execution.progress import Progress
-from gbnbench.execution.worker_pool import Pool
-from gbnbench.execution.worker_tasks import prove_device
-from gbnbench.io import atomic
-from gbnbench.runs import source_files
-from gbnbench.runs.resumable_folder import KeptFolder
-
-FOLDER = "pieces"
-Arrays = Mapping[str, NDArray[Any]]
+from gbnbench.execution.worker_pool import Finished, Pool
+from gbnbench.runs.device_proof import prove_device_if_any
 
 
 @dataclass(frozen=True)
-class Piece:
-    """One call in a worker.
+class Task:
+    """One call of a function.
 
     Attributes
     ----------
     key : str
-        Unique among the pieces and safe as a path below the folder, such as ``gbn_n64_d2/000000``.
-    what : str
-        What it is, in words, such as ``gbn, n=64, d=2``.
-    work : callable
-        A function of a module, that returns arrays by name.
+        Unique among the tasks, and safe as a path, such as ``gbn_n64_d2/000000``.
+    label : str
+        What the user reads, such as ``gbn, n=64, d=2``.
+    function : callable
+        A function of a module, so that a worker process can import it.
     arguments : tuple
-        Of the call; they can be pickled.
+        Its arguments; they can be pickled.
+    requires : tuple of str
+        Keys of the tasks that come first. The list of their results is one more argument of the function.
+    assemble : callable, optional
+        Makes the result that is kept from what the function returned and the list of the results required. It
+        runs in this process, so that large arrays do not travel back from a worker.
+    done : str
+        What the progress says when the task is finished; the label where it is empty.
     """
 
     key: str
-    what: str
-    work: Callable[..., Arrays]
+    label: str
+    function: Callable[..., Any]
     arguments: tuple[Any, ...] = ()
+    requires: tuple[str, ...] = ()
+    assemble: Callable[[Any, list[Any]], Any] | None = None
+    done: str = ""
 
 
-class PieceFolder(KeptFolder):
-    """A folder that keeps pieces as ``pieces/KEY.npz``."""
+class ResultStore(Protocol):
+    """A place that keeps the results of tasks by their keys."""
 
-    def write(self, key: str, arrays: Arrays) -> None:
-        """Keep a piece."""
-        atomic.write_whole(self.path / FOLDER / f"{key}.npz", source_files.to_npz(**arrays))
+    @property
+    def path(self) -> Path:
+        """Where it is, for messages."""
 
-    def read(self, key: str) -> dict[str, NDArray[Any]] | None:
-        """Return a piece; None where it is absent, or was spoilt and has to be made again."""
-        try:
-            return source_files.reading(self.path / FOLDER / f"{key}.npz", source_files.read_npz)
-        except FormatError:
-            return None
+    def read(self, key: str) -> Any | None:
+        """Return the result of a task; None where it is absent, or was spoilt and has to be made again."""
+
+    def write(self, key: str, result: Any) -> None:
+        """Keep the result of a task."""
 
 
-def carry_out(folder: PieceFolder, pieces: Sequence[Piece], jobs: int, progress: Progress) -> int:
-    """Do the pieces that the folder lacks.
+class TaskRun:
+    """Tasks together with the results that are there and those that are missing.
 
     Parameters
     ----------
-    folder : PieceFolder
-        Open for work.
-    pieces : sequence of Piece
-        All of them; the longest first leaves the least idle at the end.
+    tasks : sequence of Task
+        All of them; they are started in this order, so the longest first leave the least idle at the end.
+    store : ResultStore, optional
+        Where results are found and kept; without one nothing outlives the run.
+
+    Attributes
+    ----------
+    results : dict of str
+        Results by key of the tasks that no other task requires. The results of the others are let go as soon
+        as nothing needs them any more.
+    failures : dict of str
+        What went wrong, by key.
+    reused : int
+        Tasks that had nothing to do, because their own result is stored or that of all who require them.
+    missing : list of Task
+        The tasks that remained to be done when the run was made, each after those that it requires.
+
+    Notes
+    -----
+    A stored result is read once. What a task requires is read only if the task's own result is missing.
+    """
+
+    def __init__(self, tasks: Sequence[Task], store: ResultStore | None = None) -> None:
+        self._store = store
+        self._tasks = {task.key: task for task in tasks}
+        self._required = {key for task in tasks for key in task.requires}
+        self.results: dict[str, Any] = {}
+        self.failures: dict[str, str] = {}
+        self.missing: list[Task] = []
+        seen: set[str] = set()
+        for task in tasks:
+            if task.key not in self._required:
+                self._find(task, seen)
+        self.reused = len(tasks) - len(self.missing)
+        lacking = {task.key for task in self.missing}
+        self._awaits = {task.key: {key for key in task.requires if key in lacking} for task in self.missing}
+        self._users: dict[str, list[str]] = {key: [] for key in seen}
+        for task in self.missing:
+            for key in task.requires:
+                self._users[key].append(task.key)
+
+    def complete(
+        self, jobs: int | None, progress: Progress, *, doing: str = "", prove_device: bool = True
+    ) -> Iterator[Finished]:
+        """Do the missing tasks; yield each as it is finished, failed ones too.
+
+        Parameters
+        ----------
+        jobs : int or None
+            Most worker processes, each with one thread; None does the work in this process.
+        progress : Progress
+            Counts a step a task.
+        doing : str
+            What the progress says at first; by default the label of the first task.
+        prove_device : bool
+            Let a worker check the OpenCL device, if there is one, before the tasks begin.
+
+        Yields
+        ------
+        Finished
+            The key with the result, or with what went wrong. Tasks that require a failed one are left out.
+
+        Raises
+        ------
+        DeviceError
+            If there is an OpenCL device and it cannot be used.
+        OSError
+            If a result cannot be kept.
+        """
+        doing = doing or (self.missing[0].label if self.missing else "")
+        if jobs is None:
+            progress.start(len(self._tasks), self.reused, doing)
+            for task in self.missing:
+                if not self._awaits[task.key]:
+                    yield self._settle(_call(task, self._arguments(task)), progress)
+            return
+        with Pool(max(1, min(jobs, len(self.missing)))) as pool:
+            if prove_device:
+                prove_device_if_any(pool, progress, len(self._tasks), self.reused)
+            progress.start(len(self._tasks), self.reused, doing)  # the time of the check is not counted
+            for task in self.missing:
+                if not self._awaits[task.key]:
+                    pool.submit(task.key, task.function, *self._arguments(task))
+            while pool.pending:
+                done = pool.next()
+                settled = self._settle(done, progress)
+                for key in self._users[str(done.key)]:
+                    if not self._awaits[key]:
+                        task = self._tasks[key]
+                        pool.submit(key, task.function, *self._arguments(task))
+                yield settled
+
+    def _find(self, task: Task, seen: set[str]) -> None:
+        """Look for a task's result, and where it is missing for what the task requires."""
+        if task.key in seen:
+            return
+        seen.add(task.key)
+        result = self._store.read(task.key) if self._store else None
+        if result is not None:
+            self.results[task.key] = result
+            return
+        for key in task.requires:
+            self._find(self._tasks[key], seen)
+        self.missing.append(task)
+
+    def _arguments(self, task: Task) -> tuple[Any, ...]:
+        return (*task.arguments, self._inputs(task)) if task.requires else task.arguments
+
+    def _inputs(self, task: Task) -> list[Any]:
+        return [self.results[key] for key in task.requires]
+
+    def _settle(self, done: Finished, progress: Progress) -> Finished:
+        """Keep a result, tell the progress, and let go of what nobody needs any more."""
+        task = self._tasks[str(done.key)]
+        if done.failure:
+            self.failures[task.key] = done.failure
+            progress.advance(f"failed: {task.label}")
+            return done
+        result = task.assemble(done.value, self._inputs(task)) if task.assemble else done.value
+        if self._store:
+            self._store.write(task.key, result)
+        self.results[task.key] = result
+        for key in self._users[task.key]:
+            self._awaits[key].discard(task.key)
+        for key in task.requires:
+            self._users[key].remove(task.key)
+            if not self._users[key]:
+                del self.results[key]
+        progress.advance(task.done or task.label)
+        return Finished(task.key, result)
+
+
+def run_tasks(
+    tasks: Sequence[Task], store: ResultStore, jobs: int, progress: Progress, doing: str = ""
+) -> TaskRun:
+    """Do the tasks whose results a store lacks, in worker processes.
+
+    Parameters
+    ----------
+    tasks : sequence of Task
+        All of them.
+    store : ResultStore
+        Where results are found and kept.
     jobs : int
         Most worker processes, each with one thread.
     progress : Progress
-        A step a piece.
+        Counts a step a task.
+    doing : str
+        What the progress says at first; by default the label of the first task.
 
     Returns
     -------
-    int
-        How many were there already.
+    TaskRun
+        With every result.
 
     Raises
     ------
     UnfinishedError
-        If pieces failed, the first named; every other piece is kept.
+        If tasks failed, the first named; every other result is kept.
     DeviceError
         If there is an OpenCL device and it cannot be used.
+    OSError
+        If a result cannot be kept.
     """
-    missing = [piece for piece in pieces if folder.read(piece.key) is None]
-    there = len(pieces) - len(missing)
-    if not missing:
-        return there
-    if there:
-        progress.say(f"resuming {folder.path}: {there} of {len(pieces)} pieces are there")
-    what = {piece.key: piece.what for piece in missing}
-    failures: list[str] = []
-    with Pool(min(jobs, len(missing))) as pool:
-        _prove_device(pool, progress, len(pieces), there)
-        progress.start(len(pieces), there, missing[0].what)
-        for piece in missing:
-            pool.submit(piece.key, piece.work, *piece.arguments)
-        while pool.pending:
-            done = pool.next()
-            key = str(done.key)
-            if done.failure:
-                failures.append(f"{what[key]}: {done.failure}")
-                progress.say(failures[-1])
-                progress.advance(f"failed: {what[key]}")
-            else:
-                folder.write(key, done.value)
-                progress.advance(what[key])
+    run = TaskRun(tasks, store)
+    if not run.missing:
+        return run
+    if run.reused:
+        progress.say(f"resuming {store.path}: {run.reused} of {len(tasks)} pieces are there")
+    labels = {task.key: task.label for task in run.missing}
+    failures = []
+    for done in run.complete(jobs, progress, doing=doing):
+        if done.failure:
+            failures.append(f"{labels[str(done.key)]}: {done.failure}")
+            progress.say(failures[-1])
     if failures:
         raise UnfinishedError(
-            f"{len(failures)} of {len(missing)} pieces failed (what is finished is kept in {folder.path}; "
+            f"{len(failures)} of {len(run.missing)} pieces failed (what is finished is kept in {store.path}; "
             f"the same command tries only the rest); the first: {failures[0]}"
         )
-    return there
+    return run
 
 
-def _prove_device(pool: Pool, progress: Progress, total: int, there: int) -> None:
-    """Have the device proven, if there is one."""
-    from gbnbench.opencl import choose
-
+def _call(task: Task, arguments: tuple[Any, ...]) -> Finished:
+    """Call a task's function in this process."""
     try:
-        choose()
-    except DeviceError:
-        return
-    progress.start(total, there, "checking the device (kernels of a new one are compiled, once)")
-    prove_device(pool)
+        return Finished(task.key, task.function(*arguments))
+    except GbnbenchError as error:
+        return Finished(task.key, failure=str(error))

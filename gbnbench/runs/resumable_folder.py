@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-import json
 import shutil
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from gbnbench.core import atomic_write
 from gbnbench.core.errors import InputError
-from gbnbench.io import atomic
-from gbnbench.runs import source_files
+from gbnbench.io import data_files
+from gbnbench.io.folder_lock import FolderLock
 
 FORMAT = 1  # of the folder; another number is refused
 SETTINGS, MANIFEST = "settings.json", "manifest.json"
 
 
-class KeptFolder:
+class ResumableFolder:
     """Where the results of one command are kept as they come.
 
     Parameters
@@ -45,7 +45,7 @@ class KeptFolder:
     def _check(self) -> None:
         settings = self.path / SETTINGS
         if settings.exists():
-            there = read_json(settings)
+            there = data_files.read_json(settings)
             if there != self.identity:
                 raise InputError(
                     f"{self.path} holds a {self.kind} with other settings "
@@ -63,21 +63,21 @@ class KeptFolder:
         """Whether everything in it is finished."""
         return (self.path / MANIFEST).exists()
 
-    def lock(self) -> atomic.FolderLock:
+    def lock(self) -> FolderLock:
         """Make the folder where missing and lock it for this process."""
         self.path.mkdir(parents=True, exist_ok=True)
-        return atomic.FolderLock(self.path)
+        return FolderLock(self.path)
 
     def begin(self) -> None:
         """Open it for work, under the lock: from here to ``finish`` it is not whole."""
         self._check()
         (self.path / MANIFEST).unlink(missing_ok=True)
-        atomic.remove_leftovers(self.path)
-        atomic.write_whole(self.path / SETTINGS, source_files.to_json(self.identity))
+        atomic_write.remove_leftovers(self.path)
+        atomic_write.write_whole(self.path / SETTINGS, data_files.to_json(self.identity))
 
     def finish(self, manifest: Mapping[str, Any]) -> None:
         """Declare it whole: the manifest is the very last file."""
-        atomic.write_whole(self.path / MANIFEST, source_files.to_json({**manifest, "format": FORMAT}))
+        atomic_write.write_whole(self.path / MANIFEST, data_files.to_json({**manifest, "format": FORMAT}))
 
     def drop(self, name: str) -> None:
         """Delete a folder below it that is no longer needed."""
@@ -85,7 +85,7 @@ class KeptFolder:
 
 
 @contextmanager
-def said_where(folder: Path) -> Iterator[None]:
+def explain_interruption(folder: Path) -> Iterator[None]:
     """Tell who stops the work where the finished pieces are."""
     try:
         yield
@@ -98,14 +98,9 @@ def said_where(folder: Path) -> Iterator[None]:
         raise OSError(error.errno, text, error.filename or str(folder)) from error
 
 
-def read_json(path: Path) -> dict[str, Any]:
-    """Read an object; raises FormatError naming the file."""
-    return source_files.reading(path, lambda p: dict(json.loads(p.read_text(encoding="utf-8"))))
-
-
 def _is_ours(name: str) -> bool:
     """Whether a name may stand in a folder whose run was killed before it wrote its settings."""
-    return name == atomic.FolderLock.NAME or (name.startswith(".") and name.endswith(".tmp"))
+    return name == FolderLock.NAME or (name.startswith(".") and name.endswith(".tmp"))
 
 
 def _difference(there: Mapping[str, Any], asked: Mapping[str, Any]) -> str:

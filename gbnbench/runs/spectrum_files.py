@@ -15,7 +15,8 @@ from gbnbench.analysis.radial.anisotropy import ROUNDING_VARIANCE, anisotropy
 from gbnbench.analysis.radial.profile_measures import ROUNDING_POWER
 from gbnbench.core.errors import InputError
 from gbnbench.core.results import ShellSpectrum, Spectrum, resolvable_power
-from gbnbench.runs import source_files
+from gbnbench.io import data_files
+from gbnbench.runs.source_files import SPECTRUM_SCALARS
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -23,7 +24,6 @@ if TYPE_CHECKING:
 DATA = (".npz", ".npy", ".csv")
 MOST_ROWS = 4_000_000  # of a .csv, 150 MB
 
-_ABOUT = ("n", "d", "realizations", "fmax", "precision", "method", "device", "error_rms", "error_bound")
 _SHELL = ("frequency", "nu", "power", "count", "deviation")
 
 
@@ -71,11 +71,11 @@ def encode(suffix: str, result: Spectrum | ShellSpectrum, sources: Sequence[str]
     import pandas as pd
 
     if suffix == ".npz":
-        return source_files.to_npz(**_arrays(result, sources))
+        return data_files.to_npz(**_arrays(result, sources))
     if suffix == ".npy":
         check_writable(suffix, "shells" if isinstance(result, ShellSpectrum) else "cube", 0)
         return _npy(result.power)
-    return source_files.to_csv(pd.DataFrame(columns(result)))
+    return data_files.to_csv(pd.DataFrame(columns(result)))
 
 
 def rings_of(shells: ShellSpectrum) -> pd.DataFrame:
@@ -119,7 +119,7 @@ def columns(result: Spectrum | ShellSpectrum) -> dict[str, NDArray[Any]]:
 
 
 def _arrays(result: Spectrum | ShellSpectrum, sources: Sequence[str]) -> dict[str, NDArray[Any]]:
-    about = {name: np.asarray(getattr(result, name)) for name in _ABOUT}
+    about = {name: np.asarray(getattr(result, name)) for name in SPECTRUM_SCALARS}
     about |= {"version": np.asarray(__version__), "sources": np.asarray(list(sources), dtype=np.str_)}
     if isinstance(result, ShellSpectrum):
         rings = rings_of(result)

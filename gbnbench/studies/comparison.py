@@ -1,4 +1,4 @@
-"""The comparison itself: makes the sets, measures them, and keeps every finished piece as it comes."""
+"""The comparison of sources: their sets are made and measured in a folder that the same call can resume."""
 
 from __future__ import annotations
 
@@ -7,29 +7,26 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from gbnbench import __version__
-from gbnbench.core.errors import InputError, UnfinishedError
-from gbnbench.core.torus import FloatArray
+from gbnbench.core.errors import InputError
 from gbnbench.execution.progress import Progress
-from gbnbench.execution.worker_pool import Finished, Pool
-from gbnbench.execution.worker_tasks import analyse_sets, draw_set, prove_device
+from gbnbench.opencl import choose
 from gbnbench.runs import comparison_folder
 from gbnbench.runs.baseline import Change, judge
-from gbnbench.runs.comparison_result import Run, SourceResult
+from gbnbench.runs.comparison_result import Run
 from gbnbench.runs.provenance import versions
-from gbnbench.runs.resumable_folder import said_where
+from gbnbench.runs.resumable import run_tasks
+from gbnbench.runs.resumable_folder import explain_interruption
 from gbnbench.runs.sources import Source
-
-if TYPE_CHECKING:
-    from gbnbench.analysis.measures import Analysis
+from gbnbench.studies.comparison_tasks import comparison_tasks
 
 
 @dataclass(frozen=True)
-class Outcome:
+class ComparisonOutcome:
     """What one call of ``compare`` came to.
 
     Attributes
@@ -62,7 +59,7 @@ class Outcome:
         return any(change.verdict == "worse" for change in self.changes)
 
 
-def compare(
+def run_comparison(
     sources: Sequence[Source],
     folder: Path | None = None,
     *,
@@ -73,7 +70,7 @@ def compare(
     skipped: Sequence[str] = (),
     progress: Progress | None = None,
     draw: Callable[[Run, Path], None] | None = None,
-) -> Outcome:
+) -> ComparisonOutcome:
     """Make and measure every source, in a run folder that the same call can resume.
 
     Parameters
@@ -99,7 +96,7 @@ def compare(
 
     Returns
     -------
-    Outcome
+    ComparisonOutcome
         With the run as it was written.
 
     Raises
@@ -111,8 +108,6 @@ def compare(
     OSError
         If the disk is full; what is finished is kept.
     """
-    from gbnbench.opencl import choose
-
     began = time.monotonic()
     progress = progress or Progress()
     if jobs is not None and jobs < 1:
@@ -129,17 +124,20 @@ def compare(
         "device": device,
         "sources": [source.identity() for source in sources],
     }
-    keeper = comparison_folder.RunFolder(folder or comparison_folder.default_folder(settings), settings)
-    pieces = sum(_pieces(source) for source in sources)
-    with keeper.lock(), said_where(keeper.path):
-        if keeper.whole:
-            run = comparison_folder.read_run(keeper.path)
+    store = comparison_folder.ComparisonFolder(folder or comparison_folder.default_folder(settings), settings)
+    jobs = jobs or os.cpu_count() or 1
+    tasks = comparison_tasks(sources, seed, jobs)
+    with store.lock(), explain_interruption(store.path):
+        if store.whole:
+            run = comparison_folder.read_run(store.path)
             changes, notes = ((), ()) if earlier is None else judge(run, earlier)
             if run.verdicts == _verdicts(changes):
-                return Outcome(run, keeper.path, changes, notes, pieces, pieces, time.monotonic() - began)
-        keeper.begin()
-        results, reused = _work(keeper, sources, seed, jobs or os.cpu_count() or 1, progress)
-        run = Run({}, tuple(results[source.key] for source in sources))
+                return ComparisonOutcome(
+                    run, store.path, changes, notes, len(tasks), len(tasks), time.monotonic() - began
+                )
+        store.begin()
+        work = run_tasks(tasks, store, jobs, progress, "making sets")
+        run = Run({}, tuple(work.results[source.key] for source in sources))
         changes, notes = ((), ()) if earlier is None else judge(run, earlier)
         manifest = {
             "command": command,
@@ -151,7 +149,7 @@ def compare(
             "created": time.strftime("%Y-%m-%dT%H:%M:%S%z"),
             "timings": {
                 "seconds": round(time.monotonic() - began, 3),
-                "resumed": reused > 0,
+                "resumed": work.reused > 0,
                 "cpu_seconds_a_set": {
                     result.key: result.cpu_seconds
                     for result in run.sources
@@ -164,12 +162,14 @@ def compare(
         }
         run = replace(run, manifest=manifest, verdicts=_verdicts(changes))
         progress.advance("writing the tables", 0)
-        keeper.write_tables(run)
+        store.write_tables(run)
         if draw is not None:
             progress.advance("drawing", 0)
-            draw(run, keeper.path)
-        keeper.finish(manifest)
-    return Outcome(run, keeper.path, changes, notes, reused, pieces, time.monotonic() - began)
+            draw(run, store.path)
+        store.finish(manifest)
+    return ComparisonOutcome(
+        run, store.path, changes, notes, work.reused, len(tasks), time.monotonic() - began
+    )
 
 
 def _require_common(sources: Sequence[Source], earlier: Run, baseline: Path | None) -> None:
@@ -182,110 +182,3 @@ def _require_common(sources: Sequence[Source], earlier: Run, baseline: Path | No
 
 def _verdicts(changes: Sequence[Change]) -> dict[tuple[str, str], str]:
     return {(change.key, change.measure): change.verdict for change in changes}
-
-
-def _pieces(source: Source) -> int:
-    return 1 + (source.realizations if source.generator is not None else 0)
-
-
-def _work(
-    keeper: comparison_folder.RunFolder, sources: Sequence[Source], seed: int, jobs: int, progress: Progress
-) -> tuple[dict[str, SourceResult], int]:
-    """Do what the folder does not hold yet; return all results and how many pieces were there."""
-    results: dict[str, SourceResult] = {}
-    missing: dict[str, list[int]] = {}
-    for source in sources:
-        kept = keeper.read_source(source.key)
-        if kept is not None:
-            results[source.key] = kept
-        elif source.generator is None:
-            missing[source.key] = []
-        else:
-            missing[source.key] = [
-                k for k in range(source.realizations) if keeper.read_part(source.key, k) is None
-            ]
-    by_key = {source.key: source for source in sources if source.key in missing}
-    steps = sum(len(lacking) + 1 for lacking in missing.values())
-    total = sum(_pieces(source) for source in sources)
-    if not by_key:
-        return results, total
-    progress.start(total, total - steps, "checking the device (kernels of a new one are compiled, once)")
-    if steps < total:
-        progress.say(f"resuming {keeper.path}: {total - steps} of {total} pieces are there")
-    failures: list[str] = []
-    with Pool(min(jobs, steps)) as pool:
-        prove_device(pool)
-        progress.start(total, total - steps, "making sets")  # what the check took says nothing of the rest
-        for key, lacking in missing.items():
-            source = by_key[key]
-            if not lacking:
-                pool.submit((key, None), analyse_sets, _sets(keeper, source))
-            again = source.realizations <= jobs
-            for k in lacking:
-                pool.submit((key, k), draw_set, source.generator, source.n, source.d, seed, k, again)
-        while pool.pending:
-            done = pool.next()
-            key, k = done.key  # type: ignore[misc]
-            source = by_key[key]
-            if done.failure:
-                failures.append(_describe(source, k, done))
-                progress.say(failures[-1])
-                progress.advance(f"failed: {source.label}")
-            elif k is None:
-                results[key] = _result(keeper, source, done.value)
-                keeper.write_source(results[key])
-                progress.advance(f"measured {source.label}, n={source.n}, d={source.d}")
-            else:
-                keeper.write_part(key, k, comparison_folder.Part(*done.value))
-                missing[key].remove(k)
-                progress.advance(f"made {source.label}, n={source.n}, d={source.d}")
-                if not missing[key]:
-                    pool.submit((key, None), analyse_sets, _sets(keeper, source))
-    if failures:
-        raise UnfinishedError(
-            f"{len(failures)} of {steps} pieces failed (what is finished is kept in {keeper.path}; "
-            f"the same command tries only the rest); the first: {failures[0]}"
-        )
-    return results, total - steps
-
-
-def _describe(source: Source, k: int | None, done: Finished) -> str:
-    what = "measuring it" if k is None else f"realization {k}"
-    return f"{source.label} (n={source.n}, d={source.d}), {what}: {done.failure}"
-
-
-def _parts(keeper: comparison_folder.RunFolder, source: Source) -> list[comparison_folder.Part]:
-    parts = [keeper.read_part(source.key, k) for k in range(source.realizations)]
-    return [part for part in parts if part is not None]
-
-
-def _sets(keeper: comparison_folder.RunFolder, source: Source) -> FloatArray:
-    if source.sets is not None:
-        return source.sets
-    return np.stack([part.x for part in _parts(keeper, source)])
-
-
-def _result(keeper: comparison_folder.RunFolder, source: Source, analysis: Analysis) -> SourceResult:
-    return SourceResult(
-        key=source.key,
-        label=source.label,
-        n=source.n,
-        d=source.d,
-        realizations=source.realizations,
-        points=_sets(keeper, source),
-        spectrum=analysis.spectrum,
-        radial=analysis.radial,
-        anisotropy=analysis.anisotropy,
-        rdf=analysis.rdf,
-        valence=analysis.valence,
-        zone_plate=analysis.zone_plate,
-        measures=analysis.measures,
-        cpu_seconds=_cpu_seconds(_parts(keeper, source)) if source.sets is None else float("nan"),
-        warnings=tuple(analysis.warnings),
-    )
-
-
-def _cpu_seconds(parts: Sequence[comparison_folder.Part]) -> float:
-    """Mean cost of a set, without each worker's first where there are others: set-up is not the method's."""
-    warm = [part.cpu_seconds for part in parts if not part.first]
-    return float(np.mean(warm or [part.cpu_seconds for part in parts]))

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.errors import InputError
-from gbnbench.io.atomic import write_whole
 
 KEY = "run"  # the array that says whose state it is
 

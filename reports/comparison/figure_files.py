@@ -10,7 +10,7 @@ from typing import NamedTuple
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from gbnbench.io.atomic import write_whole
+from gbnbench.core.atomic_write import write_whole
 from gbnbench.reports import style
 from gbnbench.reports.comparison import (
     gallery,

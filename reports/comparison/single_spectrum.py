@@ -156,4 +156,5 @@ def _source(result: Spectrum | ShellSpectrum, label: str) -> SourceResult:
         zone_plate=None,
         measures=Measures({}),
         cpu_seconds=math.nan,
+        warnings=(),
     )

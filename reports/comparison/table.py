@@ -14,7 +14,7 @@ from rich.table import Table
 from rich.text import Text
 
 from gbnbench.analysis.measure_definitions import DEFINITIONS, Definition, comparable_value
-from gbnbench.reports.numbers import error_number, number
+from gbnbench.core.number_text import error_number, number
 from gbnbench.reports.style import Group, groups, members
 from gbnbench.runs.comparison_result import Run, SourceResult
 

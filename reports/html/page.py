@@ -15,13 +15,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.image import imsave
 
-from gbnbench.io.atomic import write_whole
+from gbnbench.core.atomic_write import write_whole
+from gbnbench.core.number_text import NOTHING
 from gbnbench.reports import style
 from gbnbench.reports.comparison import gallery, loglog, points, rdf, spectrum, sweep, table, valence
 from gbnbench.reports.comparison.figure_files import png
 from gbnbench.reports.html import notes
 from gbnbench.reports.html.notes import escaped
-from gbnbench.reports.numbers import NOTHING
 from gbnbench.runs.comparison_result import Run, SourceResult
 
 PANEL = 2.5  # inches of a gallery picture, shown at 250 CSS pixels

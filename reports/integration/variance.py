@@ -14,7 +14,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, LogFormatterSciNotati
 
 from gbnbench.analysis.integration.variance import MOST_SCATTER
 from gbnbench.reports import style
-from gbnbench.studies.integration.study import Integration
+from gbnbench.studies.integration.study import IntegrationStudy
 
 CAPTION = (
     "Mean squared error of the mean over n points, over {instances} integrands of each family and {sets} "
@@ -30,7 +30,7 @@ SLOPES = (
 )
 
 
-def strokes(study: Integration) -> dict[str, style.Stroke]:
+def strokes(study: IntegrationStudy) -> dict[str, style.Stroke]:
     """Source label -> stroke, the same in every panel."""
     labels = dict.fromkeys(study.variance["source"])
     given = {}
@@ -48,7 +48,7 @@ def panel(ax: Axes, part: pd.DataFrame, given: dict[str, style.Stroke]) -> None:
     ax : Axes
         Empty.
     part : DataFrame
-        Rows of ``Integration.variance``.
+        Rows of ``IntegrationStudy.variance``.
     given : mapping
         Source label -> stroke.
     """
@@ -114,7 +114,7 @@ def guide_line(ax: Axes, sizes: Any, part: pd.DataFrame) -> None:
 
 
 @style.styled
-def figure(study: Integration) -> Figure:
+def figure(study: IntegrationStudy) -> Figure:
     """Draw a panel for each family and dimension of a study."""
     table = study.variance
     parts = list(table.groupby(["integrand", "d"], sort=False))
@@ -151,7 +151,7 @@ def figure(study: Integration) -> Figure:
     return sheet.figure
 
 
-def _key(study: Integration, part: pd.DataFrame) -> list[str]:
+def _key(study: IntegrationStudy, part: pd.DataFrame) -> list[str]:
     """Name the sources of a panel with their slopes."""
     labels = []
     slopes = study.slopes

@@ -14,16 +14,17 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from numpy.typing import NDArray
 
 from gbnbench import __version__
-from gbnbench.runs.resumable import Arrays, Piece, PieceFolder, carry_out
+from gbnbench.runs.resumable import Task, run_tasks
+from gbnbench.runs.task_folder import Arrays, TaskFolder
 
 if TYPE_CHECKING:
     from gbnbench.execution.progress import Progress
     from gbnbench.runs.comparison_result import Run
-    from gbnbench.studies.integration.study import Integration
+    from gbnbench.studies.integration.study import IntegrationStudy
 
 
 @dataclass(frozen=True)
-class Comparison:
+class ComparisonRequest:
     """A run of ``gbnbench compare``; becomes a ``Run``.
 
     Attributes
@@ -43,8 +44,8 @@ class Comparison:
 
 
 @dataclass(frozen=True)
-class Study:
-    """A run of ``gbnbench integrate``; becomes an ``Integration``."""
+class IntegrationRequest:
+    """A run of ``gbnbench integrate``; becomes an ``IntegrationStudy``."""
 
     sources: tuple[str, ...]
     n: tuple[int, ...]
@@ -56,7 +57,7 @@ class Study:
 
 
 @dataclass(frozen=True)
-class Tables:
+class TableRequest:
     """Calls of one library function, each in a worker; become a mapping from key to arrays by name.
 
     Attributes
@@ -71,30 +72,31 @@ class Tables:
     calls: Mapping[str, tuple[Any, ...]]
 
 
-Request: TypeAlias = Comparison | Study | Tables
-Filled: TypeAlias = "Run | Integration | dict[str, dict[str, NDArray[Any]]]"
+DataRequest: TypeAlias = ComparisonRequest | IntegrationRequest | TableRequest
+KINDS = {ComparisonRequest: "Comparison", IntegrationRequest: "Study"}  # words of the settings on disk
+FigureData: TypeAlias = "Run | IntegrationStudy | dict[str, dict[str, NDArray[Any]]]"
 
 
-def folder_name(request: Request, seed: int) -> str:
+def folder_name(request: DataRequest, seed: int) -> str:
     """Name that says what is kept there, and ends in a digest of all that was asked."""
     content = {"seed": seed, "version": __version__, **_asked(request)}
     digest = hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:8]
-    if isinstance(request, Tables):
+    if isinstance(request, TableRequest):
         words = request.function.__name__
     else:
-        kind = "compare" if isinstance(request, Comparison) else "integrate"
+        kind = "compare" if isinstance(request, ComparisonRequest) else "integrate"
         sizes = "-".join(f"n{n}" for n in request.n) + "-" + "-".join(f"d{d}" for d in request.d)
         sources = "-".join(Path(source).name for source in request.sources)[:40]
         words = f"{kind}_{sources}_{sizes[:32]}"
     return re.sub(r"[^a-z0-9_.]+", "-", words.lower()).strip("-") + f"_{digest}"
 
 
-def fill(request: Request, folder: Path, seed: int, jobs: int, progress: Progress) -> Filled:
+def obtain(request: DataRequest, folder: Path, seed: int, jobs: int, progress: Progress) -> FigureData:
     """Do what was asked, or read it where the folder holds it whole.
 
     Parameters
     ----------
-    request : Comparison, Study or Tables
+    request : ComparisonRequest, IntegrationRequest or TableRequest
         What is asked.
     folder : Path
         Where it is kept; the same call goes on with what a stopped one left.
@@ -103,51 +105,53 @@ def fill(request: Request, folder: Path, seed: int, jobs: int, progress: Progres
 
     Returns
     -------
-    Run, Integration or dict
+    Run, IntegrationStudy or dict
         By the kind of request.
 
     Raises
     ------
     GbnbenchError
-        As ``compare``, ``integrate`` and ``carry_out`` do.
+        As ``compare``, ``integrate`` and ``run_tasks`` do.
     """
-    if isinstance(request, Comparison):
+    if isinstance(request, ComparisonRequest):
         from gbnbench.runs.sources import resolve
-        from gbnbench.studies.comparison import compare
+        from gbnbench.studies.comparison import run_comparison
 
         sources, skipped = resolve(request.sources, request.n, request.d, request.realizations)
-        return compare(
+        return run_comparison(
             sources, folder, seed=seed, jobs=jobs, command="gbnbench figures", skipped=skipped,
             progress=progress,
         ).run  # fmt: skip
-    if isinstance(request, Study):
-        from gbnbench.studies.integration.study import integrate
+    if isinstance(request, IntegrationRequest):
+        from gbnbench.studies.integration.study import run_integration_study
 
-        return integrate(
+        return run_integration_study(
             request.sources, folder, n=request.n, d=request.d, realizations=request.realizations,
             integrands=request.integrands, instances=request.instances, shifts=request.shifts, seed=seed,
             jobs=jobs, command="gbnbench figures", progress=progress,
         ).study  # fmt: skip
-    keeper = PieceFolder(folder, {"gbnbench": __version__, **_asked(request)})
+    store = TaskFolder(folder, {"gbnbench": __version__, **_asked(request)})
     name = request.function.__name__.replace("_", " ")
-    pieces = [
-        Piece(key, f"{name}: {key}", request.function, arguments) for key, arguments in request.calls.items()
+    tasks = [
+        Task(key, f"{name}: {key}", request.function, arguments) for key, arguments in request.calls.items()
     ]
-    with keeper.lock():
-        if not keeper.whole:
-            keeper.begin()
-            carry_out(keeper, pieces, jobs, progress)
-            keeper.finish({"version": __version__})
-        return {piece.key: keeper.read(piece.key) or {} for piece in pieces}
+    with store.lock():
+        whole = store.whole
+        if not whole:
+            store.begin()
+        results = run_tasks(tasks, store, jobs, progress).results
+        if not whole:
+            store.finish({"version": __version__})
+        return results
 
 
-def _asked(request: Request) -> dict[str, Any]:
+def _asked(request: DataRequest) -> dict[str, Any]:
     """JSON-ready form of a request."""
-    if isinstance(request, Tables):
+    if isinstance(request, TableRequest):
         function = f"{request.function.__module__}.{request.function.__name__}"
         calls = {key: list(arguments) for key, arguments in request.calls.items()}
         content: dict[str, Any] = {"function": function, "calls": calls}
     else:
-        content = {"kind": type(request).__name__, **dataclasses.asdict(request)}
+        content = {"kind": KINDS[type(request)], **dataclasses.asdict(request)}
     done: dict[str, Any] = json.loads(json.dumps(content))  # as it will be read back
     return done

@@ -11,12 +11,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import SubFigure
 from matplotlib.ticker import LogLocator, NullLocator
 
+from gbnbench.core.number_text import number
 from gbnbench.generators.spectral_control.deep import Deep
 from gbnbench.reports import style
 from gbnbench.reports.integration import variance
-from gbnbench.reports.numbers import number
 from gbnbench.reports.paper import axes, shared
-from gbnbench.reports.paper.data import Comparison, Request, Study
+from gbnbench.reports.paper.data import ComparisonRequest, DataRequest, IntegrationRequest
 from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
 from gbnbench.reports.paper.shared import Column
 
@@ -42,7 +42,7 @@ def _deep(ask: Ask) -> list[str]:
     return [*(f"deep[c={c:g}]" for c in steep), "deep"]
 
 
-def needs(ask: Ask) -> Mapping[str, Request]:
+def needs(ask: Ask) -> Mapping[str, DataRequest]:
     """Ask for sets along both paths to depth, and for a study of integration."""
     n, gradients = shared.size(ask), _gradients(ask)
     longest, others = gradients[-1], gradients[:-1]
@@ -50,9 +50,9 @@ def needs(ask: Ask) -> Mapping[str, Request]:
     few = ask.pick(2, 8, 1000)  # the longest runs are those of figure 1
     sizes = ask.pick((16, 36), (64, 128, 256, 512, 1024), (64, 128, 256, 512, 1024, 2048, 4096))
     return {
-        "sets": Comparison(sources, (n,), (2,), ask.pick(2, 8, 100)),
-        "long": Comparison((_gbn(longest),), (n,), (2,), few),
-        "study": Study(
+        "sets": ComparisonRequest(sources, (n,), (2,), ask.pick(2, 8, 100)),
+        "long": ComparisonRequest((_gbn(longest),), (n,), (2,), few),
+        "study": IntegrationRequest(
             (BESIDE, _gbn(gradients[1]), "deep"), sizes, (2,), ask.pick(2, 8, 100), (FAMILY,),
             ask.pick(2, 20, 100),
         ),

@@ -11,7 +11,7 @@ from typing import Any, Literal
 from matplotlib.figure import Figure, SubFigure
 
 from gbnbench.reports import style
-from gbnbench.reports.paper.data import Request
+from gbnbench.reports.paper.data import DataRequest
 
 Scale = Literal["tiny", "quick", "full"]  # tiny is for tests
 COLUMN, PAGE = 3.33, 7.0  # inches: one column of the journal, and both
@@ -82,7 +82,7 @@ class PaperFigure:
     name: str
     title: str
     paper: str
-    needs: Callable[[Ask], Mapping[str, Request]]
+    needs: Callable[[Ask], Mapping[str, DataRequest]]
     draw: Callable[[Mapping[str, Any], Ask], Drawing]
 
 

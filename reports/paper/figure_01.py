@@ -15,7 +15,7 @@ from gbnbench.core.results import RadialPower
 from gbnbench.reports import style
 from gbnbench.reports.comparison import spectrum
 from gbnbench.reports.paper import shared
-from gbnbench.reports.paper.data import Comparison, Request
+from gbnbench.reports.paper.data import ComparisonRequest, DataRequest
 from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
 from gbnbench.reports.paper.shared import Column
 
@@ -41,14 +41,16 @@ def _long_n(ask: Ask) -> int:
     return n
 
 
-def needs(ask: Ask) -> Mapping[str, Request]:
+def needs(ask: Ask) -> Mapping[str, DataRequest]:
     """Ask for sets for the gallery and larger ones for the plot."""
     return {
         "classic": shared.classic(ask),
-        "long": Comparison((_long(ask)[0],), (shared.size(ask),), (2,), ask.pick(2, 8, 1000)),
-        "large": Comparison(("jittered", "sobol", "fpo", "gbn"), (_large(ask),), (2,), ask.pick(2, 8, 1000)),
+        "long": ComparisonRequest((_long(ask)[0],), (shared.size(ask),), (2,), ask.pick(2, 8, 1000)),
+        "large": ComparisonRequest(
+            ("jittered", "sobol", "fpo", "gbn"), (_large(ask),), (2,), ask.pick(2, 8, 1000)
+        ),
         **(
-            {"large-long": Comparison((_long(ask)[0],), (_long_n(ask),), (2,), 1000)}
+            {"large-long": ComparisonRequest((_long(ask)[0],), (_long_n(ask),), (2,), 1000)}
             if _long_n(ask) != shared.size(ask)
             else {}
         ),

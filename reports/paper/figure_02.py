@@ -10,7 +10,7 @@ from matplotlib.figure import SubFigure
 from gbnbench.reports import style
 from gbnbench.reports.comparison import spectrum
 from gbnbench.reports.paper import shared
-from gbnbench.reports.paper.data import Comparison, Request
+from gbnbench.reports.paper.data import ComparisonRequest, DataRequest
 from gbnbench.reports.paper.figure import COLUMN, Ask, Drawing, PaperFigure
 
 NARROW = "gbn[sigma=0.5,iterations=30]"
@@ -21,10 +21,10 @@ def _wide(ask: Ask) -> tuple[str, int]:
     return f"gbn[sigma=1.1,gradients={gradients}]", gradients
 
 
-def needs(ask: Ask) -> Mapping[str, Request]:
+def needs(ask: Ask) -> Mapping[str, DataRequest]:
     """Both settings, many sets each."""
     count = ask.pick(2, 32, 1000)
-    return {"sets": Comparison((NARROW, _wide(ask)[0]), (shared.size(ask),), (2,), count)}
+    return {"sets": ComparisonRequest((NARROW, _wide(ask)[0]), (shared.size(ask),), (2,), count)}
 
 
 def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:

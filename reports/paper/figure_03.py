@@ -13,13 +13,13 @@ from numpy.typing import NDArray
 
 from gbnbench.analysis.radial.profile_measures import peak
 from gbnbench.analysis.spectrum.shell_spectrum import shells
+from gbnbench.core.number_text import number
 from gbnbench.core.results import RadialPower
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.generators.registry import find
-from gbnbench.reports.numbers import number
 from gbnbench.reports.paper import axes, shared
-from gbnbench.reports.paper.data import Comparison, Request, Tables
+from gbnbench.reports.paper.data import ComparisonRequest, DataRequest, TableRequest
 from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
 from gbnbench.runs.comparison_result import Run, SourceResult
 
@@ -36,7 +36,7 @@ def shells_of(source: str, n: int, d: int, seed: int, k: int) -> dict[str, NDArr
     return {"frequency": found.frequency, "nu": found.nu, "power": found.power, "count": found.count}
 
 
-def needs(ask: Ask) -> Mapping[str, Request]:
+def needs(ask: Ask) -> Mapping[str, DataRequest]:
     """Ask for sets at every sigma in 2D and for shells of sets in every dimension."""
     steps = ask.pick("gradients=60", f"gradients={GRADIENTS}", "iterations=10000")
     sources = tuple(f"gbn[sigma={sigma:g},{steps}]" for sigma in SIGMAS)
@@ -44,8 +44,8 @@ def needs(ask: Ask) -> Mapping[str, Request]:
     source = f"gbn[gradients={ask.pick(60, GRADIENTS, GRADIENTS)}]"
     calls = {f"d{d}_{k:04d}": (source, n, d, ask.seed, k) for d in reversed(DIMENSIONS) for k in range(sets)}
     return {
-        "sigmas": Comparison(sources, (ask.pick(64, 1024, 1024),), (2,), ask.pick(2, 12, 32)),
-        "dimensions": Tables(shells_of, calls),
+        "sigmas": ComparisonRequest(sources, (ask.pick(64, 1024, 1024),), (2,), ask.pick(2, 12, 32)),
+        "dimensions": TableRequest(shells_of, calls),
     }
 
 

@@ -11,12 +11,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import SubFigure
 from matplotlib.ticker import LogLocator, NullLocator
 
+from gbnbench.core.number_text import number
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn.kernel_profile import truncated_transform
 from gbnbench.reports import style
-from gbnbench.reports.numbers import number
 from gbnbench.reports.paper import shared
-from gbnbench.reports.paper.data import Request, Tables
+from gbnbench.reports.paper.data import DataRequest, TableRequest
 from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
 
 CUTOFFS = {"whole": math.inf, "2": 2.0, "1": 1.0}  # sigmas
@@ -44,10 +44,10 @@ def transforms(cutoff: str, count: int) -> dict[str, FloatArray]:
     }
 
 
-def needs(ask: Ask) -> Mapping[str, Request]:
+def needs(ask: Ask) -> Mapping[str, DataRequest]:
     """Ask for three kernels and their transforms."""
     count = ask.pick(401, 2001, 2001)
-    return {"kernels": Tables(transforms, {key: (key, count) for key in CUTOFFS})}
+    return {"kernels": TableRequest(transforms, {key: (key, count) for key in CUTOFFS})}
 
 
 def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:  # noqa: ARG001 - as every figure's

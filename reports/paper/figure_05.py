@@ -12,7 +12,7 @@ from matplotlib.figure import SubFigure
 from gbnbench.reports import style
 from gbnbench.reports.comparison import spectrum
 from gbnbench.reports.paper import shared
-from gbnbench.reports.paper.data import Comparison, Request
+from gbnbench.reports.paper.data import ComparisonRequest, DataRequest
 from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
 
 CUTOFFS = (1, 2, 3, 4)  # sigmas
@@ -25,11 +25,11 @@ STROKES = (
 )
 
 
-def needs(ask: Ask) -> Mapping[str, Request]:
+def needs(ask: Ask) -> Mapping[str, DataRequest]:
     """One setting for each cut-off, the whole kernel, and centroidal tessellations."""
     cut = tuple(f"gbn[cutoff={cutoff}]" for cutoff in CUTOFFS)
     return {
-        "cut": Comparison(cut, (shared.size(ask),), (2,), shared.sets(ask)),
+        "cut": ComparisonRequest(cut, (shared.size(ask),), (2,), shared.sets(ask)),
         "whole": shared.classic(ask),
         "cvt": shared.relaxed(ask),
     }

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import SubFigure
 
+from gbnbench.core.number_text import number
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn.kernel_profile import energy_profile
-from gbnbench.reports.numbers import number
 from gbnbench.reports.paper.axes import family
-from gbnbench.reports.paper.data import Request, Tables
+from gbnbench.reports.paper.data import DataRequest, TableRequest
 from gbnbench.reports.paper.figure import COLUMN, Ask, Drawing, PaperFigure
 
 POINTS = (1, 2, 4, 8, 16, 32, 64)  # an axis
@@ -25,10 +25,10 @@ def profile(points: int, count: int) -> dict[str, FloatArray]:
     return {"u": u, "energy": energy_profile(u * points, float(points), SIGMA)}
 
 
-def needs(ask: Ask) -> Mapping[str, Request]:
+def needs(ask: Ask) -> Mapping[str, DataRequest]:
     """Ask for one profile for each number of points."""
     count = ask.pick(201, 2001, 2001)
-    return {"profiles": Tables(profile, {str(points): (points, count) for points in POINTS})}
+    return {"profiles": TableRequest(profile, {str(points): (points, count) for points in POINTS})}
 
 
 def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:  # noqa: ARG001 - as every figure's

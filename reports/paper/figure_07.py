@@ -14,15 +14,15 @@ from matplotlib.ticker import LogLocator, NullLocator
 from gbnbench.analysis.radial.profile_measures import exponential_fit, noise_floor
 from gbnbench.analysis.spectrum.shell_spectrum import shells
 from gbnbench.core.errors import RefusalError
+from gbnbench.core.number_text import number
 from gbnbench.core.results import RadialPower
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.monitor import Trace, Watch
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.reports import style
-from gbnbench.reports.numbers import number
 from gbnbench.reports.paper import axes, shared
-from gbnbench.reports.paper.data import Request, Tables
+from gbnbench.reports.paper.data import DataRequest, TableRequest
 from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
 
 COUNTS = (1, 3, 10, 30, 100, 300, 1000, 3000, 10_000, 30_000, 100_000)
@@ -75,14 +75,14 @@ def _steepness(radial: RadialPower) -> float:
         return math.nan
 
 
-def needs(ask: Ask) -> Mapping[str, Request]:
+def needs(ask: Ask) -> Mapping[str, DataRequest]:
     """Ask for both methods from the same starts, at counts that do the same work."""
     n, block, blocks = _sizes(ask)
     calls = {
         f"{method}_{k:03d}": (method, counts, n, ask.seed, k * block, block)
         for method, counts in _counts(ask).items() for k in range(blocks)
     }  # fmt: skip
-    return {"evolution": Tables(evolution, calls)}
+    return {"evolution": TableRequest(evolution, calls)}
 
 
 def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:

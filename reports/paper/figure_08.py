@@ -11,16 +11,16 @@ from matplotlib.ticker import FixedLocator, MaxNLocator
 
 from gbnbench.reports.comparison import spectrum, valence, zone_plate
 from gbnbench.reports.paper import shared
-from gbnbench.reports.paper.data import Comparison, Request
+from gbnbench.reports.paper.data import ComparisonRequest, DataRequest
 from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
 
 PAPER = ("bnot", "kdm", "vnc", "ccvt", "bluenets")
 ROWS = ("points", "spectrum", "radial\npower", "zone plate", "valence")
 
 
-def needs(ask: Ask) -> Mapping[str, Request]:
+def needs(ask: Ask) -> Mapping[str, DataRequest]:
     """Ask for generators that are commonly compared, and the user's sets."""
-    strata = Comparison(("jittered",), (shared.size(ask),), (2,), shared.sets(ask))
+    strata = ComparisonRequest(("jittered",), (shared.size(ask),), (2,), shared.sets(ask))
     methods = shared.shown_methods(ask, PAPER)
     return {
         "strata": strata, "relaxed": shared.relaxed(ask), "classic": shared.classic(ask),

@@ -13,10 +13,10 @@ from matplotlib.lines import Line2D
 
 from gbnbench.analysis.integration.integrands.registry import find
 from gbnbench.reports.integration import variance
-from gbnbench.reports.paper.data import Request, Study, Tables
+from gbnbench.reports.paper.data import DataRequest, IntegrationRequest, TableRequest
 from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
 from gbnbench.reports.paper.shared import stroke, title_of
-from gbnbench.runs.resumable import Arrays
+from gbnbench.runs.task_folder import Arrays
 from gbnbench.studies.integration.blocks import instances_of
 
 FAMILIES = ("gaussians", "half-space")
@@ -52,16 +52,16 @@ def pictures(seed: int, pixels: int) -> Arrays:
     return {name: instances_of(find(name), 2, seed, 1)[0](grid).reshape(pixels, pixels) for name in FAMILIES}
 
 
-def needs(ask: Ask) -> Mapping[str, Request]:
+def needs(ask: Ask) -> Mapping[str, DataRequest]:
     """Ask for a study in each dimension, and a picture of an integrand of each family."""
     instances = ask.pick(4, 50, 100)
-    requests: dict[str, Request] = {"integrands": Tables(pictures, {"plane": (ask.seed, 96)})}
+    requests: dict[str, DataRequest] = {"integrands": TableRequest(pictures, {"plane": (ask.seed, 96)})}
     for d in DIMENSIONS:
         sources = SOURCES + (("fpo",) if d == 2 else ())
         sets = ask.pick(2, 8, 1000 if d == 2 else 100)
-        requests[f"d{d}"] = Study(sources, SIZES[ask.scale][d], (d,), sets, FAMILIES, instances)
+        requests[f"d{d}"] = IntegrationRequest(sources, SIZES[ask.scale][d], (d,), sets, FAMILIES, instances)
     for name, path in ask.sets.items():
-        requests[_given(name)] = Study((path,), (1,), (1,), 1, FAMILIES, instances)
+        requests[_given(name)] = IntegrationRequest((path,), (1,), (1,), 1, FAMILIES, instances)
     return requests
 
 

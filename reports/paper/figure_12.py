@@ -13,7 +13,7 @@ from gbnbench.core.results import RadialPower
 from gbnbench.reports import style
 from gbnbench.reports.comparison import spectrum
 from gbnbench.reports.paper import shared
-from gbnbench.reports.paper.data import Comparison, Request
+from gbnbench.reports.paper.data import ComparisonRequest, DataRequest
 from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
 
 EDGES = (0.5, 0.6, 0.7)  # nu: the paper's, and two wider ones; 320 gradients do not empty the last
@@ -22,10 +22,10 @@ PAPER = ("step",)
 LOW, HIGH = 1e-32, 1e2
 
 
-def needs(ask: Ask) -> Mapping[str, Request]:
+def needs(ask: Ask) -> Mapping[str, DataRequest]:
     """Ask for truncated energies, a band emptied by Gauss-Newton, and the user's sets of Heck's step."""
     sources = (*(f"gbn[edge={edge}]" for edge in EDGES), f"stealthy[edge={EDGES[-1]}]")
-    run = Comparison(sources, (shared.size(ask),), (2,), shared.sets(ask))
+    run = ComparisonRequest(sources, (shared.size(ask),), (2,), shared.sets(ask))
     return {"sets": run, **shared.given(ask, PAPER)}
 
 

@@ -12,14 +12,14 @@ from matplotlib.patches import Circle
 from matplotlib.ticker import LogLocator, NullLocator
 
 from gbnbench.analysis.spectrum.shell_spectrum import shells
+from gbnbench.core.number_text import number
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.monitor import Watch
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.reports import style
-from gbnbench.reports.numbers import number
 from gbnbench.reports.paper import axes, shared
-from gbnbench.reports.paper.data import Request, Tables
+from gbnbench.reports.paper.data import DataRequest, TableRequest
 from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
 
 EDGE = 0.3  # nu up to which the energy is summed
@@ -34,11 +34,11 @@ def line_sets(gradients: int, n: int, seed: int, first: int, sets: int) -> dict[
     return {"points": points[:, :, 0], "nu": found.nu, "power": found.power}
 
 
-def needs(ask: Ask) -> Mapping[str, Request]:
+def needs(ask: Ask) -> Mapping[str, DataRequest]:
     """Ask for sets of the truncated energy in 1D."""
     block, blocks = ask.pick((4, 1), (64, 6), (64, 16))
     calls = {f"{k:03d}": (_gradients(ask), N, ask.seed, k * block, block) for k in range(blocks)}
-    return {"line": Tables(line_sets, calls)}
+    return {"line": TableRequest(line_sets, calls)}
 
 
 def _gradients(ask: Ask) -> int:

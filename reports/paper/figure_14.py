@@ -9,16 +9,16 @@ from matplotlib.figure import SubFigure
 
 from gbnbench.analysis.radial.radial_power import radial
 from gbnbench.reports.paper import shared
-from gbnbench.reports.paper.data import Comparison, Request
+from gbnbench.reports.paper.data import ComparisonRequest, DataRequest
 from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
 
 WIDTH = 2.0  # cycles per unit length: PSA's default
 PAPER = ("bnot",)
 
 
-def needs(ask: Ask) -> Mapping[str, Request]:
+def needs(ask: Ask) -> Mapping[str, DataRequest]:
     """Owen-scrambled Sobol sets, many of them, and GBN or the user's BNOT."""
-    many = Comparison(("sobol",), (shared.size(ask),), (2,), ask.pick(4, 160, 1000))
+    many = ComparisonRequest(("sobol",), (shared.size(ask),), (2,), ask.pick(4, 160, 1000))
     return {"sobol": many, "classic": shared.classic(ask), **shared.given(ask, PAPER)}
 
 

@@ -10,15 +10,16 @@ from pathlib import Path
 from typing import Any
 
 from gbnbench import __version__
+from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.errors import DeviceError, GbnbenchError, UnfinishedError
 from gbnbench.execution.progress import Progress
-from gbnbench.io.atomic import write_whole
+from gbnbench.io import data_files
+from gbnbench.opencl import choose
 from gbnbench.reports import style
 from gbnbench.reports.comparison.figure_files import pdf, png
-from gbnbench.reports.paper.data import Filled, fill, folder_name
+from gbnbench.reports.paper.data import FigureData, folder_name, obtain
 from gbnbench.reports.paper.figure import Ask, PaperFigure, compose, signs
-from gbnbench.runs import source_files
-from gbnbench.runs.resumable_folder import KeptFolder, said_where
+from gbnbench.runs.resumable_folder import ResumableFolder, explain_interruption
 
 DPI = 220
 PAGE_STYLE = (
@@ -86,7 +87,7 @@ def make(
     """
     foot = f"Seed {ask.seed}; {_device()}; gbnbench {__version__}."
     keeper = FigureFolder(folder, {"holds": "figures"})
-    with keeper.lock(), said_where(folder):
+    with keeper.lock(), explain_interruption(folder):
         keeper.begin()
         made, failures = _make_all(figures, folder, ask, jobs, progress, captions, foot)
         _write_pages(folder, made, captions)
@@ -98,7 +99,7 @@ def make(
     return made
 
 
-class FigureFolder(KeptFolder):
+class FigureFolder(ResumableFolder):
     """Where figures and what they are drawn from are kept; figures of several calls stand side by side."""
 
     kind = "folder of figures"
@@ -106,8 +107,6 @@ class FigureFolder(KeptFolder):
 
 def _device() -> str:
     """Name the device, or say that there is none: some figures are of closed forms alone."""
-    from gbnbench.opencl import choose
-
     try:
         return str(choose().describe().get("name", "an OpenCL device"))
     except DeviceError:
@@ -124,7 +123,7 @@ def _make_all(
     foot: str,
 ) -> tuple[list[Made], list[str]]:
     """Make what can be made; return it, and what could not be."""
-    known: dict[str, Filled] = {}
+    known: dict[str, FigureData] = {}
     made: list[Made] = []
     failures: list[str] = []
     for figure in figures:
@@ -134,7 +133,7 @@ def _make_all(
             for name, request in figure.needs(ask).items():
                 place = folder_name(request, ask.seed)
                 if place not in known:
-                    known[place] = fill(request, folder / "data" / place, ask.seed, jobs, progress)
+                    known[place] = obtain(request, folder / "data" / place, ask.seed, jobs, progress)
                 material[name] = known[place]
             made.append(_draw(figure, folder, ask, material, foot, captions))
         except GbnbenchError as error:
@@ -167,7 +166,7 @@ def _write_pages(folder: Path, made: Sequence[Made], captions: bool) -> None:
         title = f"{_heading(one.figure)} {one.figure.title}"
         known[one.stem] = {"title": title, "paper": one.figure.paper, "caption": one.caption}
     known = {stem: known[stem] for stem in sorted(known)}
-    write_whole(index, source_files.to_json(known))
+    write_whole(index, data_files.to_json(known))
     texts, parts = [], []
     for stem, about in known.items():
         title, caption = html.escape(about["title"]), html.escape(about["caption"])

@@ -18,7 +18,7 @@ from gbnbench.core.settings import specification
 from gbnbench.generators.registry import find
 from gbnbench.reports import style
 from gbnbench.reports.comparison import spectrum
-from gbnbench.reports.paper.data import Comparison
+from gbnbench.reports.paper.data import ComparisonRequest
 from gbnbench.reports.paper.figure import Ask
 from gbnbench.runs.comparison_result import Run, SourceResult
 
@@ -86,14 +86,14 @@ def sets(ask: Ask) -> int:
     return count
 
 
-def classic(ask: Ask) -> Comparison:
+def classic(ask: Ask) -> ComparisonRequest:
     """FPO and GBN, as figures 1 and 8 show them."""
-    return Comparison(("fpo", "gbn"), (size(ask),), (2,), sets(ask))
+    return ComparisonRequest(("fpo", "gbn"), (size(ask),), (2,), sets(ask))
 
 
-def relaxed(ask: Ask) -> Comparison:
+def relaxed(ask: Ask) -> ComparisonRequest:
     """Lloyd's method, as figures 5 and 8 show it."""
-    return Comparison(("lloyd",), (size(ask),), (2,), sets(ask))
+    return ComparisonRequest(("lloyd",), (size(ask),), (2,), sets(ask))
 
 
 def shown_methods(ask: Ask, paper: Sequence[str]) -> tuple[str, ...]:
@@ -104,9 +104,9 @@ def shown_methods(ask: Ask, paper: Sequence[str]) -> tuple[str, ...]:
     )
 
 
-def given(ask: Ask, methods: Iterable[str]) -> dict[str, Comparison]:
+def given(ask: Ask, methods: Iterable[str]) -> dict[str, ComparisonRequest]:
     """Return a request for each of these methods that the user has sets of; the same in every figure."""
-    return {name: Comparison((ask.sets[name],)) for name in methods if name in ask.sets}
+    return {name: ComparisonRequest((ask.sets[name],)) for name in methods if name in ask.sets}
 
 
 def absent(ask: Ask, methods: Iterable[str], whose: str = "of the paper") -> str:

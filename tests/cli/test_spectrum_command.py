@@ -21,9 +21,9 @@ import gbnbench.cli.spectrum_run
 from gbnbench.analysis.measures import default_fmax
 from gbnbench.analysis.radial.anisotropy import anisotropy
 from gbnbench.cli import run
+from gbnbench.io.data_files import read_csv
 from gbnbench.io.points import save
 from gbnbench.reports.comparison import single_spectrum
-from gbnbench.runs.source_files import read_csv
 from tests.oracles.power import direct_power
 
 Said = Callable[..., tuple[str, str]]

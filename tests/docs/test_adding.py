@@ -83,13 +83,21 @@ def test_the_patches_fit_and_the_commands_then_know_both(place: Path) -> None:
         shutil.copytree(ROOT / package, place / package, symlinks=True, ignore=skip)
     (place / "generators" / "antithetic.py").write_text(files()["antithetic.py"], encoding="utf-8")
     (place / "analysis" / "axis_gap.py").write_text(files()["axis_gap.py"], encoding="utf-8")
+    evaluators = place / "analysis" / "spectrum" / "evaluators"
+    (evaluators / "plain_sum.py").write_text(files()["plain_sum.py"], encoding="utf-8")
     for patch in blocks("diff"):
         apply(patch, place)
     program = (
-        "from pathlib import Path; from gbnbench.studies.comparison import compare;"
+        "from pathlib import Path; from gbnbench.studies.comparison import run_comparison;"
         "from gbnbench.runs.sources import resolve;"
         "found, _ = resolve(['antithetic[width=0.5]', 'latin', 'grid'], [128], [2], 2);"
-        "compare(found, Path('run'), jobs=1)"
+        "compare(found, Path('run'), jobs=1);"
+        "import numpy as np; from gbnbench import generate, periodogram, plan;"
+        "x = generate('latin', n=100, seed=1);"
+        "plain, usual = periodogram(x, 6, method='plain'), periodogram(x, 6);"
+        "assert (plain.method, usual.method) == ('plain', 'product');"
+        "off = np.abs(np.sqrt(plain.power) - np.sqrt(usual.power)).max();"
+        "assert 0 < off <= plain.error_bound + usual.error_bound, off"
     )
     subprocess.run(
         [sys.executable, "-c", program], cwd=place, check=True, env={**os.environ, "PYTHONPATH": str(place)}

@@ -7,14 +7,14 @@ import pytest
 
 from gbnbench.core import cache_folder
 from gbnbench.core.errors import DeviceError
-from gbnbench.doctor import kernel_checks
+from gbnbench.doctor import kernel_checks, numpy_references, trust
 from tests.oracles.power import direct_power
 
 
 def test_its_numpy_twins_are_right_themselves():
     rng = np.random.default_rng(1)
     x, f = rng.random((40, 3)), rng.integers(-20, 21, (30, 3))
-    assert kernel_checks.numpy_power(x, f) == pytest.approx(direct_power(x, f), rel=1e-11, abs=1e-13)
+    assert numpy_references.numpy_power(x, f) == pytest.approx(direct_power(x, f), rel=1e-11, abs=1e-13)
 
     def energy(u):
         side = 9 ** (1 / 2)
@@ -23,7 +23,7 @@ def test_its_numpy_twins_are_right_themselves():
         return periods.prod(axis=-1).sum() / 2
 
     u = rng.random((9, 2)) * 3
-    gradient = kernel_checks.numpy_gradient(u / 3, 0.8)
+    gradient = numpy_references.numpy_gradient(u / 3, 0.8)
     for k in range(3):
         for a in range(2):
             step = np.zeros_like(u)
@@ -43,13 +43,13 @@ def test_a_wrong_kernel_is_named_and_not_trusted(monkeypatch, tmp_path):
     right = kernel_checks.numpy_gradient
     monkeypatch.setattr(kernel_checks, "numpy_gradient", lambda x, sigma: right(x, sigma) * (1 + 1e-3))
     with pytest.raises(DeviceError, match="gbn gradient"):
-        kernel_checks.ensure_trusted()
+        trust.ensure_trusted()
     assert not list(tmp_path.glob("trusted*"))
 
 
 def test_a_device_is_examined_once_and_remembered(monkeypatch, tmp_path):
     monkeypatch.setattr(cache_folder, "cache_folder", lambda: tmp_path)
-    kernel_checks.ensure_trusted()
+    trust.ensure_trusted()
     assert len(list(tmp_path.glob("trusted*"))) == 1
-    monkeypatch.setattr(kernel_checks, "examine", lambda **_: pytest.fail("examined again"))
-    kernel_checks.ensure_trusted()
+    monkeypatch.setattr(trust, "examine", lambda **_: pytest.fail("examined again"))
+    trust.ensure_trusted()

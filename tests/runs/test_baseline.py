@@ -32,6 +32,7 @@ def source(
         zone_plate=None,
         measures=Measures({**dict.fromkeys(names, 1.0), **values}, dict.fromkeys(names, error)),
         cpu_seconds=0.0,
+        warnings=(),
     )
 
 

@@ -12,10 +12,11 @@ import pandas as pd
 import pytest
 
 from gbnbench.analysis.measure_definitions import DEFINITIONS
+from gbnbench.core import atomic_write
 from gbnbench.core.errors import FormatError, InputError
 from gbnbench.core.results import Measures, RadialPower, Spectrum
-from gbnbench.io import atomic
-from gbnbench.runs import comparison_folder, source_files
+from gbnbench.io import data_files
+from gbnbench.runs import comparison_folder
 from gbnbench.runs.comparison_result import Run, SourceResult
 
 AWKWARD = (0.1, 1 / 3, 5e-324, -0.0, 1e300, math.nan, math.inf, -math.inf, 0.1 + 0.2)
@@ -63,9 +64,9 @@ def identity(seed: int = 0, *results: SourceResult) -> dict[str, Any]:
     return {"seed": seed, "sources": sources}
 
 
-def write(path: Path, *results: SourceResult) -> comparison_folder.RunFolder:
+def write(path: Path, *results: SourceResult) -> comparison_folder.ComparisonFolder:
     settings = identity(0, *results)
-    folder = comparison_folder.RunFolder(path, settings)
+    folder = comparison_folder.ComparisonFolder(path, settings)
     with folder.lock():
         folder.begin()
         for each in results:
@@ -107,22 +108,22 @@ def test_a_run_read_is_the_run_written(tmp_path: Path) -> None:
 
 
 def test_a_realization_read_is_the_one_written(tmp_path: Path) -> None:
-    folder = comparison_folder.RunFolder(tmp_path, identity())
+    folder = comparison_folder.ComparisonFolder(tmp_path, identity())
     x = np.random.default_rng(1).random((8, 2))
-    folder.write_part("gbn", 3, comparison_folder.Part(x, 0.1, True))
-    part = folder.read_part("gbn", 3)
+    folder.write_realization("gbn", 3, comparison_folder.Realization(x, 0.1, True))
+    part = folder.read_realization("gbn", 3)
     assert part is not None
     assert part.x.tobytes() == x.tobytes()
     assert (part.cpu_seconds, part.first) == (0.1, True)
-    assert folder.read_part("gbn", 2) is None
+    assert folder.read_realization("gbn", 2) is None
     spoilt = tmp_path / "parts" / "gbn" / "000003.npz"
     spoilt.write_bytes(spoilt.read_bytes()[:100])
-    assert folder.read_part("gbn", 3) is None
+    assert folder.read_realization("gbn", 3) is None
 
 
 def test_the_tables_hold_every_source_and_measure(tmp_path: Path) -> None:
     run = Run({}, (result(),), {("gbn_n8_d2", "peak"): "worse"})
-    comparison_folder.RunFolder(tmp_path, identity()).write_tables(run)
+    comparison_folder.ComparisonFolder(tmp_path, identity()).write_tables(run)
     table = pd.read_csv(tmp_path / "measures.csv", dtype=str).set_index("measure")
     assert list(table.index) == [definition.name for definition in DEFINITIONS]
     assert table.loc["peak", "verdict"] == "worse"
@@ -172,27 +173,27 @@ def test_a_run_of_other_settings_is_refused_and_left_alone(tmp_path: Path) -> No
     write(tmp_path, result())
     before = {p: p.stat().st_mtime_ns for p in tmp_path.rglob("*")}
     with pytest.raises(InputError, match="seed is 0 there, 7 here"):
-        comparison_folder.RunFolder(tmp_path, identity(7, result()))
+        comparison_folder.ComparisonFolder(tmp_path, identity(7, result()))
     with pytest.raises(InputError, match=r"realizations of .* is 3 there, 5 here"):
-        comparison_folder.RunFolder(tmp_path, identity(0, result(sets=5)))
+        comparison_folder.ComparisonFolder(tmp_path, identity(0, result(sets=5)))
     with pytest.raises(InputError, match=r"sources are .* there, random n=8 d=2 here"):
-        comparison_folder.RunFolder(tmp_path, identity(0, result("r", "random")))
+        comparison_folder.ComparisonFolder(tmp_path, identity(0, result("r", "random")))
     assert {p: p.stat().st_mtime_ns for p in tmp_path.rglob("*")} == before
 
 
 def test_a_folder_of_something_else_is_refused(tmp_path: Path) -> None:
     (tmp_path / "thesis.tex").write_text("x")
     with pytest.raises(InputError, match="not empty and is not a run"):
-        comparison_folder.RunFolder(tmp_path, identity())
+        comparison_folder.ComparisonFolder(tmp_path, identity())
     with pytest.raises(InputError, match="is a file"):
-        comparison_folder.RunFolder(tmp_path / "thesis.tex", identity())
+        comparison_folder.ComparisonFolder(tmp_path / "thesis.tex", identity())
     (tmp_path / "killed early").mkdir()
     (tmp_path / "killed early" / ".lock").write_text("1")
-    assert not comparison_folder.RunFolder(tmp_path / "killed early", identity()).whole
+    assert not comparison_folder.ComparisonFolder(tmp_path / "killed early", identity()).whole
 
 
 def test_one_process_at_a_time(tmp_path: Path) -> None:
-    folder = comparison_folder.RunFolder(tmp_path / "run", identity())
+    folder = comparison_folder.ComparisonFolder(tmp_path / "run", identity())
     busy = rf"being written by another gbnbench \(process {os.getpid()}\)"
     with folder.lock(), pytest.raises(InputError, match=busy), folder.lock():
         pass
@@ -203,17 +204,17 @@ def test_one_process_at_a_time(tmp_path: Path) -> None:
 def test_a_full_disk_leaves_the_old_file_and_no_other(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    atomic.write_whole(tmp_path / "a", b"old")
-    atomic.write_folder_whole(tmp_path / "f", {"x": b"old"})
+    atomic_write.write_whole(tmp_path / "a", b"old")
+    atomic_write.write_folder_whole(tmp_path / "f", {"x": b"old"})
 
     def full(_: int) -> None:
         raise OSError(errno.ENOSPC, "No space left on device")
 
     monkeypatch.setattr(os, "fsync", full)
     with pytest.raises(OSError, match="No space left"):
-        atomic.write_whole(tmp_path / "a", b"new")
+        atomic_write.write_whole(tmp_path / "a", b"new")
     with pytest.raises(OSError, match="No space left"):
-        atomic.write_folder_whole(tmp_path / "f", {"x": b"new"})
+        atomic_write.write_folder_whole(tmp_path / "f", {"x": b"new"})
     assert sorted(p.name for p in tmp_path.rglob("*")) == ["a", "f", "x"]
     assert (tmp_path / "a").read_bytes() == (tmp_path / "f" / "x").read_bytes() == b"old"
 
@@ -231,8 +232,8 @@ def test_default_folders_follow_the_settings() -> None:
 def test_csv_floats_read_back_the_same(tmp_path: Path) -> None:
     numbers = np.concatenate([np.random.default_rng(3).random(500) * 10.0 ** np.arange(-250, 250), AWKWARD])
     path = tmp_path / "v.csv"
-    path.write_bytes(source_files.to_csv(pd.DataFrame({"v": numbers})))
+    path.write_bytes(data_files.to_csv(pd.DataFrame({"v": numbers})))
     assert (
         np.array([float(word) for word in path.read_text().splitlines()[1:]]).tobytes() == numbers.tobytes()
     )
-    assert source_files.read_csv(path)["v"].to_numpy().tobytes() == numbers.tobytes()
+    assert data_files.read_csv(path)["v"].to_numpy().tobytes() == numbers.tobytes()

@@ -12,8 +12,9 @@ import pytest
 
 from gbnbench.core.errors import InputError, UnfinishedError
 from gbnbench.execution.progress import Progress
-from gbnbench.runs.resumable import Piece, PieceFolder, carry_out
-from gbnbench.runs.resumable_folder import KeptFolder
+from gbnbench.runs.resumable import Task, run_tasks
+from gbnbench.runs.resumable_folder import ResumableFolder
+from gbnbench.runs.task_folder import TaskFolder
 
 
 class Heard(Progress):
@@ -43,7 +44,7 @@ def fails(reason):
 
 
 def opened(tmp_path, **identity):
-    folder = PieceFolder(tmp_path / "kept", {"what": "roots", **identity})
+    folder = TaskFolder(tmp_path / "kept", {"what": "roots", **identity})
     folder.path.mkdir(exist_ok=True)
     folder.begin()
     return folder
@@ -51,14 +52,14 @@ def opened(tmp_path, **identity):
 
 def test_only_what_is_missing_is_done_again(tmp_path):
     mark = str(tmp_path / "mark")
-    pieces = [Piece(f"a/{k}", f"roots {k}", roots, (k, mark)) for k in (3, 4, 5)]
+    tasks = [Task(f"a/{k}", f"roots {k}", roots, (k, mark)) for k in (3, 4, 5)]
     folder = opened(tmp_path)
-    assert carry_out(folder, pieces, 2, Progress()) == 0
+    assert run_tasks(tasks, folder, 2, Progress()).reused == 0
     for k in (3, 4, 5):
         assert folder.read(f"a/{k}")["root"].tolist() == [math.sqrt(j) for j in range(k)]
     (folder.path / "pieces/a/4.npz").write_bytes(b"spoilt")
     heard = Heard()
-    assert carry_out(folder, pieces, 2, heard) == 2
+    assert run_tasks(tasks, folder, 2, heard).reused == 2
     assert heard.counts[-1] == (3, 2)
     assert any("2 of 3" in line for line in heard.lines)
     done = [int(line.split()[0]) for line in Path(mark).read_text().splitlines()]
@@ -67,10 +68,10 @@ def test_only_what_is_missing_is_done_again(tmp_path):
 
 
 def test_a_failure_is_named_and_the_rest_kept(tmp_path):
-    pieces = [Piece("good", "the good", roots, (4,)), Piece("bad", "the bad", fails, ("too odd",))]
+    tasks = [Task("good", "the good", roots, (4,)), Task("bad", "the bad", fails, ("too odd",))]
     folder = opened(tmp_path)
     with pytest.raises(UnfinishedError, match=r"1 of 2 pieces failed.*the bad: too odd"):
-        carry_out(folder, pieces, 1, Progress())
+        run_tasks(tasks, folder, 1, Progress())
     assert folder.read("good") is not None
     assert folder.read("bad") is None
 
@@ -78,12 +79,12 @@ def test_a_failure_is_named_and_the_rest_kept(tmp_path):
 def test_other_settings_and_strange_folders_are_refused_and_left_alone(tmp_path):
     opened(tmp_path, seed=1)
     with pytest.raises(InputError, match=r"seed is 1 there, 2 here"):
-        PieceFolder(tmp_path / "kept", {"what": "roots", "seed": 2})
+        TaskFolder(tmp_path / "kept", {"what": "roots", "seed": 2})
     strange = tmp_path / "strange"
     strange.mkdir()
     (strange / "thesis.txt").write_text("mine")
     with pytest.raises(InputError, match="not empty"):
-        KeptFolder(strange, {})
+        ResumableFolder(strange, {})
     assert [p.name for p in strange.iterdir()] == ["thesis.txt"]
 
 

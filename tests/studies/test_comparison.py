@@ -8,24 +8,24 @@ import numpy as np
 import pytest
 
 from gbnbench.core.errors import InputError
-from gbnbench.execution.worker_tasks import draw_set
 from gbnbench.generators.registry import find
 from gbnbench.runs.comparison_folder import read_run
 from gbnbench.runs.comparison_result import Run
 from gbnbench.runs.sources import resolve
-from gbnbench.studies.comparison import Outcome, _require_common, compare
+from gbnbench.studies.comparison import ComparisonOutcome, _require_common, run_comparison
+from gbnbench.studies.comparison_tasks import draw_realization
 
 
 @pytest.fixture(scope="module")
-def small(tmp_path_factory: pytest.TempPathFactory) -> Outcome:
+def small(tmp_path_factory: pytest.TempPathFactory) -> ComparisonOutcome:
     """Two generators by two workers, nothing drawn."""
     sources, _ = resolve(["random", "latin"], (16,), (1,), 4)
-    return compare(sources, tmp_path_factory.mktemp("small") / "run", seed=9, jobs=2)
+    return run_comparison(sources, tmp_path_factory.mktemp("small") / "run", seed=9, jobs=2)
 
 
-def test_the_split_of_the_work_changes_no_bit(small: Outcome, tmp_path: Path) -> None:
+def test_the_split_of_the_work_changes_no_bit(small: ComparisonOutcome, tmp_path: Path) -> None:
     sources, _ = resolve(["random", "latin"], (16,), (1,), 4)
-    alone = compare(sources, tmp_path / "run", seed=9, jobs=1)
+    alone = run_comparison(sources, tmp_path / "run", seed=9, jobs=1)
     for one, two in zip(alone.run.sources, small.run.sources, strict=True):
         assert one.points.tobytes() == two.points.tobytes()
         assert one.spectrum.power.tobytes() == two.spectrum.power.tobytes()
@@ -35,7 +35,7 @@ def test_the_split_of_the_work_changes_no_bit(small: Outcome, tmp_path: Path) ->
         np.testing.assert_array_equal(small.run.sources[0].points[k], stream.random((16, 1)))
 
 
-def test_the_result_is_the_run_on_disk(small: Outcome) -> None:
+def test_the_result_is_the_run_on_disk(small: ComparisonOutcome) -> None:
     stored = read_run(small.folder)
     assert [repr(s.measures) for s in stored.sources] == [repr(s.measures) for s in small.run.sources]
     assert stored.manifest["settings"]["sources"][1]["generator"] == "latin"
@@ -61,31 +61,31 @@ def test_stopped_while_drawing_it_is_not_whole_and_goes_on(
         raise stop
 
     with pytest.raises(type(stop), match=said):
-        compare(sources, tmp_path / "run", jobs=1, draw=fail)
+        run_comparison(sources, tmp_path / "run", jobs=1, draw=fail)
     with pytest.raises(InputError, match="unfinished"):
         read_run(tmp_path / "run")
     drawn: list[Path] = []
-    done = compare(sources, tmp_path / "run", jobs=1, draw=lambda _, folder: drawn.append(folder))
+    done = run_comparison(sources, tmp_path / "run", jobs=1, draw=lambda _, folder: drawn.append(folder))
     assert (done.reused, done.pieces) == (3, 3)
     assert drawn == [tmp_path / "run"]
 
 
 def test_only_the_first_set_of_a_worker_may_hold_its_set_up() -> None:
     generator = find("random")
-    marks = [draw_set(generator, 16, 2, 0, k)[2] for k in range(3)]
+    marks = [draw_realization(generator, 16, 2, 0, k).first for k in range(3)]
     assert marks == [True, False, False]
-    assert draw_set(generator, 17, 2, 0, 0)[2]
-    x, _, first = draw_set(generator, 18, 2, 0, 1, again=True)
-    assert not first
+    assert draw_realization(generator, 17, 2, 0, 0).first
+    drawn = draw_realization(generator, 18, 2, 0, 1, redraw=True)
+    assert not drawn.first
     stream = np.random.default_rng(np.random.SeedSequence(0, spawn_key=(1,)))
-    np.testing.assert_array_equal(x, stream.random((18, 2)))
+    np.testing.assert_array_equal(drawn.x, stream.random((18, 2)))
 
 
 def test_bad_numbers_are_refused_before_anything_is_written(tmp_path: Path) -> None:
     sources, _ = resolve(["random"], (16,), (1,), 2)
     for wrong in ({"jobs": 0}, {"seed": -1}):
         with pytest.raises(InputError, match=next(iter(wrong))):
-            compare(sources, tmp_path / "run", **wrong)  # type: ignore[arg-type]
+            run_comparison(sources, tmp_path / "run", **wrong)  # type: ignore[arg-type]
     assert not (tmp_path / "run").exists()
 
 

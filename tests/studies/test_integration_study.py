@@ -14,7 +14,7 @@ from gbnbench.analysis.integration.variance import variance_of
 from gbnbench.cli import run as command
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.studies.integration.blocks import instances_of
-from gbnbench.studies.integration.study import integrate, read_integration, variance
+from gbnbench.studies.integration.study import read_integration, run_integration_study, variance
 
 
 def study(folder, sources=("random", "jittered"), **changes):
@@ -22,7 +22,7 @@ def study(folder, sources=("random", "jittered"), **changes):
         "n": (4, 16, 64), "d": (2,), "realizations": 6, "integrands": ("korobov", "half-space"),
         "instances": 5, "seed": 7, "jobs": 2,
     }  # fmt: skip
-    return integrate(sources, folder, **{**asked, **changes})
+    return run_integration_study(sources, folder, **{**asked, **changes})
 
 
 @pytest.fixture(scope="module")

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import io
-import os
-import secrets
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, cast
@@ -12,6 +10,7 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray, check_points
 from gbnbench.io.points.file_format import reason
@@ -125,15 +124,7 @@ def write_atomically(path: Path, data: bytes) -> None:
             raise InputError(
                 f"cannot write {path}: it is {'a folder' if target.is_dir() else 'no regular file'}"
             )
-        draft = target.parent / f".gbnbench-{secrets.token_hex(6)}.tmp"
-        try:
-            with draft.open("xb") as file:
-                file.write(data)
-                file.flush()
-                os.fsync(file.fileno())
-            draft.replace(target)
-        finally:
-            draft.unlink(missing_ok=True)
+        write_whole(target, data, make_folder=False)
     except InputError:
         raise
     except (OSError, ValueError, RuntimeError) as error:  # a NUL in the name; before 3.13 a loop of links

@@ -16,7 +16,7 @@ from gbnbench.core.settings import specification
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.monitor import Watch, Watchable
 from gbnbench.generators.protocol import Generator, realization_rng
-from gbnbench.runs.resumable import Piece
+from gbnbench.runs.resumable import Task
 from gbnbench.runs.sources import Source
 
 INSTANCE, SHIFT = 2**31 + 1, 2**31 + 2  # first words of spawn keys, far from any realization's number
@@ -29,13 +29,13 @@ def instances_of(family: Family, d: int, seed: int, count: int) -> list[Integran
     return [family.draw(d, np.random.default_rng(each)) for each in seeds]
 
 
-def pieces_of(
+def tasks_of(
     source: Source, families: tuple[Family, ...], instances: int, shifts: int, seed: int
-) -> list[Piece]:
+) -> list[Task]:
     """Part the work on one source in pieces, whose keys are ``SOURCE/FIRST``."""
     return [
-        Piece(
-            piece_key(source, first),
+        Task(
+            task_key(source, first),
             f"{source.label}, n={source.n}, d={source.d}",
             estimate_block,
             (
@@ -54,7 +54,7 @@ def pieces_of(
     ]
 
 
-def piece_key(source: Source, first: int) -> str:
+def task_key(source: Source, first: int) -> str:
     """Name the piece of a source that begins with this realization."""
     return f"{source.key}/{first:06d}"
 

@@ -1,4 +1,4 @@
-"""Integration: the variance of means over points against n, beside what the points' spectra foretell.
+"""The study of integration: variances of means over points against n, beside what spectra predict.
 
 Ahmed, Ren & Wonka 2022, Section 5.2; Pilleboue et al. 2015.
 """
@@ -18,17 +18,20 @@ from gbnbench import __version__
 from gbnbench.analysis.integration.integrands.protocol import Family
 from gbnbench.analysis.integration.integrands.registry import find as find_family
 from gbnbench.analysis.integration.variance import Variance, variance_of
+from gbnbench.core import atomic_write
 from gbnbench.core.errors import DeviceError, FormatError, InputError, RefusalError
 from gbnbench.core.settings import specification
 from gbnbench.core.torus import as_realizations
 from gbnbench.execution.progress import Progress
-from gbnbench.io import atomic
-from gbnbench.runs import comparison_folder, source_files
+from gbnbench.io import data_files
+from gbnbench.opencl import choose
+from gbnbench.runs import comparison_folder
 from gbnbench.runs.provenance import versions
-from gbnbench.runs.resumable import PieceFolder, carry_out
-from gbnbench.runs.resumable_folder import MANIFEST, SETTINGS, read_json, said_where
+from gbnbench.runs.resumable import run_tasks
+from gbnbench.runs.resumable_folder import MANIFEST, SETTINGS, explain_interruption
 from gbnbench.runs.sources import Source, resolve
-from gbnbench.studies.integration.blocks import errors_of, instances_of, pieces_of
+from gbnbench.runs.task_folder import TaskFolder
+from gbnbench.studies.integration.blocks import errors_of, instances_of, tasks_of
 from gbnbench.studies.integration.tables import gather, tables
 
 if TYPE_CHECKING:
@@ -42,7 +45,7 @@ TABLES = ("variance", "slopes")
 
 
 @dataclass(frozen=True)
-class Integration:
+class IntegrationStudy:
     """A finished study.
 
     Attributes
@@ -66,12 +69,12 @@ class Integration:
 
 
 @dataclass(frozen=True)
-class Outcome:
+class IntegrationOutcome:
     """What one call of ``integrate`` came to.
 
     Attributes
     ----------
-    study : Integration
+    study : IntegrationStudy
         Whole.
     folder : Path
         Where it stands.
@@ -81,7 +84,7 @@ class Outcome:
         Wall time of this call.
     """
 
-    study: Integration
+    study: IntegrationStudy
     folder: Path
     reused: int
     pieces: int
@@ -135,7 +138,7 @@ def variance(
     return variance_of(errors_of(drawn, sets, 0, seed, shifts))
 
 
-def integrate(
+def run_integration_study(
     sources: Sequence[str | Source] = DEFAULT_SOURCES,
     folder: str | Path | None = None,
     *,
@@ -149,8 +152,8 @@ def integrate(
     jobs: int | None = None,
     command: str = "",
     progress: Progress | None = None,
-    draw: Callable[[Integration, Path], None] | None = None,
-) -> Outcome:
+    draw: Callable[[IntegrationStudy, Path], None] | None = None,
+) -> IntegrationOutcome:
     """Estimate every integral with every set, in a folder that the same call can resume.
 
     Parameters
@@ -182,7 +185,7 @@ def integrate(
 
     Returns
     -------
-    Outcome
+    IntegrationOutcome
 
     Raises
     ------
@@ -217,19 +220,17 @@ def integrate(
         "instances": instances,
         "shifts": shifts,
     }
-    keeper = StudyFolder(Path(folder or comparison_folder.default_folder(settings, "integrate")), settings)
+    store = StudyFolder(Path(folder or comparison_folder.default_folder(settings, "integrate")), settings)
     largest_first = sorted(given, key=lambda source: -source.n * source.d)
-    pieces = [
-        piece for source in largest_first for piece in pieces_of(source, families, instances, shifts, seed)
-    ]
-    with keeper.lock(), said_where(keeper.path):
-        if keeper.whole:
-            study = read_integration(keeper.path)
-            return Outcome(study, keeper.path, len(pieces), len(pieces), time.monotonic() - began)
-        keeper.begin()
-        reused = carry_out(keeper, pieces, jobs or os.cpu_count() or 1, progress)
+    tasks = [task for source in largest_first for task in tasks_of(source, families, instances, shifts, seed)]
+    with store.lock(), explain_interruption(store.path):
+        if store.whole:
+            study = read_integration(store.path)
+            return IntegrationOutcome(study, store.path, len(tasks), len(tasks), time.monotonic() - began)
+        store.begin()
+        work = run_tasks(tasks, store, jobs or os.cpu_count() or 1, progress)
         errors = {
-            (source.key, specification(family)): gather(keeper, source, family)
+            (source.key, specification(family)): gather(work.results, source, family)
             for source in given for family in families
         }  # fmt: skip
         manifest = {
@@ -243,33 +244,33 @@ def integrate(
             "seconds": round(time.monotonic() - began, 3),
             "skipped": list(skipped),
         }
-        study = Integration(manifest, *tables(given, families, instances, shifts, errors))
-        keeper.write_tables(study)
+        study = IntegrationStudy(manifest, *tables(given, families, instances, shifts, errors))
+        store.write_tables(study)
         if draw is not None:
             progress.advance("drawing", 0)
-            draw(study, keeper.path)
-        keeper.finish(manifest)
-    return Outcome(study, keeper.path, reused, len(pieces), time.monotonic() - began)
+            draw(study, store.path)
+        store.finish(manifest)
+    return IntegrationOutcome(study, store.path, work.reused, len(tasks), time.monotonic() - began)
 
 
-class StudyFolder(PieceFolder):
+class StudyFolder(TaskFolder):
     """A study on disk."""
 
     kind = "study of integration"
 
-    def write_tables(self, study: Integration) -> None:
+    def write_tables(self, study: IntegrationStudy) -> None:
         """Write ``variance.csv`` and ``slopes.csv``."""
         for name in TABLES:
-            atomic.write_whole(self.path / f"{name}.csv", source_files.to_csv(getattr(study, name)))
+            atomic_write.write_whole(self.path / f"{name}.csv", data_files.to_csv(getattr(study, name)))
 
 
 def is_study(folder: str | Path) -> bool:
     """Whether a folder is a study of integration, finished or not."""
     settings = Path(folder) / SETTINGS
-    return settings.is_file() and "integrands" in read_json(settings)
+    return settings.is_file() and "integrands" in data_files.read_json(settings)
 
 
-def read_integration(folder: str | Path) -> Integration:
+def read_integration(folder: str | Path) -> IntegrationStudy:
     """Read a finished study.
 
     Raises
@@ -283,14 +284,14 @@ def read_integration(folder: str | Path) -> Integration:
     if not (path / MANIFEST).is_file():
         state = "an unfinished" if (path / SETTINGS).is_file() else "no"
         raise InputError(f"{path} is {state} study of integration: it has no {MANIFEST}")
-    manifest = read_json(path / MANIFEST)
+    manifest = data_files.read_json(path / MANIFEST)
     if "integrands" not in manifest.get("settings", {}):
         raise FormatError(path / MANIFEST, "is not of a study of integration")
     tables = (
-        source_files.reading(path / f"{name}.csv", lambda p: source_files.read_csv(p, text=TEXT))
+        data_files.read_or_explain(path / f"{name}.csv", lambda p: data_files.read_csv(p, text=TEXT))
         for name in TABLES
     )
-    return Integration(manifest, *tables)
+    return IntegrationStudy(manifest, *tables)
 
 
 def _require(**whole: tuple[int, int]) -> None:
@@ -306,8 +307,6 @@ def _refuse(family: Family, d: int) -> None:
 
 def _device() -> dict[str, Any] | str:
     """Name the device, or what stands in for it: spectra and integrands have forms in numpy."""
-    from gbnbench.opencl import choose
-
     try:
         return dict(choose().describe())
     except DeviceError:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -12,9 +12,9 @@ from gbnbench.analysis.integration.integrands.protocol import Family
 from gbnbench.analysis.integration.variance import crossed_mean, slope_of, variance_of
 from gbnbench.core.settings import specification
 from gbnbench.core.torus import FloatArray
-from gbnbench.runs.resumable import PieceFolder
 from gbnbench.runs.sources import Source
-from gbnbench.studies.integration.blocks import blocks, piece_key
+from gbnbench.runs.task_folder import Arrays
+from gbnbench.studies.integration.blocks import blocks, task_key
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -39,10 +39,24 @@ class Gathered:
     beyond: float
 
 
-def gather(keeper: PieceFolder, source: Source, family: Family) -> Gathered:
-    """All blocks of one source and family."""
+def gather(results: Mapping[str, Arrays], source: Source, family: Family) -> Gathered:
+    """Put together the estimates of all blocks of one source with one family.
+
+    Parameters
+    ----------
+    results : mapping
+        What ``estimate_block`` returned, by the keys of the tasks.
+    source : Source
+        Whose blocks.
+    family : Family
+        Of integrands.
+
+    Returns
+    -------
+    Gathered
+    """
     text = specification(family)
-    pieces = [keeper.read(piece_key(source, first)) or {} for first, _ in blocks(source)]
+    pieces = [results[task_key(source, first)] for first, _ in blocks(source)]
     errors = np.concatenate([piece[f"{text} errors"] for piece in pieces], axis=1)
     if f"{text} foretold" not in pieces[0]:
         return Gathered(errors, None, float("nan"))
@@ -71,7 +85,7 @@ def tables(
     Returns
     -------
     variance, slopes : DataFrame
-        As ``gbnbench.studies.integration.study.Integration`` has them.
+        As ``gbnbench.studies.integration.study.IntegrationStudy`` has them.
     """
     import pandas as pd
 

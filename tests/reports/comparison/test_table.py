@@ -6,8 +6,8 @@ import pytest
 from rich.console import Console
 
 from gbnbench.analysis.measure_definitions import DEFINITIONS
+from gbnbench.core.number_text import NOTHING, error_number, number
 from gbnbench.reports.comparison import table
-from gbnbench.reports.numbers import NOTHING, error_number, number
 from gbnbench.runs.comparison_result import Run
 from tests.reports import samples
 

@@ -18,7 +18,7 @@ from gbnbench.execution.progress import Progress
 from gbnbench.generators.monitor import Trace, Watch
 from gbnbench.reports import style
 from gbnbench.reports.paper import axes, figure_07
-from gbnbench.reports.paper.data import fill, folder_name
+from gbnbench.reports.paper.data import folder_name, obtain
 from gbnbench.reports.paper.figure import Ask, compose
 from gbnbench.reports.paper.registry import find
 from tests.oracles.power import mean_power
@@ -48,7 +48,7 @@ def drawn(made: tuple[Path, Ask], name: str) -> tuple[Figure, dict[str, Any], st
     for what, request in figure.needs(ask).items():
         kept = folder / "data" / folder_name(request, ask.seed)
         assert kept.is_dir()
-        material[what] = fill(request, kept, ask.seed, 1, Progress())
+        material[what] = obtain(request, kept, ask.seed, 1, Progress())
     drawing = figure.draw(material, ask)
     return compose(drawing, "", "", captions=False), material, drawing.caption
 

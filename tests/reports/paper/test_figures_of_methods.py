@@ -21,7 +21,7 @@ from gbnbench.cli import gbnbench
 from gbnbench.execution.progress import Progress
 from gbnbench.reports import style
 from gbnbench.reports.paper import figure_12, shared
-from gbnbench.reports.paper.data import fill, folder_name
+from gbnbench.reports.paper.data import folder_name, obtain
 from gbnbench.reports.paper.figure import Ask, Drawing
 from gbnbench.reports.paper.registry import find
 
@@ -42,7 +42,7 @@ class Folder:
         (figure,) = find([name])
         ask = ask or self.ask
         return {
-            key: fill(request, self.path / "data" / folder_name(request, 0), 0, 1, Progress())
+            key: obtain(request, self.path / "data" / folder_name(request, 0), 0, 1, Progress())
             for key, request in figure.needs(ask).items()
         }
 
@@ -226,7 +226,7 @@ def test_sets_of_another_size_are_taken_where_there_are_none_of_this_one(tmp_pat
     save(tmp_path / "solid.npy", np.random.default_rng(1).random((20, 3)))
     ask = Ask("tiny", {"kdm": str(tmp_path)})
     request = shared.given(ask, ("bnot", "kdm"))["kdm"]
-    run = fill(request, tmp_path / "run", 0, 1, Progress())
+    run = obtain(request, tmp_path / "run", 0, 1, Progress())
     assert sorted((s.n, s.d) for s in run.sources) == [(20, 3), (30, 2), (50, 2)]
     assert [c.source.n for c in shared.yours({"kdm": run}, ("bnot", "kdm"), 30)] == [30]
     assert [c.source.n for c in shared.yours({"kdm": run}, ("kdm",), 100)] == [50]

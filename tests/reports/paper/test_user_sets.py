@@ -13,7 +13,7 @@ from gbnbench.reports.paper.figure import Ask
 from gbnbench.reports.paper.registry import find
 from gbnbench.reports.paper.shared import stroke
 from gbnbench.reports.paper.user_sets import check_sets
-from gbnbench.studies.integration.study import Integration
+from gbnbench.studies.integration.study import IntegrationStudy
 
 
 @pytest.fixture
@@ -64,7 +64,7 @@ def test_figure_9_names_the_users_sets_by_their_method_whatever_their_folder_is_
             for m in n for family in ("gaussians", "half-space")
         ]  # fmt: skip
         slopes = pd.DataFrame(columns=["source", "d", "integrand", "slope", "standard_error"])
-        return Integration({}, pd.DataFrame(rows), slopes)
+        return IntegrationStudy({}, pd.DataFrame(rows), slopes)
 
     material = {f"d{d}": study("gbn", (16, 64), d, 1e-3) for d in (2, 3, 8)}
     material["sets of vnc"] = study("gbn", (16,), 2, 1e-5)

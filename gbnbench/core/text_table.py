@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from gbnbench.core import number_text
+
 
 def number(value: Any) -> str:
     """Three significant digits."""
-    from gbnbench.reports.numbers import number
-
-    return number(float(value))
+    return number_text.number(float(value))
 
 
 def aligned(head: Sequence[str], rows: Sequence[Sequence[Any]]) -> Iterator[str]:

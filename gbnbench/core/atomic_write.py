@@ -1,0 +1,103 @@
+"""Atomic writes: files and folders that are whole or absent, whatever stops the process."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import secrets
+import shutil
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+
+
+def write_whole(path: Path, data: bytes, *, make_folder: bool = True) -> None:
+    """Write a file so that a reader, a crash or a full disk sees the old content or the new, never a part.
+
+    Parameters
+    ----------
+    path : Path
+        Where it shall stand.
+    data : bytes
+        The whole content.
+    make_folder : bool
+        Make its folder where it is missing.
+
+    Raises
+    ------
+    OSError
+        If the disk is full or the place cannot be written; nothing is left behind.
+    """
+    if make_folder:
+        path.parent.mkdir(parents=True, exist_ok=True)
+    temporary = _temporary(path)
+    try:
+        _write_synced(temporary, data)
+        temporary.replace(path)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            temporary.unlink(missing_ok=True)
+        raise
+    _sync_folder(path.parent)
+
+
+def write_folder_whole(path: Path, files: Mapping[str, bytes]) -> None:
+    """Write a folder of files under a temporary name and rename it: all of it appears at once or none.
+
+    Parameters
+    ----------
+    path : Path
+        The folder; one that is there is replaced.
+    files : mapping of str to bytes
+        Names and contents.
+
+    Raises
+    ------
+    OSError
+        If the disk is full or the place cannot be written; nothing is left behind.
+    """
+    path.parent.mkdir(parents=True, exist_ok=True)
+    temporary = _temporary(path)
+    try:
+        temporary.mkdir()
+        for name, data in files.items():
+            _write_synced(temporary / name, data)
+        _sync_folder(temporary)
+        if path.exists():
+            shutil.rmtree(path)
+        temporary.replace(path)
+    except BaseException:
+        shutil.rmtree(temporary, ignore_errors=True)
+        raise
+    _sync_folder(path.parent)
+
+
+def remove_leftovers(folder: Path) -> None:
+    """Delete the temporary files and folders that a killed process left anywhere below a folder."""
+    for leftover in list(folder.rglob(".*.tmp")):
+        if leftover.is_dir():
+            shutil.rmtree(leftover, ignore_errors=True)
+        else:
+            leftover.unlink(missing_ok=True)
+
+
+def _temporary(path: Path) -> Path:
+    """Name a file beside path that no other process writes, short enough for any file system."""
+    return path.parent / f".gbnbench-{secrets.token_hex(6)}.tmp"
+
+
+def _write_synced(path: Path, data: bytes) -> None:
+    with path.open("xb") as file:
+        file.write(data)
+        file.flush()
+        os.fsync(file.fileno())
+
+
+def _sync_folder(folder: Path) -> None:
+    if sys.platform == "win32":  # folders cannot be opened there
+        return
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)

@@ -1,0 +1,45 @@
+"""Powers and energy gradients in plain numpy, that kernels are checked against."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import erf
+
+from gbnbench.core.torus import FloatArray, spacing
+
+
+def numpy_power(x: FloatArray, frequencies: NDArray[np.int64]) -> FloatArray:
+    """Power at listed frequencies by integer phases and numpy's own cosines: (m,) float64."""
+    turns = np.rint(x * 2.0**64).astype(np.uint64)
+    phase = np.zeros((len(frequencies), len(x)), np.uint64)
+    for a in range(x.shape[1]):
+        phase += frequencies[:, a].astype(np.uint64)[:, None] * turns[:, a]
+    angle = 2 * np.pi * (phase.astype(np.int64) / 2.0**64)
+    power: FloatArray = (np.cos(angle).sum(axis=1) ** 2 + np.sin(angle).sum(axis=1) ** 2) / len(x)
+    return power
+
+
+def numpy_gradient(x: FloatArray, sigma: float) -> FloatArray:
+    """Gradient of the energy by points in spacings, images summed one by one: (n, d) float64."""
+    n, d = x.shape
+    side = 1 / spacing(n, d)
+    images = np.arange(-np.ceil(9 * sigma / side) - 1, np.ceil(9 * sigma / side) + 2) * side
+    u = ((x[:, None] - x[None]) * side)[..., None] + images
+    gauss = np.exp(-(u**2) / (2 * sigma**2))
+    value, slope = gauss.sum(axis=-1), (-u / sigma**2 * gauss).sum(axis=-1)
+    others = [np.prod(np.delete(value, a, axis=-1), axis=-1) for a in range(d)]
+    return np.stack([(slope[..., a] * others[a]).sum(axis=1) for a in range(d)], axis=1)
+
+
+def numpy_box_gradient(x: FloatArray, sigma: float) -> FloatArray:
+    """Gradient of the box's energy, pairs less the pull of a uniform density (Eq. 24-26): (n, d) float64."""
+    n, d = x.shape
+    side, root = 1 / spacing(n, d), np.sqrt(2) * sigma
+    u = x * side
+    apart = u[:, None] - u[None]
+    pairs = np.exp(-(apart**2).sum(axis=-1) / (2 * sigma**2))
+    within = sigma * np.sqrt(np.pi / 2) * (erf((side - u) / root) + erf(u / root))
+    slope = np.exp(-((u / root) ** 2)) - np.exp(-(((side - u) / root) ** 2))
+    pull = np.stack([slope[:, a] * np.prod(np.delete(within, a, axis=1), axis=1) for a in range(d)], axis=1)
+    return np.asarray(-(pairs[..., None] * apart).sum(axis=1) / sigma**2 - pull)

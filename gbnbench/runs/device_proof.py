@@ -1,0 +1,36 @@
+"""The check of the OpenCL device in a worker, before other work: a bad driver kills only that worker."""
+
+from __future__ import annotations
+
+from gbnbench.core.errors import DeviceError
+from gbnbench.doctor.trust import ensure_trusted
+from gbnbench.execution.progress import Progress
+from gbnbench.execution.worker_pool import Pool
+from gbnbench.opencl import choose
+
+
+def prove_device_if_any(pool: Pool, progress: Progress, total: int, done: int) -> None:
+    """Let a worker check the OpenCL device, if there is one.
+
+    Parameters
+    ----------
+    pool : Pool
+        Without other work.
+    progress : Progress
+        Told of the check.
+    total, done : int
+        Steps of the work that follows, and how many of them are finished.
+
+    Raises
+    ------
+    DeviceError
+        If there is a device and it cannot be used.
+    """
+    try:
+        choose()
+    except DeviceError:
+        return
+    progress.start(total, done, "checking the device (kernels of a new one are compiled, once)")
+    pool.submit(None, ensure_trusted)
+    if failure := pool.next().failure:
+        raise DeviceError(f"the OpenCL device cannot be used: {failure}")

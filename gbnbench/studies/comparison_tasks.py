@@ -1,0 +1,146 @@
+"""The work of a comparison as tasks: draw each realization, then measure all sets of a source together."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from functools import partial
+
+import numpy as np
+
+from gbnbench.analysis.measures import Analysis, analyse
+from gbnbench.core.torus import FloatArray
+from gbnbench.generators.protocol import Generator, checked_draw, realization_rng
+from gbnbench.runs.comparison_folder import Realization, realization_key
+from gbnbench.runs.comparison_result import SourceResult
+from gbnbench.runs.resumable import Task
+from gbnbench.runs.sources import Source
+
+REDRAW_SECONDS = 5.0
+
+_drawn_before: set[tuple[Generator, int, int]] = set()  # in a worker process
+
+
+def comparison_tasks(sources: Sequence[Source], seed: int, jobs: int) -> list[Task]:
+    """List the tasks of a comparison.
+
+    Parameters
+    ----------
+    sources : sequence of Source
+        In the order in which they are worked on.
+    seed : int
+        Realization k draws from ``SeedSequence(seed, spawn_key=(k,))``.
+    jobs : int
+        Worker processes. A source of no more sets than these is timed by drawing its sets twice.
+
+    Returns
+    -------
+    list of Task
+        For each source one a realization, unless its sets are given, and one that measures it.
+    """
+    tasks = []
+    for source in sources:
+        row = f"{source.label} (n={source.n}, d={source.d})"
+        done = f"{source.label}, n={source.n}, d={source.d}"
+        redraw = source.realizations <= jobs
+        draws = [
+            Task(
+                realization_key(source.key, k),
+                f"{row}, realization {k}",
+                draw_realization,
+                (source.generator, source.n, source.d, seed, k, redraw),
+                done=f"made {done}",
+            )
+            for k in range(source.realizations if source.generator is not None else 0)
+        ]
+        measure = Task(
+            source.key,
+            f"{row}, measuring it",
+            analyse if source.generator is None else analyse_realizations,
+            (source.sets,) if source.generator is None else (),
+            tuple(draw.key for draw in draws),
+            partial(source_result, source),
+            f"measured {done}",
+        )
+        tasks += [*draws, measure]
+    return tasks
+
+
+def draw_realization(
+    generator: Generator, n: int, d: int, seed: int, k: int, redraw: bool = False
+) -> Realization:
+    """Draw realization k in a worker.
+
+    Parameters
+    ----------
+    generator : Generator
+        What draws it.
+    n, d : int
+        Points and dimension.
+    seed, k : int
+        It draws from ``SeedSequence(seed, spawn_key=(k,))``.
+    redraw : bool
+        Draw it twice where the worker has not used this generator, n and d before and the first draw took
+        under five seconds, so that the cost of the second is free of imports and kernel builds. This is for
+        sources of which no worker draws two sets.
+
+    Returns
+    -------
+    Realization
+        The points with the CPU seconds of one draw, and whether that was the worker's first of its kind.
+    """
+    first = (generator, n, d) not in _drawn_before
+    _drawn_before.add((generator, n, d))
+    began = time.process_time()
+    x = generator(n, d, realization_rng(seed, k))
+    cost = time.process_time() - began
+    x = checked_draw(generator, x, n, d)
+    if first and redraw and cost < REDRAW_SECONDS:
+        began = time.process_time()
+        generator(n, d, realization_rng(seed, k))
+        return Realization(x, time.process_time() - began, False)
+    return Realization(x, cost, first)
+
+
+def analyse_realizations(realizations: Sequence[Realization]) -> Analysis:
+    """Measure the realizations of one source in a worker."""
+    return analyse(_points(realizations))
+
+
+def source_result(source: Source, analysis: Analysis, realizations: Sequence[Realization]) -> SourceResult:
+    """Put together a source's sets and what was measured of them.
+
+    Parameters
+    ----------
+    source : Source
+        With the sets, unless they were drawn.
+    analysis : Analysis
+        What was measured.
+    realizations : sequence of Realization
+        The sets drawn; empty where the source brings its own.
+
+    Returns
+    -------
+    SourceResult
+    """
+    return SourceResult(
+        **vars(analysis),
+        key=source.key,
+        label=source.label,
+        n=source.n,
+        d=source.d,
+        realizations=source.realizations,
+        points=_points(realizations) if source.sets is None else source.sets,
+        cpu_seconds=_cpu_seconds(realizations),
+    )
+
+
+def _points(realizations: Sequence[Realization]) -> FloatArray:
+    return np.stack([realization.x for realization in realizations])
+
+
+def _cpu_seconds(realizations: Sequence[Realization]) -> float:
+    """Mean cost of a set, without each worker's first where there are others: set-up is not the method's."""
+    warm = [one.cpu_seconds for one in realizations if not one.first]
+    costs = warm or [one.cpu_seconds for one in realizations]
+    return float(np.mean(costs)) if costs else float("nan")
