@@ -20,7 +20,7 @@ from gbnbench.core.torus import FloatArray
 
 @dataclass(frozen=True)
 class SpectrumSettings:
-        Largest harmonic on each axis. None stands for the end of the band, or for the default of shells or cubes.
+    """Frequencies and accuracy of a spectrum, which can be planned before there are points.
 
     Attributes
     ----------
