@@ -168,7 +168,7 @@ def allowed(expectation: Expectation) -> str:
 
 
 def _said(expectation: Expectation, found: Values, departure: float) -> str:
-    limit, expected = expectation.tolerance, expectation.expected
+    limit, expected = expectation.tolerance, list(expectation.expected)
     if expectation.scale == "relative":
         values = "the exact value" if len(expected) == 1 else f"the {len(expected)} exact values"
         return f"departs from {values} by {number(abs(departure))} of the largest (at most {number(limit)})"

@@ -51,6 +51,7 @@ class ResultStore(Protocol):
     @property
     def path(self) -> Path:
         """Where it is, for messages."""
+        ...
 
     def read(self, key: str) -> Any | None:
         """Return the result of a task; None where it is absent, or was spoilt and has to be made again."""

@@ -36,9 +36,11 @@ from gbnbench.execution.progress import Progress
 from gbnbench.generators.gbn.energy import field
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.protocol import realization_rng
+from tests import smallest_sizes
 from tests.oracles.power import direct_power
 
 COMMAND = [sys.executable, "-m", "gbnbench", "bench", "gbn"]
+SMALLEST = [*smallest_sizes.COMMAND, "bench", "gbn"]
 
 
 class Counting(Progress):
@@ -227,7 +229,7 @@ def test_bad_use_is_refused_in_words(tmp_path):
     with pytest.raises(InputError, match="must be a folder"):
         run(tmp_path / "file", floor_cases.tiny(), Progress())
     done = subprocess.run(
-        [*COMMAND, "--tiny", "--out", "file"], cwd=tmp_path, capture_output=True, text=True, check=False
+        [*SMALLEST, "--quick", "--out", "file"], cwd=tmp_path, capture_output=True, text=True, check=False
     )
     assert done.returncode == 2
     assert "--out must be a folder; file is a file" in done.stderr
