@@ -22,6 +22,7 @@ from gbnbench.reports.paper.data import folder_name, obtain
 from gbnbench.reports.paper.figure import Ask, compose
 from gbnbench.reports.paper.registry import find
 from tests.oracles.power import mean_power
+from tests.smallest_sizes import smallest_sizes
 
 pytestmark = pytest.mark.slow
 
@@ -33,8 +34,9 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Ask]:
     folder = tmp_path_factory.mktemp("figures")
     theirs = folder / "given.txt"
     save(theirs, generate("jittered", n=100, seed=3))
-    arguments = ["figures", *NAMES, "--tiny", "--quiet", "--jobs", "1", "--sets", f"bnot={theirs}"]
-    result = CliRunner().invoke(gbnbench, [*arguments, "--out", str(folder / "out")])
+    arguments = ["figures", *NAMES, "--quick", "--quiet", "--jobs", "1", "--sets", f"bnot={theirs}"]
+    with smallest_sizes():
+        result = CliRunner().invoke(gbnbench, [*arguments, "--out", str(folder / "out")])
     assert result.exit_code == 0, result.output
     return folder / "out", Ask("tiny", {"bnot": str(theirs)})
 
