@@ -2,8 +2,12 @@
 
 The names below load their modules when first used, so that importing gbnbench costs nearly nothing:
 
+- ``compare(sources, n=, d=, realizations=, out=)``: generators, files and arrays side by side, as a
+  ``Comparison`` with its table, figures and report;
+- ``integrate(sources, ...)``: variance of integrals estimated by their points, as an ``Integration``;
 - ``generate(name, n=, d=, seed=, realizations=, **settings)``: point sets from a generator;
 - ``load(path)``, ``save(path, x)``: point-set files;
+- ``wrap(x)``, ``scale(x, low, high)``: points brought onto the unit torus [0, 1)^d;
 - ``periodogram(x, fmax)``: exact power at every integer frequency; ``radial(spectrum)``: its radial mean;
 - ``shells(x, fmax)``: radial power and anisotropy without the cube, in any dimension;
 - ``plan(n, d, fmax)``: which evaluation a spectrum gets, why, and what it costs;
@@ -21,51 +25,66 @@ if TYPE_CHECKING:
     from gbnbench.analysis.spectrum.periodogram import periodogram
     from gbnbench.analysis.spectrum.plan import SpectrumPlan, plan
     from gbnbench.analysis.spectrum.shell_spectrum import shells
+    from gbnbench.api.comparison import Comparison, compare
+    from gbnbench.api.integration import Integration, integrate
     from gbnbench.core.errors import GbnbenchError
     from gbnbench.core.results import ShellSpectrum, Spectrum
+    from gbnbench.core.torus import scale, wrap
     from gbnbench.generators.registry import generate
     from gbnbench.io.points import load, save
 
 __version__ = "0.1.0"
 
-_HOMES = {
-    "GbnbenchError": "gbnbench.core.errors",
-    "generate": "gbnbench.generators.registry",
-    "SpectrumPlan": "gbnbench.analysis.spectrum.plan",
-    "ShellSpectrum": "gbnbench.core.results",
-    "Spectrum": "gbnbench.core.results",
-    "load": "gbnbench.io.points",
-    "measures": "gbnbench.analysis.measures",
-    "periodogram": "gbnbench.analysis.spectrum.periodogram",
-    "plan": "gbnbench.analysis.spectrum.plan",
-    "radial": "gbnbench.analysis.radial.radial_power",
-    "save": "gbnbench.io.points",
-    "shells": "gbnbench.analysis.spectrum.shell_spectrum",
-}
-
 __all__ = [
+    "Comparison",
     "GbnbenchError",
+    "Integration",
     "ShellSpectrum",
     "Spectrum",
     "SpectrumPlan",
+    "compare",
     "generate",
+    "integrate",
     "load",
     "measures",
     "periodogram",
     "plan",
     "radial",
     "save",
+    "scale",
     "shells",
+    "wrap",
 ]
+
+_MODULES = {
+    "Comparison": "gbnbench.api.comparison",
+    "GbnbenchError": "gbnbench.core.errors",
+    "Integration": "gbnbench.api.integration",
+    "ShellSpectrum": "gbnbench.core.results",
+    "Spectrum": "gbnbench.core.results",
+    "SpectrumPlan": "gbnbench.analysis.spectrum.plan",
+    "compare": "gbnbench.api.comparison",
+    "generate": "gbnbench.generators.registry",
+    "integrate": "gbnbench.api.integration",
+    "load": "gbnbench.io.points",
+    "measures": "gbnbench.analysis.measures",
+    "periodogram": "gbnbench.analysis.spectrum.periodogram",
+    "plan": "gbnbench.analysis.spectrum.plan",
+    "radial": "gbnbench.analysis.radial.radial_power",
+    "save": "gbnbench.io.points",
+    "scale": "gbnbench.core.torus",
+    "shells": "gbnbench.analysis.spectrum.shell_spectrum",
+    "wrap": "gbnbench.core.torus",
+}
 
 
 def __getattr__(name: str) -> Any:
-    if name not in _HOMES:
+    if name not in _MODULES:
         raise AttributeError(f"module 'gbnbench' has no attribute {name!r}")
-    value = getattr(importlib.import_module(_HOMES[name]), name)
+    value = getattr(importlib.import_module(_MODULES[name]), name)
     globals()[name] = value
     return value
 
 
 def __dir__() -> list[str]:
-    return sorted([*globals(), *_HOMES])
+    return sorted([*__all__, "__version__"])

@@ -100,8 +100,10 @@ def neighbours(x: ArrayLike) -> tuple[Neighbours, ...]:
 
 def as_neighbours(x: ArrayLike | Sequence[Neighbours]) -> Sequence[Neighbours]:
     """Return neighbours as they are, and compute those of points."""
-    if isinstance(x, (tuple, list)) and x and all(isinstance(item, Neighbours) for item in x):
-        return x
+    if isinstance(x, (tuple, list)):
+        given = [item for item in x if isinstance(item, Neighbours)]
+        if given and len(given) == len(x):
+            return given
     return neighbours(x)  # type: ignore[arg-type]
 
 

@@ -33,8 +33,8 @@ from gbnbench.core.errors import GbnbenchError, RefusalError
 from gbnbench.core.results import RadialPower
 from gbnbench.core.torus import FloatArray
 from gbnbench.execution.progress import Progress
-from gbnbench.generators.gauss_newton.solver import reach
-from gbnbench.generators.gbn.energy import field
+from gbnbench.generators.gauss_newton.solver import solve_for_amplitudes
+from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.generators.spectral_control.target_profiles import Exponential
@@ -94,7 +94,19 @@ MAPS = (
 
 
 def chi(d: int, edge: float) -> float:
-    """V_d edge**d / (2 d), V_d being the unit ball's volume: half of the coordinates' share that is bound.
+    """Half of the share of the coordinates that a profile binds: V_d edge**d / (2 d).
+
+    Parameters
+    ----------
+    d : int
+        Dimension.
+    edge : float
+        Where the profile ends, in nu.
+
+    Returns
+    -------
+    float
+        V_d is the volume of the unit ball.
 
     Examples
     --------
@@ -105,7 +117,22 @@ def chi(d: int, edge: float) -> float:
 
 
 def beyond(shells: RadialPower, edge: float) -> tuple[float, float]:
-    """Mean power over edge <= nu <= edge + 0.15, and the largest of its rings round(|f|) = k."""
+    """Measure the band edge <= nu <= edge + 0.15.
+
+    Parameters
+    ----------
+    shells : RadialPower
+        Of the set.
+    edge : float
+        Where the band begins, in nu.
+
+    Returns
+    -------
+    mean : float
+        Mean power of the band.
+    ring : float
+        Largest mean power of its rings round(|f|) = k.
+    """
     band = (shells.nu >= edge) & (shells.nu <= edge + BEYOND)
     ring = np.rint(shells.frequency[band]).astype(np.int64)
     count = np.bincount(ring, shells.count[band])
@@ -114,7 +141,24 @@ def beyond(shells: RadialPower, edge: float) -> tuple[float, float]:
 
 
 def row(key: tuple[Any, ...], x: FloatArray, edge: float, **told: object) -> dict[str, Any]:
-    """Everything measured of one set; its key is as ``KEY`` says. What it refuses is nan."""
+    """Measure one set; a measure that means nothing for it is nan.
+
+    Parameters
+    ----------
+    key : tuple
+        As ``KEY`` says.
+    x : (n, d) float64
+        The set.
+    edge : float
+        Where the band beyond the edge begins, in nu.
+    **told
+        The other columns.
+
+    Returns
+    -------
+    dict
+        By ``COLUMNS``.
+    """
     n, d = x.shape
     spectrum = periodogram(x, math.ceil(2 * n ** (1 / d)) + 1)
     shells = radial(spectrum)
@@ -123,7 +167,7 @@ def row(key: tuple[Any, ...], x: FloatArray, edge: float, **told: object) -> dic
     return {
         **dict(zip(KEY, key, strict=True)),
         **told,
-        "excess": float(field(n, d, 1.0)(x[None]).excess[0]),
+        "excess": float(energy_evaluation(n, d, 1.0)(x[None]).excess[0]),
         "noise_floor": noise_floor(shells),
         "power_at_1": power_at_1(shells),
         "evacuated_energy": or_nan(lambda: evacuated_energy(spectrum.power, n, d, spectrum.fmax)),
@@ -197,6 +241,10 @@ def draw_start(n: int, d: int, gradients: int, seed: int) -> Start:
         Gradients of its optimisation.
     seed : int
         Of its first realization.
+
+    Returns
+    -------
+    Start
     """
     _build_kernels(n, d)
     before = time.process_time()
@@ -221,6 +269,11 @@ def gbn_row(key: tuple[Any, ...], edge: float, starts: Sequence[Start]) -> dict[
         Where the band beyond the edge is taken to begin, in nu.
     starts : sequence of one Start
         The set.
+
+    Returns
+    -------
+    dict
+        By ``COLUMNS``.
     """
     (start,) = starts
     return row(key, start.x, edge, chi=math.nan, converged=True, steps=0, products=0, cpu_s=start.seconds)
@@ -235,11 +288,16 @@ def deep_row(key: tuple[Any, ...], starts: Sequence[Start]) -> dict[str, Any]:
         As ``KEY`` says.
     starts : sequence of one Start
         The set to start from.
+
+    Returns
+    -------
+    dict
+        By ``COLUMNS``.
     """
     (start,) = starts
     _, _, d, c, edge, _, _ = key
     before = time.process_time()
-    outcome = reach(start.x, Exponential(c * math.pi**2, edge), edge)
+    outcome = solve_for_amplitudes(start.x, Exponential(c * math.pi**2, edge), edge)
     told: dict[str, Any] = {
         "chi": chi(d, edge), "converged": outcome.converged, "steps": outcome.steps,
         "products": outcome.products, "cpu_s": start.seconds + time.process_time() - before,
@@ -287,7 +345,15 @@ class RowStore:
         return self._earlier.get(key)
 
     def write(self, key: str, result: Mapping[str, Any] | Start) -> None:  # noqa: ARG002 - the row holds it
-        """Write a row."""
+        """Write a row.
+
+        Parameters
+        ----------
+        key : str
+            The row's, which it holds itself.
+        result : mapping or Start
+            The row; a start is not kept.
+        """
         if not isinstance(result, Start):
             self._rows.add(result)
 

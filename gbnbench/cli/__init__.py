@@ -1,4 +1,4 @@
-"""The gbnbench command: what it is called, what it exits with, and how it says what went wrong."""
+"""The gbnbench command: its subcommands by task, its exit codes, and its errors in one line."""
 
 from __future__ import annotations
 
@@ -23,6 +23,30 @@ from gbnbench.core.errors import GbnbenchError
 
 BAD, STOPPED, PIPE = 2, 130, 141  # exit codes; 0 is done, 1 is worse than a baseline or a failed check
 
+TASKS: dict[str, tuple[click.Command, ...]] = {
+    "Start here": (compare, spectrum, analyze, generate),
+    "Studies": (integrate, figures, report),
+    "This machine": (check, bench, devices, doctor),
+}
+
+
+class CommandsByTask(click.Group):
+    """A group whose help shows its commands by what they are for."""
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002
+        """Write a section for each task."""
+        width = max(len(str(command.name)) for commands in TASKS.values() for command in commands)
+        for task, commands in TASKS.items():
+            with formatter.section(task):
+                limit = formatter.width - width - 4
+                formatter.write_dl(
+                    [(str(c.name).ljust(width), c.get_short_help_str(limit)) for c in commands]
+                )
+
+    def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write only the commands: the epilog names the two options."""
+        self.format_commands(ctx, formatter)
+
 
 def _version(context: click.Context, _: click.Parameter, asked: bool) -> None:
     if asked:
@@ -30,29 +54,21 @@ def _version(context: click.Context, _: click.Parameter, asked: bool) -> None:
         context.exit()
 
 
-@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
-@click.option("--version", is_flag=True, expose_value=False, is_eager=True, callback=_version, help="Say it.")
+@click.group(
+    cls=CommandsByTask,
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
+    epilog="'gbnbench COMMAND --help' shows its options; 'gbnbench --version'.",
+)
+@click.option(
+    "--version", is_flag=True, expose_value=False, is_eager=True, callback=_version, help="Show the version."
+)
 def gbnbench() -> None:
-    """Measure point sets' spectra exactly, compare generators side by side, make Gaussian blue noise.
-
-    Start with: gbnbench compare
-    """
+    """Exact spectra of point sets, generators side by side, Gaussian blue noise."""
 
 
-for _command in (
-    compare,
-    generate,
-    analyze,
-    spectrum,
-    integrate,
-    figures,
-    report,
-    check,
-    bench,
-    devices,
-    doctor,
-):
-    gbnbench.add_command(_command)
+for _commands in TASKS.values():
+    for _command in _commands:
+        gbnbench.add_command(_command)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

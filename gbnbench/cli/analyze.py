@@ -22,20 +22,23 @@ if TYPE_CHECKING:
 LOW, BAND = 0.5, 0.05  # nu to which a box's own spectrum is shown, and of each of its bands
 
 
-@click.command()
+@click.command(cls=options.Command)
 @click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="FILE...")
-@click.option("--json", "as_json", is_flag=True, help="Print a list of {path, set, n, d, measures}.")
 @click.option("--explain", is_flag=True, help="Say how the spectra would be found, at what cost; do nothing.")
 @click.option(
     "--projections", metavar="SUBSETS",
     help="Also measure projections: 1 for every axis, 2 for every plane, 0+2 for one; parted by /.",
 )  # fmt: skip
 @click.option("--box", is_flag=True, help="Also measure sets of the box: density by depth, own spectrum.")
+@options.json
 @options.device
 def analyze(
     files: tuple[Path, ...], as_json: bool, explain: bool, projections: str | None, box: bool
 ) -> None:
-    """Measure every set in every FILE, one row a set."""
+    """Every measure of the sets in files, one row a set.
+
+    --json prints a list of {path, set, n, d, measures}.
+    """
     if explain and as_json:
         raise click.UsageError("--explain and --json do not go together: leave one out")
     if explain:

@@ -1,4 +1,4 @@
-"""``gbnbench bench``: what gbnbench costs and how exact it is on this machine, beside its rivals."""
+"""``gbnbench bench periodogram``: speed and error of spectra on this machine, beside other libraries."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import click
 
 from gbnbench.cli import options
 from gbnbench.cli.bench_gbn import gbn
+from gbnbench.cli.json_text import json_text
 from gbnbench.core.text_table import aligned, number
 
 if TYPE_CHECKING:
@@ -25,22 +26,23 @@ SPEED_HEAD = (
 
 @click.group()
 def bench() -> None:
-    """Measure speed and error here, beside other ways to the same."""
+    """Speed and error on this machine, beside other ways."""
 
 
 bench.add_command(gbn)
 
 
-@bench.command()
-@click.option("--quick", is_flag=True, help="Under half a minute instead of under five; times are rougher.")
-@click.option(
-    "--out", type=click.Path(path_type=Path), default=Path("bench-periodogram"), show_default=True,
-    help="Folder for the tables and pictures; files of the same names are replaced.",
-)  # fmt: skip
-@click.option("--quiet", is_flag=True, help="No progress.")
-@click.option("--tiny", is_flag=True, hidden=True, help="Sizes that tests run.")
+@bench.command(cls=options.Command)
+@options.out_folder(
+    "Folder for the tables and pictures; files of the same names are replaced.", default="bench-periodogram"
+)
+@options.quick_or_full(
+    "--quick takes under half a minute, --full under five; times are rougher.", default="full"
+)
+@options.json
+@options.quiet
 @options.device
-def periodogram(quick: bool, out: Path, quiet: bool, tiny: bool) -> None:
+def periodogram(out: Path, quick: bool, as_json: bool, quiet: bool) -> None:
     """Speed against error of the spectrum beside numpy and FINUFFT, hard cases, and how the cost grows.
 
     All methods run in one process, in turn; times are CPU time over all threads, and ratios are taken round
@@ -50,16 +52,20 @@ def periodogram(quick: bool, out: Path, quiet: bool, tiny: bool) -> None:
     from gbnbench.benchmarks.spectra.speed_error import run
     from gbnbench.execution import progress
 
-    plan = cases.tiny() if tiny else cases.quick() if quick else cases.full()
+    plan = cases.quick() if quick else cases.full()
     try:
         with progress.choose(quiet) as teller:
             outcome = run(out, plan, teller)
     except KeyboardInterrupt:
         raise KeyboardInterrupt(f"what was measured is in {out}") from None
     _draw(outcome, out)
-    for line in _report(outcome):
-        click.echo(line)
-    click.echo(f"pictures: {out / 'speed_error.png'}, {out / 'scaling.png'}")
+    if as_json:
+        tables = {"speed": outcome.speed, "scaling": outcome.scaling, "hard_cases": outcome.hard}
+        click.echo(json_text({"machine": outcome.machine, **tables}))
+    else:
+        for line in _report(outcome):
+            click.echo(line)
+    click.echo(f"pictures: {out / 'speed_error.png'}, {out / 'scaling.png'}", err=as_json)
     if not outcome.hard.held.all():
         click.echo("gbnbench: a stated error bound does not hold here: see hard_cases.csv", err=True)
         click.get_current_context().exit(1)
@@ -81,7 +87,7 @@ def _draw(outcome: Outcome, out: Path) -> None:
 
 
 def _report(outcome: Outcome) -> Iterator[str]:
-    """Say what was found, a table a case."""
+    """Write what was measured as text, a table a case."""
     from gbnbench.benchmarks.spectra.hard_table import resolvable
     from gbnbench.benchmarks.spectra.speed_error import slopes
 

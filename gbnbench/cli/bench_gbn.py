@@ -1,4 +1,4 @@
-"""``gbnbench bench gbn``: how deep Gaussian Blue Noise gets in what time, ours beside the paper's descent."""
+"""``gbnbench bench gbn``: noise floor of Gaussian Blue Noise against time, beside the paper's descent."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from gbnbench.cli import options
+from gbnbench.cli.json_text import json_text
 from gbnbench.core.text_table import aligned, number
 
 if TYPE_CHECKING:
@@ -26,18 +27,17 @@ SPEEDUP_HEAD = (
 FORCE_HEAD = ("case", "precision", "kernel", "sigmas", "CPU ms", "median", "rms error")
 
 
-@click.command()
-@click.option(
-    "--quick", is_flag=True, help="Under half a minute instead of under five; fewer sizes and steps."
+@click.command(cls=options.Command)
+@options.out_folder(
+    "Folder for the tables and the picture; files of the same names are replaced.", default="bench-gbn"
 )
-@click.option(
-    "--out", type=click.Path(path_type=Path), default=Path("bench-gbn"), show_default=True,
-    help="Folder for the tables and the picture; files of the same names are replaced.",
-)  # fmt: skip
-@click.option("--quiet", is_flag=True, help="No progress.")
-@click.option("--tiny", is_flag=True, hidden=True, help="Sizes that tests run.")
+@options.quick_or_full(
+    "--quick takes under half a minute, --full under five; fewer sizes and steps.", default="full"
+)
+@options.json
+@options.quiet
 @options.device
-def gbn(quick: bool, out: Path, quiet: bool, tiny: bool) -> None:
+def gbn(out: Path, quick: bool, as_json: bool, quiet: bool) -> None:
     """Noise floor against CPU time: Nesterov's method and the paper's descent, float and double, cut-offs.
 
     The optimisers take turns in one process on one thread; each is stopped at a ladder of gradient counts
@@ -52,16 +52,20 @@ def gbn(quick: bool, out: Path, quiet: bool, tiny: bool) -> None:
     from gbnbench.benchmarks.gbn.floor_time import run
     from gbnbench.execution import progress
 
-    plan = floor_cases.tiny() if tiny else floor_cases.quick() if quick else floor_cases.full()
+    plan = floor_cases.quick() if quick else floor_cases.full()
     try:
         with progress.choose(quiet) as teller:
             outcome = run(out, plan, teller)
     except KeyboardInterrupt:
         raise KeyboardInterrupt(f"what was measured is in {out}") from None
     draw(outcome, out)
-    for line in report(outcome):
-        click.echo(line)
-    click.echo(f"picture: {out / 'floor_time.png'}")
+    if as_json:
+        tables = {"floors": outcome.floors, "speedups": outcome.speedups, "forces": outcome.forces}
+        click.echo(json_text({"machine": outcome.machine, **tables}))
+    else:
+        for line in report(outcome):
+            click.echo(line)
+    click.echo(f"picture: {out / 'floor_time.png'}", err=as_json)
 
 
 def draw(outcome: Outcome, out: Path) -> None:
@@ -76,8 +80,9 @@ def draw(outcome: Outcome, out: Path) -> None:
 
 
 def report(outcome: Outcome) -> Iterator[str]:
-    """Say what was found."""
-    from gbnbench.benchmarks.gbn.floor_time import AUTHORS_FLOOR, MEASURES
+    """Write what was measured as text, a table a question."""
+    from gbnbench.benchmarks.gbn.floor_time import MEASURES
+    from gbnbench.generators.gbn.published_quality import AUTHORS_FLOOR
 
     machine = outcome.machine
     yield f"{machine['processor']}, {machine['cores']} cores; {machine['device']}"

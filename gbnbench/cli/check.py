@@ -1,4 +1,4 @@
-"""``gbnbench check``: whether floors, order and the energy are still what they were when measured."""
+"""``gbnbench check``: regression cases of floors, order and energy, held against their stored values."""
 
 from __future__ import annotations
 
@@ -26,8 +26,7 @@ SEEDS = 24
 WIDE = 10.0  # a factor that is allowed, above which a measure guards little
 
 
-@click.command()
-@click.option("--full", is_flag=True, help="Every case: larger sets, longer runs, more generators.")
+@click.command(cls=options.Command)
 @click.option("--only", multiple=True, metavar="NAME", help="Only this case; may be given again.")
 @click.option(
     "--cases", "path", type=click.Path(path_type=Path), help="File of cases.  [default: gbnbench's own]"
@@ -37,9 +36,8 @@ WIDE = 10.0  # a factor that is allowed, above which a measure guards little
     "--spread", type=click.IntRange(3), metavar="SEEDS",
     help=f"With --update: seeds over which values and tolerances are measured.  [default: {SEEDS}]",
 )  # fmt: skip
-@click.option(
-    "--json", "as_json", is_flag=True, help="Print JSON on standard output, and nothing else there."
-)
+@options.quick_or_full("--full is every case: larger sets, longer runs, more generators.", default="quick")
+@options.json
 @click.option(
     "--jobs", type=click.IntRange(1),
     help="Worker processes; with 1 all is done in the command's own.  [default: one a core]",
@@ -47,7 +45,7 @@ WIDE = 10.0  # a factor that is allowed, above which a measure guards little
 @click.option("--quiet", is_flag=True, help="No progress, and only the lines of the table that are not ok.")
 @options.device
 def check(
-    full: bool,
+    quick: bool,
     only: tuple[str, ...],
     path: Path | None,
     update: bool,
@@ -56,11 +54,11 @@ def check(
     jobs: int | None,
     quiet: bool,
 ) -> None:
-    """Measure the noise floor's regression cases and say what is worse than expected; then exit code 1.
+    """Check that noise floors are what they were.
 
-    Cases are seeded sets of several generators, whose floor, peak and order are held against their spread
-    over seeds, and exact values: the energy's field at fixed points and the spectra of lattices, in double
-    and float.
+    What is worse than expected is said, and then the exit code is 1. Cases are seeded sets of several
+    generators, whose floor, peak and order are held against their spread over seeds, and exact values: the
+    energy's field at fixed points and the spectra of lattices, in double and float.
     """
     from gbnbench.execution import progress
     from gbnbench.regression.case_file import default_path, read_cases, select
@@ -69,7 +67,7 @@ def check(
         raise click.UsageError("--spread goes with --update")
     file = path or default_path()
     every = read_cases(file)
-    chosen = select(every, only, full)
+    chosen = select(every, only, not quick)
     workers = jobs or os.cpu_count() or 1
     with progress.choose(quiet or as_json) as teller:
         if update:

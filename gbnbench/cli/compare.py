@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 import click
 
 from gbnbench.cli import options
-from gbnbench.cli.report import draw
+from gbnbench.cli.json_text import json_text
 
 if TYPE_CHECKING:
-    from gbnbench.studies.comparison import ComparisonOutcome
+    from gbnbench.api.comparison import Comparison
 
 EPILOG = """\b
 Examples:
@@ -28,20 +28,17 @@ an unknown setting, as in gbn[x=1], lists those there are.
 """
 
 
-@click.command(epilog=EPILOG)
+@click.command(cls=options.Command, epilog=EPILOG)
 @click.argument("sources", nargs=-1)
-@click.option("-n", "n", type=options.Whole(), default="1024", show_default=True, help="Points a set.")
-@click.option("-d", "d", type=options.Whole(), default="2", show_default=True, help="Dimensions.")
-@click.option(
-    "--realizations", type=click.IntRange(1), default=16, show_default=True, help="Sets of each generator."
-)
-@options.seed
-@click.option(
-    "--out", type=click.Path(path_type=Path), help="Run folder.  [default: runs/NAME, by the settings]"
-)
+@click.option("-n", "n", type=options.WholeNumbers(), default="1024", show_default=True, help="Points a set.")
+@click.option("-d", "d", type=options.WholeNumbers(), default="2", show_default=True, help="Dimensions.")
+@options.out_folder("Run folder.  [default: runs/NAME, by the settings]")
 @click.option("--baseline", type=click.Path(path_type=Path), help="A finished run to be judged against.")
-@click.option("--jobs", type=click.IntRange(1), help="Worker processes.  [default: one a core]")
-@click.option("--quiet", is_flag=True, help="No progress.")
+@options.realizations(16)
+@options.seed
+@options.jobs
+@options.json
+@options.quiet
 @options.device
 def compare(
     sources: tuple[str, ...],
@@ -52,52 +49,57 @@ def compare(
     out: Path | None,
     baseline: Path | None,
     jobs: int | None,
+    as_json: bool,
     quiet: bool,
 ) -> None:
-    """Compare SOURCES side by side: generators with settings, files, folders, any mix.
+    """Compare generators and files side by side: table, report.
 
-    A folder is one source for each (n, d) in it. Stopped in any way, the same command goes on where it was.
+    SOURCES are generators with settings, files and folders, any mix; a folder is one source for each (n, d)
+    in it. Stopped in any way, the same command goes on where it was.
     """
-    from gbnbench.execution import progress
-    from gbnbench.runs.sources import DEFAULT_SOURCES, resolve
-    from gbnbench.studies.comparison import run_comparison
+    from gbnbench.api.comparison import compare as make
+    from gbnbench.runs.sources import DEFAULT_SOURCES
 
-    found, skipped = resolve(sources or DEFAULT_SOURCES, n, d, realizations)
-    for line in skipped:
-        click.echo(f"gbnbench: skipped: {line}", err=True)
-    with progress.choose(quiet) as teller:
-        outcome = run_comparison(
-            found,
-            out,
-            seed=seed,
-            jobs=jobs,
-            baseline=baseline,
-            command=shlex.join(["gbnbench", *sys.argv[1:]]),
-            skipped=skipped,
-            progress=teller,
-            draw=draw,
-        )
-    _tell(outcome)
-    if outcome.worse:
+    comparison = make(
+        list(sources or DEFAULT_SOURCES),
+        n=n,
+        d=d,
+        realizations=realizations,
+        seed=seed,
+        out=out,
+        baseline=baseline,
+        jobs=jobs,
+        quiet=quiet,
+        pictures=True,
+        command=shlex.join(["gbnbench", *sys.argv[1:]]),
+    )
+    _show(comparison, as_json)
+    if comparison.worse:
         click.get_current_context().exit(1)
 
 
-def _tell(outcome: ComparisonOutcome) -> None:
-    """Print the table, what to beware of, the verdicts, and where everything is."""
+def _show(comparison: Comparison, as_json: bool) -> None:
+    """Print the table, warnings, the verdicts against the baseline, and where everything is."""
     from gbnbench.reports.comparison.table import terminal_text
 
-    click.echo(terminal_text(outcome.run, colour=sys.stdout.isatty()))
-    for source in outcome.run.sources:
+    for line in comparison.skipped:
+        click.echo(f"gbnbench: skipped: {line}", err=True)
+    if as_json:
+        click.echo(json_text(comparison.measures))
+    else:
+        click.echo(terminal_text(comparison.run, colour=sys.stdout.isatty()))
+    for source in comparison.sources:
         for warning in source.warnings:
             click.echo(f"gbnbench: warning: {source.label} (n={source.n}, d={source.d}): {warning}", err=True)
-    for change in outcome.changes:
+    for change in comparison.changes:
         click.echo(
             f"{change.verdict}: {change.label} (n={change.n}, d={change.d}) {change.measure} "
-            f"{change.before:.4g} -> {change.after:.4g}, {change.deviations:.1f} standard errors"
+            f"{change.before:.4g} -> {change.after:.4g}, {change.deviations:.1f} standard errors",
+            err=as_json,
         )
-    for note in outcome.notes:
+    for note in comparison.notes:
         click.echo(f"baseline: {note}", err=True)
-    if outcome.run.manifest["baseline"] and not outcome.changes:
-        click.echo("baseline: nothing better or worse beyond 3 standard errors")
-    kept = f", {outcome.reused} of {outcome.pieces} pieces reused" if outcome.reused else ""
-    click.echo(f"report: {outcome.folder / 'report.html'} ({outcome.seconds:.1f} s{kept})")
+    if comparison.run.manifest["baseline"] and not comparison.changes:
+        click.echo("baseline: nothing better or worse beyond 3 standard errors", err=as_json)
+    kept = f", {comparison.reused} of {comparison.pieces} pieces reused" if comparison.reused else ""
+    click.echo(f"report: {comparison.report()} ({comparison.seconds:.1f} s{kept})", err=as_json)

@@ -18,22 +18,18 @@ Examples:
 """
 
 
-@click.command(epilog=EPILOG)
+@click.command(cls=options.Command, epilog=EPILOG)
 @click.argument("names", nargs=-1, metavar="[N]...")
-@click.option("--quick", is_flag=True, help="Small counts: minutes instead of hours.")
-@click.option(
-    "--out", type=click.Path(path_type=Path), default=Path("figures"), show_default=True,
-    help="Folder for pictures and what they are drawn from.",
-)  # fmt: skip
+@options.out_folder("Folder for pictures and what they are drawn from.", default="figures")
 @click.option(
     "--sets", multiple=True, metavar="NAME=PATH",
     help="Sets of a method without a generator here (bnot, kdm, vnc, bluenets, step, ...): a file or folder.",
 )  # fmt: skip
 @click.option("--no-captions", is_flag=True, help="Leave captions out of the pictures; captions.md has them.")
+@options.quick_or_full("Small counts: minutes instead of hours.", default="full")
 @options.seed
-@click.option("--jobs", type=click.IntRange(1), help="Worker processes.  [default: one a core]")
-@click.option("--quiet", is_flag=True, help="No progress.")
-@click.option("--tiny", is_flag=True, hidden=True, help="Sizes that tests run.")
+@options.jobs
+@options.quiet
 @options.device
 def figures(
     names: tuple[str, ...],
@@ -44,13 +40,12 @@ def figures(
     seed: int,
     jobs: int | None,
     quiet: bool,
-    tiny: bool,
 ) -> None:
-    """Make the figures of Ahmed, Ren & Wonka (2022): all, or those numbered N; 'depth' is our own.
+    """Make the figures of the paper (Ahmed, Ren & Wonka 2022).
 
-    Each becomes a PNG and a PDF, with a page index.html of them all. What they are drawn from stays in
-    OUT/data: stopped in any way, the same command goes on where it was. Figures 10, 11 and 15 to 17 show
-    adaptive sampling, which comes later.
+    All are made, or those numbered N; 'depth' is our own. Each becomes a PNG and a PDF, with a page
+    index.html of them all. What they are drawn from stays in OUT/data: stopped in any way, the same command
+    goes on where it was. Figures 10, 11 and 15 to 17 show adaptive sampling, which comes later.
     """
     from gbnbench.execution import progress
     from gbnbench.reports.paper.figure import Ask
@@ -59,7 +54,7 @@ def figures(
     from gbnbench.reports.paper.user_sets import check_sets
 
     wanted = find([] if names == ("all",) else names)
-    ask = Ask("tiny" if tiny else "quick" if quick else "full", _given(sets), seed)
+    ask = Ask("quick" if quick else "full", _given(sets), seed)
     check_sets(wanted, ask)
     with progress.choose(quiet) as teller:
         if ask.scale == "full":

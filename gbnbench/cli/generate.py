@@ -1,4 +1,4 @@
-"""``gbnbench generate``: point sets made into a file, watched while they are made."""
+"""``gbnbench generate``: point sets of a generator, written to a file."""
 
 from __future__ import annotations
 
@@ -17,21 +17,16 @@ from gbnbench.core.errors import InputError
 if TYPE_CHECKING:
     import pandas as pd
 
-    from gbnbench.generators.monitor import Trace, Watch
+    from gbnbench.generators.monitor import Monitor, Trace
 
 PATIENCE = 1.0  # seconds before progress is shown
 
 
-@click.command()
+@click.command(cls=options.Command)
 @click.argument("name")
 @click.option("-n", "n", type=click.IntRange(1), default=1024, show_default=True, help="Points a set.")
 @click.option("-d", "d", type=click.IntRange(1), default=2, show_default=True, help="Dimension.")
-@click.option("--realizations", type=click.IntRange(1), default=1, show_default=True, help="Sets.")
-@options.seed
-@click.option(
-    "-o", "--out", type=click.Path(path_type=Path, dir_okay=False), required=True,
-    help="File to write, replacing any; its format goes by the suffix.",
-)  # fmt: skip
+@options.out_file("File to write, replacing any; its format goes by the suffix.", required=True)
 @click.option(
     "--checkpoint", type=click.Path(path_type=Path, dir_okay=False),
     help="File for the state of a long run; the same command goes on from it. Removed at the end.",
@@ -41,17 +36,22 @@ PATIENCE = 1.0  # seconds before progress is shown
     help="CSV of energy, excess energy, largest force and step, gradient by gradient.",
 )  # fmt: skip
 @click.option(
-    "--spectra-at", type=options.Whole(), default=(), metavar="GRADIENTS",
+    "--spectra-at", type=options.WholeNumbers(), default=(), metavar="GRADIENTS",
     help="With --trace: radial power after so many gradients, such as 10,100,300, to TRACE-spectra.csv.",
 )  # fmt: skip
 @click.option("--explain", is_flag=True, help="Say how the energy would be found, at what cost; do nothing.")
-@click.option("--quiet", is_flag=True, help="No progress.")
+@options.realizations(1)
+@options.seed
+@options.quiet
 @options.device
 def generate(
     name: str, n: int, d: int, realizations: int, seed: int, out: Path, checkpoint: Path | None,
     trace: Path | None, spectra_at: tuple[int, ...], explain: bool, quiet: bool,
 ) -> None:  # fmt: skip
-    """Write sets of the generator NAME, such as gbn or 'gbn[iterations=1000]'."""
+    """Make point sets and write them to a file.
+
+    NAME is a generator, such as gbn or 'gbn[iterations=1000]'.
+    """
     from gbnbench.generators.monitor import Trace
     from gbnbench.generators.registry import find
     from gbnbench.generators.registry import generate as draw
@@ -78,8 +78,8 @@ def generate(
         click.echo(tell(n, d, realizations) if tell else f"{generator.name}: {generator.summary}")
         return
     kept = None if trace is None else Trace(keep_at=spectra_at)
-    with _watched(kept, checkpoint, quiet) as watch:
-        x = draw(name, n=n, d=d, seed=seed, realizations=realizations, watch=watch)
+    with _monitored(kept, checkpoint, quiet) as monitor:
+        x = draw(name, n=n, d=d, seed=seed, realizations=realizations, monitor=monitor)
     replaced = ", replacing what was there" if out.exists() else ""
     save(out, x)
     sets = "1 set" if realizations == 1 else f"{realizations} sets"
@@ -107,10 +107,10 @@ def _check_folder(path: Path | None) -> None:
 
 
 @contextlib.contextmanager
-def _watched(trace: Trace | None, checkpoint: Path | None, quiet: bool) -> Iterator[Watch]:
+def _monitored(trace: Trace | None, checkpoint: Path | None, quiet: bool) -> Iterator[Monitor]:
     """Progress once a draw has taken a second; on being stopped, say how to go on."""
     from gbnbench.execution import progress
-    from gbnbench.generators.monitor import Watch
+    from gbnbench.generators.monitor import Monitor
 
     began = time.monotonic()
     with contextlib.ExitStack() as stack:
@@ -130,7 +130,7 @@ def _watched(trace: Trace | None, checkpoint: Path | None, quiet: bool) -> Itera
             counted = done
 
         try:
-            yield Watch(tell, trace, checkpoint)
+            yield Monitor(tell, trace, checkpoint)
             if shown is not None:
                 shown.advance("done", most - counted)
         except KeyboardInterrupt:

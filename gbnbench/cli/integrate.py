@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import click
 
 from gbnbench.cli import options
+from gbnbench.cli.json_text import json_text
 from gbnbench.core.text_table import aligned, number
 
 if TYPE_CHECKING:
@@ -56,12 +57,12 @@ def _settings(family: Family) -> str:
     return f"{family.name}[{inside}]" if inside else family.name
 
 
-@click.command(epilog=EPILOG)
+@click.command(cls=options.Command, epilog=EPILOG)
 @click.argument("sources", nargs=-1)
 @click.option(
-    "-n", "n", type=options.Whole(), default="16,64,256,1024", show_default=True, help="Points a set."
+    "-n", "n", type=options.WholeNumbers(), default="16,64,256,1024", show_default=True, help="Points a set."
 )
-@click.option("-d", "d", type=options.Whole(), default="2", show_default=True, help="Dimensions.")
+@click.option("-d", "d", type=options.WholeNumbers(), default="2", show_default=True, help="Dimensions.")
 @click.option(
     "--integrand", "integrands", multiple=True, metavar="FAMILY",
     help="Family of integrands, with or without settings; may come again.  [default: gaussians, half-space]",
@@ -70,22 +71,19 @@ def _settings(family: Family) -> str:
     "--instances", type=click.IntRange(1), default=100, show_default=True, help="Integrands of each family."
 )
 @click.option(
-    "--realizations", type=click.IntRange(1), default=16, show_default=True, help="Sets of each generator."
-)
-@click.option(
     "--shifts", type=click.IntRange(0), default=0, show_default=True,
     help="Random toroidal shifts of each set; 0 takes the sets as they are.",
 )  # fmt: skip
-@options.seed
-@click.option(
-    "--out", type=click.Path(path_type=Path), help="Folder of results.  [default: runs/NAME, by the settings]"
-)
-@click.option("--jobs", type=click.IntRange(1), help="Worker processes.  [default: one a core]")
-@click.option("--quiet", is_flag=True, help="No progress.")
 @click.option(
     "--list", "listed", is_flag=True, is_eager=True, expose_value=False, callback=_list,
     help="List the families of integrands.",
 )  # fmt: skip
+@options.out_folder("Folder of results.  [default: runs/NAME, by the settings]")
+@options.realizations(16)
+@options.seed
+@options.jobs
+@options.json
+@options.quiet
 @options.device
 def integrate(
     sources: tuple[str, ...],
@@ -98,50 +96,44 @@ def integrate(
     seed: int,
     out: Path | None,
     jobs: int | None,
+    as_json: bool,
     quiet: bool,
 ) -> None:
-    """Estimate integrals by the means over SOURCES' points, and tell their variance against n.
+    """Variance of integrals estimated by point sets.
 
-    SOURCES are generators with settings, files and folders, any mix. Every integrand of a family is estimated
-    with every set. Beside each variance stands what the power spectrum of the points foretells, where the
-    family is periodic. Stopped in any way, the same command goes on where it was.
+    Integrals are estimated by the means over the points of SOURCES, which are generators with settings, files
+    and folders, any mix. Every integrand of a family is estimated with every set. Beside each variance stands
+    what the power spectrum of the points foretells, where the family is periodic. Stopped in any way, the
+    same command goes on where it was.
     """
-    from gbnbench.execution import progress
-    from gbnbench.studies.integration.study import DEFAULT_INTEGRANDS, DEFAULT_SOURCES, run_integration_study
+    from gbnbench.api.integration import integrate as make
+    from gbnbench.studies.integration.study import DEFAULT_INTEGRANDS, DEFAULT_SOURCES
 
-    with progress.choose(quiet) as teller:
-        outcome = run_integration_study(
-            sources or DEFAULT_SOURCES,
-            out,
-            n=n,
-            d=d,
-            realizations=realizations,
-            integrands=integrands or DEFAULT_INTEGRANDS,
-            instances=instances,
-            shifts=shifts,
-            seed=seed,
-            jobs=jobs,
-            command=shlex.join(["gbnbench", *sys.argv[1:]]),
-            progress=teller,
-            draw=draw,
-        )
-    for line in outcome.study.manifest["skipped"]:
+    made = make(
+        list(sources or DEFAULT_SOURCES),
+        n=n,
+        d=d,
+        realizations=realizations,
+        integrands=integrands or DEFAULT_INTEGRANDS,
+        instances=instances,
+        shifts=shifts,
+        seed=seed,
+        out=out,
+        jobs=jobs,
+        quiet=quiet,
+        pictures=True,
+        command=shlex.join(["gbnbench", *sys.argv[1:]]),
+    )
+    for line in made.skipped:
         click.echo(f"gbnbench: skipped: {line}", err=True)
-    for line in report(outcome.study):
-        click.echo(line)
-    kept = f", {outcome.reused} of {outcome.pieces} pieces reused" if outcome.reused else ""
-    click.echo(f"\nfolder: {outcome.folder} ({outcome.seconds:.1f} s{kept})")
-
-
-def draw(study: IntegrationStudy, folder: Path) -> None:
-    """Write the picture as PNG and PDF."""
-    from gbnbench.core.atomic_write import write_whole
-    from gbnbench.reports.comparison.figure_files import pdf, png
-    from gbnbench.reports.integration.variance import figure
-
-    drawn = figure(study)
-    write_whole(folder / "integration.png", png(drawn))
-    write_whole(folder / "integration.pdf", pdf(drawn))
+    if as_json:
+        click.echo(json_text({"variance": made.table, "slopes": made.slopes}))
+    else:
+        for line in report(made.study):
+            click.echo(line)
+    made.picture()
+    kept = f", {made.reused} of {made.pieces} pieces reused" if made.reused else ""
+    click.echo(f"{'' if as_json else chr(10)}folder: {made.folder} ({made.seconds:.1f} s{kept})", err=as_json)
 
 
 def report(study: IntegrationStudy) -> Iterator[str]:

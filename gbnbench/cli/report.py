@@ -1,37 +1,27 @@
-"""``gbnbench report``: the pictures of a run, remade from what it saved."""
+"""``gbnbench report``: the pictures of a finished run, drawn again from what it holds."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
-if TYPE_CHECKING:
-    from gbnbench.runs.comparison_result import Run
+from gbnbench.cli import options
 
 
-@click.command()
+@click.command(cls=options.Command)
 @click.argument("run", type=click.Path(path_type=Path))
 def report(run: Path) -> None:
-    """Remake the pictures of the finished folder RUN, of a comparison or a study of integration."""
-    from gbnbench.runs.comparison_folder import read_run
-    from gbnbench.studies.integration.study import is_study, read_integration
+    """Draw the pictures of a finished run again.
+
+    RUN is the folder of a comparison or of a study of integration.
+    """
+    from gbnbench.api import comparison, integration
+    from gbnbench.studies.integration.study import is_study
 
     if is_study(run):
-        from gbnbench.cli.integrate import draw as draw_study
-
-        draw_study(read_integration(run), run)
+        integration.draw(integration.Integration.read(run).study, run)
         click.echo(f"picture: {run / 'integration.png'}")
         return
-    draw(read_run(run), run)
+    comparison.draw(comparison.Comparison.read(run).run, run)
     click.echo(f"report: {run / 'report.html'}")
-
-
-def draw(run: Run, folder: Path) -> None:
-    """Write the figures and report.html of a run into its folder."""
-    from gbnbench.reports.comparison.figure_files import write_figures
-    from gbnbench.reports.html.page import write_report
-
-    write_figures(run, folder / "figures")
-    write_report(run, folder / "report.html")

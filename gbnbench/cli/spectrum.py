@@ -1,4 +1,4 @@
-"""``gbnbench spectrum``: the power of point-set files at just the frequencies asked for."""
+"""``gbnbench spectrum``: power of the point sets in files at the frequencies asked for."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class Band(click.ParamType[tuple[float, float]]):
         return low, high
 
 
-@click.command(epilog=EPILOG)
+@click.command(cls=options.Command, epilog=EPILOG)
 @click.argument("files", nargs=-1, type=click.Path(path_type=Path), metavar="FILE...")
 @click.option(
     "--fmax", type=click.IntRange(1),
@@ -73,10 +73,9 @@ class Band(click.ParamType[tuple[float, float]]):
               "[default: 1024]")  # fmt: skip
 @click.option("-d", "d", type=click.IntRange(1), help="Dimension, likewise.  [default: 2]")
 @click.option("--realizations", type=click.IntRange(1), help="Sets, likewise.  [default: 1]")
-@click.option(
-    "-o", "--out", type=click.Path(path_type=Path, dir_okay=False),
-    help="File to write, replacing any: .npz .npy .csv .png .pdf.",
-)  # fmt: skip
+@options.json
+@options.quiet
+@options.out_file("File to write, replacing any: .npz .npy .csv .png .pdf.")
 @options.device
 def spectrum(
     files: tuple[Path, ...],
@@ -96,44 +95,50 @@ def spectrum(
     d: int | None,
     realizations: int | None,
     out: Path | None,
+    as_json: bool,
+    quiet: bool,
 ) -> None:
-    """Exact power of the point sets in every FILE, averaged over sets: only what is asked for.
+    """Exact power of the point sets in files.
 
-    Without options it is the whole cube of frequencies; --half, --shells (or --band, --corners) and --at
-    ask for less.
+    It is the mean over the sets of every FILE, at just what is asked for: without options the whole cube of
+    frequencies, less with --half, --shells (or --band, --corners) and --at. --json prints what a file would
+    hold, shells where it would be a cube.
     """
     asked_for = {"--fmax": fmax, "--half": half, "--shells": shells, "--band": band, "--corners": corners}
     _refuse_both("--at", at, **asked_for)
     _refuse_both("--half", half, **{"--shells": shells, "--band": band, "--corners": corners})
     sizes = {"-n": n, "-d": d, "--realizations": realizations}
+    if as_json:
+        _refuse_both("--json", as_json, **{"--out": out, "--explain": explain})
     if files:
         _refuse_both("FILE", files, **sizes)
     elif not explain:
         raise click.UsageError("name a FILE of points; or plan without one: --explain -n 1024 -d 2")
     from gbnbench.analysis.spectrum.settings import SpectrumSettings
+    from gbnbench.cli import spectrum_output as output
     from gbnbench.cli import spectrum_run as work
     from gbnbench.io.lists import read_frequencies, read_weights
 
     if out is not None and not explain:
-        work.check_place(out)
+        output.check_place(out)
     sets = work.read_sets(files, each=each)
     if out is not None and not explain:
         inputs = [*files, *filter(None, (at, weights))]
-        work.check_outs(work.places(out, len(sets), each=each), inputs, each=each)
+        output.check_outs(output.places(out, len(sets), each=each), inputs, each=each)
     columns = sets[0].x.shape[2] if sets else d
     listed = None if at is None else read_frequencies(at, columns)
     settings = SpectrumSettings(
         fmax, half, shells or corners or band is not None, band, corners, listed, precision, floor, sigma
     )
     if not explain:
-        work.find(settings, sets, weights, out, each=each)
+        work.compute(settings, sets, weights, out, each=each, as_json=as_json, quiet=quiet)
     elif sets:
         work.explain(settings, sets, weights)
     else:
         d = (d or 2) if listed is None else listed.shape[1]
         if weights is not None:
             read_weights(weights, n or 1024, realizations or 1)
-        click.echo(settings.plan(n or 1024, d, realizations or 1))
+        click.echo(settings.plan(n or 1024, d or 2, realizations or 1))
 
 
 def _refuse_both(name: str, given: object, **others: object) -> None:

@@ -7,26 +7,20 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 import numpy as np
 
 from gbnbench.analysis.spectrum.settings import SpectrumSettings
-from gbnbench.cli.spectrum_text import exactness, headline, told
+from gbnbench.cli.json_text import json_text
+from gbnbench.cli.spectrum_output import check_format, places, write
+from gbnbench.cli.spectrum_text import as_record, told
 from gbnbench.core.errors import InputError
-from gbnbench.core.results import ShellSpectrum, Spectrum
 from gbnbench.core.torus import FloatArray
 from gbnbench.execution import progress
 from gbnbench.io.lists import read_weights
 from gbnbench.io.points import read
-from gbnbench.io.points.writer import write_atomically
-from gbnbench.runs.spectrum_files import DATA, check_writable, encode
 
-if TYPE_CHECKING:
-    from gbnbench.analysis.spectrum.plan import SpectrumPlan
-
-PICTURES = (".png", ".pdf")
 SLOW = 3.0  # expected seconds that are said beforehand
 PATIENCE = 1.0  # seconds before progress is shown
 
@@ -52,6 +46,17 @@ class Sets:
 
 def read_sets(files: Sequence[Path], *, each: bool) -> list[Sets]:
     """Read every set of the files: one entry a set, or one of all, which then agree in n and d.
+
+    Parameters
+    ----------
+    files : sequence of Path
+        Point-set files.
+    each : bool
+        Whether every set has a spectrum of its own.
+
+    Returns
+    -------
+    list of Sets
 
     Raises
     ------
@@ -79,7 +84,22 @@ def read_sets(files: Sequence[Path], *, each: bool) -> list[Sets]:
 
 
 def explain(settings: SpectrumSettings, sets: Sequence[Sets], weights: Path | None) -> None:
-    """Print the plan of each size of sets, having checked the weights."""
+    """Print the plan of each size of sets, having checked the weights.
+
+    Parameters
+    ----------
+    settings : SpectrumSettings
+        Which frequencies, how exact.
+    sets : sequence of Sets
+        One for each spectrum.
+    weights : Path, optional
+        File of the points' weights.
+
+    Raises
+    ------
+    GbnbenchError
+        If the weights do not fit, or no evaluator can do it.
+    """
     _weights(weights, sets)
     alike: dict[tuple[int, ...], list[Sets]] = {}
     for one in sets:
@@ -89,10 +109,34 @@ def explain(settings: SpectrumSettings, sets: Sequence[Sets], weights: Path | No
         click.echo(f"{same[0].label}{more}:\n{settings.plan(n, d, realizations)}")
 
 
-def find(
-    settings: SpectrumSettings, sets: Sequence[Sets], weights: Path | None, out: Path | None, *, each: bool
+def compute(
+    settings: SpectrumSettings,
+    sets: Sequence[Sets],
+    weights: Path | None,
+    out: Path | None,
+    *,
+    each: bool,
+    as_json: bool,
+    quiet: bool,
 ) -> None:
-    """Find the spectra, and write or print them.
+    """Compute the spectra, and write or print them.
+
+    Parameters
+    ----------
+    settings : SpectrumSettings
+        Which frequencies, how exact.
+    sets : sequence of Sets
+        One for each spectrum.
+    weights : Path, optional
+        File of the points' weights.
+    out : Path, optional
+        File to write; without it the spectra are printed.
+    each : bool
+        Whether every set has a file of its own.
+    as_json : bool
+        Whether what is printed is JSON.
+    quiet : bool
+        Whether to leave out progress and the time expected.
 
     Raises
     ------
@@ -102,26 +146,30 @@ def find(
     plans = [settings.plan(one.x.shape[1], one.x.shape[2], len(one.x)) for one in sets]
     if out is not None:
         for plan in plans:
-            _check_out(out, plan)
+            check_format(out, plan)
     weighing = _weights(weights, sets)
     seconds = sum(plan.seconds for plan in plans)
-    if seconds > SLOW:
+    if seconds > SLOW and not quiet:
         click.echo(f"gbnbench: about {_duration(seconds)}: {plans[0].chosen.evaluator.label}", err=True)
     paths = [] if out is None else places(out, len(sets), each=each)
-    written = 0
+    written, printed = 0, []
     try:
         for k, (one, plan, w) in enumerate(zip(sets, plans, weighing, strict=True)):
             if weights is not None:
                 one = replace(one, label=f"{one.label} weighted by {weights}")
             if settings.sigma is not None:
                 one = replace(one, label=f"{one.label} filtered by a Gaussian of {settings.sigma:g} spacings")
-            with _bar(plan.request.frequencies) as tell:
+            with _bar(plan.request.frequencies, quiet) as tell:
                 result = settings.evaluate(one.x, w, tell)
             if paths:
-                _write(paths[k], result, one)
+                write(paths[k], result, one.label, one.sources)
                 written += 1
+            elif as_json:
+                printed.append(as_record(result, one.label))
             else:
                 click.echo(("\n" if k else "") + told(result, one.label))
+        if as_json:
+            click.echo(json_text(printed))
     except KeyboardInterrupt:
         if not paths:
             raise
@@ -145,61 +193,6 @@ def _weights(path: Path | None, sets: Sequence[Sets]) -> list[FloatArray | None]
     return list(found) if found.ndim == 2 else [found] * len(sets)
 
 
-def places(out: Path, sets: int, *, each: bool) -> list[Path]:
-    """Name every file that will be written: OUT, or with ``each`` OUT with the number of each set."""
-    digits = len(str(sets - 1))
-    return [out.with_name(f"{out.stem}_{k:0{digits}d}{out.suffix}") for k in range(sets)] if each else [out]
-
-
-def check_outs(outs: Sequence[Path], inputs: Sequence[Path], *, each: bool) -> None:
-    """Refuse to write where an input is, by whatever name or link."""
-    read_here = {_identity(path) for path in inputs}
-    for path in outs:
-        if path.exists() and _identity(path) in read_here:
-            how = "--each" if each else "writing"
-            raise InputError(f"{path} is read here, and {how} would replace it; choose another name")
-
-
-def _identity(path: Path) -> tuple[int, int]:
-    """Device and inode, which every link to a file has in common."""
-    status = path.stat()
-    return status.st_dev, status.st_ino
-
-
-def check_place(out: Path) -> None:
-    """Refuse a place or format that cannot be written, before anything is read."""
-    if out.suffix.lower() not in DATA + PICTURES:
-        known = ", ".join(DATA + PICTURES)
-        raise InputError(f"{out}: spectra are written as {known}; got extension {out.suffix!r}")
-    if not out.parent.is_dir():
-        raise InputError(f"cannot write {out}: there is no folder {out.parent}")
-
-
-def _check_out(out: Path, plan: SpectrumPlan) -> None:
-    """Refuse what the format cannot hold."""
-    suffix, request = out.suffix.lower(), plan.request
-    if suffix in PICTURES and request.what == "listed":
-        raise InputError(f"{out}: listed frequencies make no picture; write .csv, .npz or .npy")
-    rows = request.high if request.what == "shells" else request.frequencies
-    if suffix in DATA:
-        check_writable(suffix, request.what, rows)
-
-
-def _write(path: Path, result: Spectrum | ShellSpectrum, sets: Sets) -> None:
-    suffix = path.suffix.lower()
-    if suffix in DATA:
-        data = encode(suffix, result, sets.sources)
-    else:
-        from gbnbench.reports.comparison import figure_files
-        from gbnbench.reports.comparison.single_spectrum import figure
-
-        drawn = figure(result, sets.label)
-        data = figure_files.png(drawn) if suffix == ".png" else figure_files.pdf(drawn)
-    replaced = ", replacing what was there" if path.exists() else ""
-    write_atomically(path, data)
-    click.echo(f"wrote {path}: {headline(result, sets.label)}{replaced}\n  {exactness(result)}")
-
-
 def _duration(seconds: float) -> str:
     for size, unit in ((86400, "days"), (3600, "hours"), (60, "minutes")):
         if seconds >= 1.5 * size:
@@ -213,7 +206,7 @@ def _worth_showing(elapsed: float, share: float) -> bool:
 
 
 @contextmanager
-def _bar(frequencies: int) -> Iterator[Callable[[float], None]]:
+def _bar(frequencies: int, quiet: bool) -> Iterator[Callable[[float], None]]:
     """Yield what takes the share done and shows it, once the work has lasted a while."""
     began, shown = time.monotonic(), 0
     with ExitStack() as stack:
@@ -225,7 +218,7 @@ def _bar(frequencies: int) -> Iterator[Callable[[float], None]]:
             if bar is not None:
                 bar.advance("frequencies", done - shown)
             elif _worth_showing(time.monotonic() - began, share):
-                bar = stack.enter_context(progress.choose(quiet=False))
+                bar = stack.enter_context(progress.choose(quiet))
                 bar.start(frequencies, done, "frequencies")
             shown = done
 

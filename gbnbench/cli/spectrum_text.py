@@ -1,4 +1,4 @@
-"""What ``gbnbench spectrum`` prints: a headline, how exact it is, the numbers of note, the first rows."""
+"""A spectrum in words and numbers, as ``gbnbench spectrum`` prints it: headline, error, first rows."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from gbnbench.analysis.radial.profile_measures import noise_floor, peak, power_at_1
 from gbnbench.analysis.radial.radial_power import shells_from_cube
 from gbnbench.analysis.spectrum.evaluators.registry import title_of
+from gbnbench.cli.json_text import records
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.results import ShellSpectrum, Spectrum, resolvable_power
 from gbnbench.runs.spectrum_files import columns
@@ -37,6 +38,17 @@ def told(result: Spectrum | ShellSpectrum, label: str) -> str:
     power = {"power": np.array([_power(p, result) for p in rows["power"].tolist()])}
     lines += ["", *_aligned(rows | told_apart | power)]
     return "\n".join([*lines, f"... {more:,} more: -o FILE.csv has all"] if more > 0 else lines)
+
+
+def as_record(result: Spectrum | ShellSpectrum, label: str) -> dict[str, Any]:
+    """Return for JSON the label, how it was found, its errors, and a row a shell or listed frequency."""
+    import pandas as pd
+
+    names = ("n", "d", "realizations", "fmax", "precision", "method", "device", "error_rms", "error_bound")
+    about = {name: getattr(result, name) for name in names}
+    if isinstance(result, Spectrum) and result.frequencies is None:
+        result = shells_from_cube(result)
+    return {"label": label, **about, "rows": records(pd.DataFrame(columns(result)))}
 
 
 def _of_note(shells: ShellSpectrum, result: Spectrum | ShellSpectrum) -> list[str]:

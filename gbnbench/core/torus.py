@@ -57,7 +57,7 @@ def check_points(x: ArrayLike) -> FloatArray:
         where = tuple(int(i) for i in np.argwhere(~inside)[0])
         raise InputError(
             f"points must lie in [0, 1); got {float(points[where])!r} at index {where}. "
-            "On a torus, gbnbench.core.torus.wrap(x) brings them inside"
+            "On a torus, gbnbench.wrap(x) brings them inside; gbnbench.scale(x, low, high) does it for a box"
         )
     return points
 
@@ -71,6 +71,21 @@ def as_realizations(x: ArrayLike) -> FloatArray:
 def wrap(x: ArrayLike) -> FloatArray:
     """Bring coordinates onto [0, 1) by whole turns.
 
+    Parameters
+    ----------
+    x : (..., d) array_like
+        Finite coordinates, in sides of the unit torus.
+
+    Returns
+    -------
+    (..., d) float64
+        The same points of the torus, in [0, 1).
+
+    Raises
+    ------
+    ValueError
+        If x holds anything but numbers.
+
     Notes
     -----
     ``-1e-17 % 1.0`` rounds to 1.0; the torus has no 1.0, so it becomes 0.
@@ -83,6 +98,53 @@ def wrap(x: ArrayLike) -> FloatArray:
     turned = np.mod(np.asarray(x, dtype=np.float64), 1.0)
     turned[turned >= 1.0] = 0.0
     return turned
+
+
+def scale(x: ArrayLike, low: ArrayLike = 0.0, high: ArrayLike = 1.0) -> FloatArray:
+    """Map points of a box onto the unit torus: (x - low) / (high - low).
+
+    Parameters
+    ----------
+    x : (..., d) array_like
+        Points of the box, low <= x <= high.
+    low, high : float or (d,) array_like
+        Corners of the box, one number for all axes or one an axis, in the units of x.
+
+    Returns
+    -------
+    (..., d) float64
+        In [0, 1): the far side of the box is the near one of the torus, so that high becomes 0.
+
+    Raises
+    ------
+    InputError
+        If low and high are no corners of a box, or a point lies outside it or is not finite.
+
+    Examples
+    --------
+    >>> scale([[0.0, 15.0], [2.5, 20.0]], low=[0, 10], high=[10, 20])
+    array([[0.  , 0.5 ],
+           [0.25, 0.  ]])
+    """
+    try:
+        points, least, most = (np.asarray(value, dtype=np.float64) for value in (x, low, high))
+        outside = ~((points >= least) & (points <= most))
+    except (TypeError, ValueError):
+        raise InputError(
+            "x, low and high must be real numbers: x (..., d), low and high one number or d of them"
+        ) from None
+    if outside.shape != points.shape:
+        raise InputError(f"low and high must be one number or one an axis of x; x has shape {points.shape}")
+    if not (np.isfinite(least).all() and np.isfinite(most).all() and (least < most).all()):
+        raise InputError(f"low must be below high on every axis; got low={low!r}, high={high!r}")
+    if outside.any():
+        where = tuple(int(i) for i in np.argwhere(outside)[0])
+        raise InputError(
+            f"points must lie in the box from low to high; got {float(points[where])!r} at index {where}"
+        )
+    scaled: FloatArray = np.atleast_1d((points - least) / (most - least))
+    scaled[scaled >= 1.0] = 0.0
+    return scaled
 
 
 def displacement(a: FloatArray, b: FloatArray) -> FloatArray:

@@ -122,14 +122,14 @@ def _periodogram(n: int, d: int, fmax: int, precision: PrecisionName) -> Iterato
 
 
 def _energy(n: int, d: int, sigma: float, precision: str) -> Iterator[Check]:
-    from gbnbench.generators.gbn.energy import field
-    from gbnbench.generators.gbn.plan import plan
+    from gbnbench.generators.gbn.energy import energy_evaluation
+    from gbnbench.generators.gbn.plan import plan_energy
 
     x = np.random.default_rng(n).random((2, n, d))
     expected = np.stack([numpy_gradient(one, sigma) for one in x])
-    found = plan(n, d, sigma, precision)
+    found = plan_energy(n, d, sigma, precision)
     for method in sorted(c.method for c in (found.chosen, *found.others)):
-        gradient = field(n, d, sigma, precision, method=method)(x).gradient
+        gradient = energy_evaluation(n, d, sigma, precision, method=method)(x).gradient
         error = float(np.max(np.abs(gradient - expected)) / np.max(np.abs(expected)))
         yield Check(
             f"gbn gradient, {method}", f"n={n} d={d} sigma={sigma}", precision, error, GRADIENT[precision]
@@ -137,14 +137,14 @@ def _energy(n: int, d: int, sigma: float, precision: str) -> Iterator[Check]:
 
 
 def _box(n: int, d: int, sigma: float, precision: str) -> Iterator[Check]:
-    from gbnbench.generators.gbn.box import BoxField
+    from gbnbench.generators.gbn.box import BoxEnergy
 
     x = np.random.default_rng(n).random((2, n, d))
     expected = np.stack([numpy_box_gradient(one, sigma) for one in x])
-    field = BoxField(n, d, sigma, precision)
-    error = float(np.max(np.abs(field(x).gradient - expected)) / np.max(np.abs(expected)))
+    box = BoxEnergy(n, d, sigma, precision)
+    error = float(np.max(np.abs(box(x).gradient - expected)) / np.max(np.abs(expected)))
     yield Check(
-        f"gbn gradient, {field.method}", f"n={n} d={d} sigma={sigma}", precision, error, GRADIENT[precision]
+        f"gbn gradient, {box.method}", f"n={n} d={d} sigma={sigma}", precision, error, GRADIENT[precision]
     )
 
 

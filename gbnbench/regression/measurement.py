@@ -1,4 +1,4 @@
-"""What the cases measure: sets of a generator, the energy's field at fixed points, a lattice's spectrum."""
+"""Measurements of the cases: generated sets, the energy's field at fixed points, a lattice's spectrum."""
 
 from __future__ import annotations
 
@@ -47,7 +47,19 @@ def observe(case: Case, seed: int) -> dict[str, Values]:
 
 
 def fixed_points(n: int, d: int, seed: int) -> FloatArray:
-    """Points that are the same on every machine and exact in float: (n, d) float64, multiples of 2^-24.
+    """Make points that are the same on every machine and exact in float.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    seed : int
+        Of the stream that they come from.
+
+    Returns
+    -------
+    (n, d) float64
+        Multiples of 2^-24.
 
     Notes
     -----
@@ -68,7 +80,19 @@ def listed(gradient: FloatArray) -> FloatArray:
 
 
 def lattice(n: int, d: int) -> tuple[FloatArray, int]:
-    """Shifted lattice of n = m^d points, m a power of two, and m.
+    """Make a shifted lattice of n = m^d points, m being a power of two.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+
+    Returns
+    -------
+    x : (n, d) float64
+        The lattice.
+    m : int
+        Points along an axis.
 
     Raises
     ------
@@ -93,7 +117,7 @@ def _field(case: Case, seed: int) -> Mapping[str, Values]:
     from gbnbench.generators.gbn import energy
 
     x = fixed_points(case.n, case.d, seed)
-    at = energy.field(case.n, case.d, case.sigma, case.precision)(x[None])
+    at = energy.energy_evaluation(case.n, case.d, case.sigma, case.precision)(x[None])
     return {
         "excess": (float(at.excess[0]),),
         "gradient": tuple(listed(at.gradient[0]).tolist()),

@@ -51,12 +51,21 @@ class ResultStore(Protocol):
     @property
     def path(self) -> Path:
         """Where it is, for messages."""
+        ...
 
     def read(self, key: str) -> Any | None:
         """Return the result of a task; None where it is absent, or was spoilt and has to be made again."""
 
     def write(self, key: str, result: Any) -> None:
-        """Keep the result of a task."""
+        """Keep the result of a task.
+
+        Parameters
+        ----------
+        key : str
+            The task's.
+        result : object
+            What it made.
+        """
 
 
 class TaskRun:

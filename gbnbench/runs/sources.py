@@ -1,4 +1,4 @@
-"""What the user named, resolved: generators, files and folders become sources of one n and d each."""
+"""Sources of point sets, each of one n and d, made from the names of generators, files and folders."""
 
 from __future__ import annotations
 
@@ -10,13 +10,14 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.settings import specification
-from gbnbench.core.torus import FloatArray
+from gbnbench.core.torus import FloatArray, as_realizations
 from gbnbench.generators.protocol import Generator
 
 SUFFIXES = (".txt", ".dat", ".rps", ".eps", ".csv", ".npy", ".npz")  # what a folder's point sets end in
@@ -40,7 +41,9 @@ class Source:
     sets : (realizations, n, d) float64 or None
         None for generators.
     digest : str
-        SHA-256 of the files' contents, empty for generators.
+        SHA-256 of the contents of files or of an array, empty for generators.
+    kind : {"generator", "files", "array"}
+        Where the points come from.
     """
 
     key: str
@@ -51,16 +54,17 @@ class Source:
     generator: Generator | None = None
     sets: FloatArray | None = None
     digest: str = ""
+    kind: Literal["generator", "files", "array"] = "generator"
 
     def identity(self) -> dict[str, Any]:
-        """Tell what decides its points and numbers, JSON-ready: equal identities make equal results."""
+        """Return what decides its points, JSON-ready: sources of equal identity give equal results."""
         from gbnbench.generators.registry import GENERATORS
 
         same = {
             "key": self.key, "label": self.label, "n": self.n, "d": self.d, "realizations": self.realizations
         }  # fmt: skip
         if self.generator is None:
-            return {**same, "kind": "files", "sha256": self.digest}
+            return {**same, "kind": self.kind, "sha256": self.digest}
         kind = type(self.generator)
         own = {} if GENERATORS.get(kind.name) is kind else {"class": f"{kind.__module__}.{kind.__qualname__}"}
         return {
@@ -72,17 +76,44 @@ class Source:
         }
 
 
-def resolve(
-    names: Iterable[str | Generator], n: Sequence[int], d: Sequence[int], realizations: int
-) -> tuple[tuple[Source, ...], tuple[str, ...]]:
-    """Turn what was typed into sources, in the order asked for.
+def array_source(x: ArrayLike, label: str = "array") -> Source:
+    """Return points that are in memory as a source, known by a checksum of their values.
 
     Parameters
     ----------
-    names : iterable of str or Generator
+    x : (n, d) or (realizations, n, d) array_like
+        Points on the unit torus.
+    label : str
+        What the user reads.
+
+    Returns
+    -------
+    Source
+        Of kind "array".
+
+    Raises
+    ------
+    InputError
+        If x is no array of points in [0, 1)^d, or the label is empty.
+    """
+    if not label:
+        raise InputError("a source needs a name; got an empty one")
+    sets = as_realizations(x)
+    digest = hashlib.sha256(repr(sets.shape).encode() + sets.tobytes()).hexdigest()
+    return Source("", label, sets.shape[1], sets.shape[2], len(sets), sets=sets, digest=digest, kind="array")
+
+
+def resolve(
+    names: Iterable[str | Path | Generator | Source], n: Sequence[int], d: Sequence[int], realizations: int
+) -> tuple[tuple[Source, ...], tuple[str, ...]]:
+    """Turn names into sources, in their order.
+
+    Parameters
+    ----------
+    names : iterable of str, Path, Generator or Source
         Generators such as ``gbn[iterations=1000]``, files and folders. A name that is both is a generator;
-        with a path separator (``./gbn``) it is a path. An instance is a generator of your own, whose class
-        the workers must be able to import.
+        with a path separator (``./gbn``) or as a Path it is a path. An instance is a generator of your own,
+        whose class the workers must be able to import.
     n, d : sequence of int
         Sizes and dimensions for the generators: each is made at every pair. Files bring their own.
     realizations : int
@@ -110,9 +141,19 @@ def resolve(
     sources: list[Source] = []
     skipped: list[str] = []
     names = list(names)
-    stems = Counter(_title(Path(name)) for name in dict.fromkeys(names) if isinstance(name, str))
+    paths = dict.fromkeys(str(name) for name in names if isinstance(name, (str, Path)))
+    stems = Counter(_title(Path(path)) for path in paths)
     for name in names:
-        generator = _generator(name) if isinstance(name, str) else of_instance(name)
+        if isinstance(name, Source):
+            sources.append(name)
+            continue
+        if isinstance(name, Path) and not name.exists():
+            raise InputError(f"{name} is neither a file nor a folder")
+        generator: Generator | None = None
+        if isinstance(name, str):
+            generator = _generator(name)
+        elif not isinstance(name, Path):
+            generator = of_instance(name)
         if generator is None:
             path = Path(str(name))
             title = _title(path)
@@ -174,7 +215,7 @@ def _read(path: Path, title: str) -> list[Source]:
             digests.setdefault((x.shape[0], x.shape[1]), []).append(digest)
     return [
         Source("", title, n, d, len(sets), sets=np.stack(sets),
-               digest=hashlib.sha256("".join(digests[n, d]).encode()).hexdigest())
+               digest=hashlib.sha256("".join(digests[n, d]).encode()).hexdigest(), kind="files")
         for (n, d), sets in groups.items()
     ]  # fmt: skip
 

@@ -147,7 +147,19 @@ class Sweeps:
 
 
 def move_afresh(x: FloatArray, v: int) -> tuple[bool, float]:
-    """Move point v of x (n, 2) in place; return whether it moved and how wide the largest gap was."""
+    """Move point v of x (n, 2) in place; return whether it moved and how wide the largest gap was.
+
+    Parameters
+    ----------
+    x : (n, 2) float64
+        Points; changed in place.
+    v : int
+        The point that moves.
+
+    Returns
+    -------
+    bool
+    """
     rest = np.delete(x, v, axis=0)
     if len(rest) == 0:
         return False, 1.0

@@ -16,10 +16,10 @@ import numpy as np
 
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
-from gbnbench.generators.gauss_newton.modes import bound
-from gbnbench.generators.gbn.energy import field
+from gbnbench.generators.gauss_newton.modes import bound_coordinates
+from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.optimiser import step_size
-from gbnbench.generators.gbn.protocol import Gradient
+from gbnbench.generators.gbn.protocol import EnergyGradient
 
 Subset = tuple[int, ...]
 EVACUATED = 0.72  # nu below which a set of the whole energy has next to no power
@@ -93,6 +93,11 @@ def shares(n: int, d: int, chosen: Sequence[Subset], edge: float | None = None) 
     edge : float, optional
         nu, in the projections' own spacings, up to which their energies see; by default 0.72 counts.
 
+    Returns
+    -------
+    dict
+        Subset -> share; the whole set stands under all its coordinates.
+
     Notes
     -----
     2 chi m / d, chi = V_m edge^m / 2 m and m = |S|, counted over actual frequencies. Frequencies of a
@@ -101,12 +106,12 @@ def shares(n: int, d: int, chosen: Sequence[Subset], edge: float | None = None) 
     """
     whole = tuple(range(d))
     return {
-        axes: bound(n, len(axes), EVACUATED if axes == whole or edge is None else edge) / (n * d)
+        axes: bound_coordinates(n, len(axes), EVACUATED if axes == whole or edge is None else edge) / (n * d)
         for axes in (whole, *chosen)
     }
 
 
-class ProjectiveField:
+class ProjectiveEnergy:
     """The whole energy and that of every chosen projection, balanced so that no term sets the step alone.
 
     Parameters
@@ -126,7 +131,7 @@ class ProjectiveField:
     Attributes
     ----------
     method, error
-        As ``Field``; the error is that of the worst term.
+        As ``EnergyEvaluation``; the error is that of the worst term.
     scale : dict
         Subset -> c_S.
 
@@ -157,7 +162,7 @@ class ProjectiveField:
         if wrong:
             raise InputError(f"weights must be positive; got {weight[wrong[0]]} for {wrong[0]}")
         self._fields = {
-            axes: field(n, len(axes), sigma, precision, edge=None if axes == whole else edge)
+            axes: energy_evaluation(n, len(axes), sigma, precision, edge=None if axes == whole else edge)
             for axes in terms
         }
         largest = max(sum(weight[axes] for axes in terms if a in axes) for a in whole)
@@ -176,17 +181,18 @@ class ProjectiveField:
 
     @anchor.setter
     def anchor(self, x: FloatArray) -> None:
+        """Go on as if the points had last been sorted at x."""
         begin = 0
         for axes, term in self._fields.items():
             if hasattr(term, "anchor"):
                 term.anchor = np.ascontiguousarray(x[:, :, begin : begin + len(axes)])
                 begin += len(axes)
 
-    def __call__(self, x: FloatArray) -> Gradient:
-        """Gradient and energy sum of c_S Ex_S at x, (sets, n, d) float64 in box sides; see ``Field``."""
+    def __call__(self, x: FloatArray) -> EnergyGradient:
+        """Gradient and energy, the sum of c_S Ex_S, at x, (sets, n, d) float64 in box sides."""
         gradient, excess = np.zeros(x.shape), np.zeros(len(x))
         for axes, term in self._fields.items():
             at = term(np.ascontiguousarray(x[:, :, axes]))
             gradient[:, :, axes] += self.scale[axes] * self._unit[axes] * at.gradient
             excess += self.scale[axes] * at.excess
-        return Gradient(gradient, excess)
+        return EnergyGradient(gradient, excess)

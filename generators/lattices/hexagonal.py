@@ -78,7 +78,18 @@ class Hexagonal:
     shift: bool = True
 
     def refusal(self, n: int, d: int) -> str | None:
-        """Why no lattice of n points is hexagonal enough, with the nearest n that has one."""
+        """Say why no lattice of n points is hexagonal enough, with the nearest n that has one.
+
+        Parameters
+        ----------
+        n, d : int
+            Points and dimension.
+
+        Returns
+        -------
+        str or None
+            The reason, with the nearest numbers that can; None where they can.
+        """
         if d != 2:
             return f"d must be 2 for the hexagonal lattice; got d={d}"
         if n > MOST_POINTS:

@@ -18,7 +18,7 @@ from gbnbench.core.number_text import number
 from gbnbench.core.results import RadialPower
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
-from gbnbench.generators.monitor import Trace, Watch
+from gbnbench.generators.monitor import Monitor, Trace
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.reports import style
 from gbnbench.reports.paper import axes, shared
@@ -55,7 +55,7 @@ def evolution(
     trace, most = Trace(keep_at=counts), max(counts)
     descent = GaussianBlueNoise(iterations=most)
     generator = descent if method == "descent" else GaussianBlueNoise(gradients=most)
-    generator.draw(n, 2, [realization_rng(seed, first + k) for k in range(sets)], Watch(trace=trace))
+    generator.draw(n, 2, [realization_rng(seed, first + k) for k in range(sets)], Monitor(trace=trace))
     found = [shells(trace.points(count)).radial() for count in counts]
     return {
         "nu": found[0].nu,

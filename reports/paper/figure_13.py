@@ -15,7 +15,7 @@ from gbnbench.analysis.spectrum.shell_spectrum import shells
 from gbnbench.core.number_text import number
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
-from gbnbench.generators.monitor import Watch
+from gbnbench.generators.monitor import Monitor
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.reports import style
 from gbnbench.reports.paper import axes, shared
@@ -29,7 +29,7 @@ N, NU = 64, 2.0
 def line_sets(gradients: int, n: int, seed: int, first: int, sets: int) -> dict[str, FloatArray]:
     """Draw sets of the line together, which one by one cost ten times as much; points and mean power."""
     rngs = [realization_rng(seed, first + k) for k in range(sets)]
-    points = GaussianBlueNoise(edge=EDGE, gradients=gradients).draw(n, 1, rngs, Watch())
+    points = GaussianBlueNoise(edge=EDGE, gradients=gradients).draw(n, 1, rngs, Monitor())
     found = shells(points)
     return {"points": points[:, :, 0], "nu": found.nu, "power": found.power}
 

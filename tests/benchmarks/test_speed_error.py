@@ -22,9 +22,11 @@ from gbnbench.benchmarks.timing import machine
 from gbnbench.benchmarks.timing.interleaved import Timing, interleave, timed
 from gbnbench.benchmarks.timing.machine import Rows
 from gbnbench.benchmarks.timing.threads import _libraries, one_blas_thread
+from tests import smallest_sizes
 from tests.oracles.power import direct_power
 
 COMMAND = [sys.executable, "-m", "gbnbench", "bench", "periodogram"]
+SMALLEST = [*smallest_sizes.COMMAND, "bench", "periodogram"]
 
 
 @pytest.mark.parametrize(
@@ -136,7 +138,7 @@ def test_two_cores_are_told_apart_or_the_reason_is(monkeypatch):
 def whole(tmp_path_factory) -> tuple[Path, subprocess.CompletedProcess[str]]:
     folder = tmp_path_factory.mktemp("bench")
     done = subprocess.run(
-        [*COMMAND, "--tiny", "--out", "here"], cwd=folder, capture_output=True, text=True, check=False
+        [*SMALLEST, "--quick", "--out", "here"], cwd=folder, capture_output=True, text=True, check=False
     )
     return folder / "here", done
 
@@ -199,7 +201,7 @@ def test_bad_use_is_refused_in_words(tmp_path):
     (tmp_path / "file").write_text("mine")
     for arguments, says in ((["--out", "file"], "must be a folder"), (["--fast"], "No such option")):
         done = subprocess.run(
-            [*COMMAND, "--tiny", *arguments], cwd=tmp_path, capture_output=True, text=True, check=False
+            [*SMALLEST, "--quick", *arguments], cwd=tmp_path, capture_output=True, text=True, check=False
         )
         assert done.returncode == 2
         assert says in done.stderr

@@ -16,11 +16,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import gbnbench.studies.comparison
 from gbnbench.analysis.measure_definitions import BY_NAME
 from gbnbench.io.points import load, save
 from gbnbench.runs.comparison_folder import read_run
 from gbnbench.runs.sources import resolve
+from gbnbench.studies.comparison import run_comparison
 from tests.processes import COMMAND, command
 
 
@@ -43,7 +43,7 @@ def whole(tmp_path_factory: pytest.TempPathFactory) -> Whole:
     before = np.random.default_rng(3).random((3, 64, 2))
     save(folder / "mine.npy", before)
     sources, _ = resolve([str(folder / "mine.npy")], (64,), (2,), 3)
-    gbnbench.studies.comparison.compare(sources, folder / "before", jobs=1)
+    run_comparison(sources, folder / "before", jobs=1)
     save(folder / "mine.npy", 0.5 + before / 1000)
     line = "compare random jittered mine.npy -n 64 --realizations 3 --baseline before"
     arguments = tuple(line.split())
@@ -104,7 +104,7 @@ def test_killed_in_the_middle_it_resumes_to_the_same_bits(tmp_path: Path) -> Non
     assert resumed.returncode == 0, resumed.stderr
     assert f"{len(kept)} of 7 pieces reused" in resumed.stdout
     sources, _ = resolve(["lloyd"], (144,), (2,), 6)
-    straight = gbnbench.studies.comparison.compare(sources, tmp_path / "straight", jobs=1).run.sources[0]
+    straight = run_comparison(sources, tmp_path / "straight", jobs=1).run.sources[0]
     after = read_run(out).sources[0]
     assert after.points.tobytes() == straight.points.tobytes()
     assert after.spectrum.power.tobytes() == straight.spectrum.power.tobytes()

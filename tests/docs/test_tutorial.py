@@ -25,7 +25,7 @@ print(json.dumps({
     "rounding": rounding,
     "variance": {name: v.value for name, v in variance.items()},
     "slope": dict(zip(study.slopes.source, study.slopes.slope)),
-    "deviation": study.variance.deviation.abs().max(),
+    "deviation": study.table.deviation.abs().max(),
     "home": gbnbench.__file__,
     "files": sorted(path.name for path in folder.iterdir()),
 }))
@@ -63,7 +63,7 @@ def test_it_runs_and_shows_what_it_says(tmp_path: Path, monkeypatch: pytest.Monk
     assert shown["variance"]["deep"] < shown["variance"]["gbn"] < 1e-5 * shown["variance"]["sobol"]
     assert shown["slope"]["gbn"] < -4 < shown["slope"]["sobol"] < shown["slope"]["random"] < -0.7
     assert shown["deviation"] < 8  # the largest of 16 that have few degrees of freedom: 4 sets
-    assert shown["files"] == ["cut.txt", "deep.csv", "deep.npz", "mine.txt", "study"]
+    assert shown["files"] == ["comparison", "cut.txt", "deep.csv", "deep.npz", "mine.txt", "study"]
     pictures = [
         output
         for cell in notebook.cells

@@ -10,7 +10,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.analysis.integration.integrands.integer_frequencies import beyond_dimensions
+from gbnbench.analysis.integration.integrands.limits import beyond_dimensions
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray
 
@@ -98,8 +98,13 @@ class HalfSpace:
         values: FloatArray = (across >= 0).astype(np.float64)
         return values
 
-    @cached_property
+    @property
     def integral(self) -> float:
+        """Volume of the box beyond the plane, computed once."""
+        return self._volume
+
+    @cached_property
+    def _volume(self) -> float:
         """Volume of the box beyond the plane.
 
         Notes

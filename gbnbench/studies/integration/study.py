@@ -151,6 +151,7 @@ def run_integration_study(
     seed: int = 0,
     jobs: int | None = None,
     command: str = "",
+    skipped: Sequence[str] = (),
     progress: Progress | None = None,
     draw: Callable[[IntegrationStudy, Path], None] | None = None,
 ) -> IntegrationOutcome:
@@ -178,6 +179,8 @@ def run_integration_study(
         Worker processes, each with one thread; by default one a core.
     command : str
         What the user typed, for the manifest.
+    skipped : sequence of str
+        What was refused when the sources were resolved, for the manifest.
     progress : Progress, optional
         Told what is being done.
     draw : callable, optional
@@ -204,10 +207,10 @@ def run_integration_study(
         raise InputError("no integrand given: name one, such as gaussians")
     given = [source for source in sources if isinstance(source, Source)]
     names = [source for source in sources if not isinstance(source, Source)]
-    skipped: tuple[str, ...] = ()
     if names:
-        found, skipped = resolve(names, n, d, realizations)
+        found, refused = resolve(names, n, d, realizations)
         given.extend(found)
+        skipped = (*skipped, *refused)
     for source in given:
         for family in families:
             _refuse(family, source.d)

@@ -15,13 +15,14 @@ from gbnbench import generate, periodogram, radial, save, shells
 from gbnbench.analysis.radial.profile_measures import noise_floor
 from gbnbench.cli import gbnbench
 from gbnbench.execution.progress import Progress
-from gbnbench.generators.monitor import Trace, Watch
+from gbnbench.generators.monitor import Monitor, Trace
 from gbnbench.reports import style
 from gbnbench.reports.paper import axes, figure_07
 from gbnbench.reports.paper.data import folder_name, obtain
 from gbnbench.reports.paper.figure import Ask, compose
 from gbnbench.reports.paper.registry import find
 from tests.oracles.power import mean_power
+from tests.smallest_sizes import smallest_sizes
 
 pytestmark = pytest.mark.slow
 
@@ -33,8 +34,9 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Ask]:
     folder = tmp_path_factory.mktemp("figures")
     theirs = folder / "given.txt"
     save(theirs, generate("jittered", n=100, seed=3))
-    arguments = ["figures", *NAMES, "--tiny", "--quiet", "--jobs", "1", "--sets", f"bnot={theirs}"]
-    result = CliRunner().invoke(gbnbench, [*arguments, "--out", str(folder / "out")])
+    arguments = ["figures", *NAMES, "--quick", "--quiet", "--jobs", "1", "--sets", f"bnot={theirs}"]
+    with smallest_sizes():
+        result = CliRunner().invoke(gbnbench, [*arguments, "--out", str(folder / "out")])
     assert result.exit_code == 0, result.output
     return folder / "out", Ask("tiny", {"bnot": str(theirs)})
 
@@ -136,7 +138,7 @@ def test_evolution_is_that_of_the_points(made: tuple[Path, Ask]) -> None:
     figure, material, caption = drawn(made, "7")
     assert [figure_07.gradients(steps) for steps in (1, 100, 10_000)] == [3, 30, 300]
     trace = Trace(keep_at=(30,))
-    generate("gbn[iterations=300]", n=64, realizations=2, watch=Watch(trace=trace))
+    generate("gbn[iterations=300]", n=64, realizations=2, monitor=Monitor(trace=trace))
     expected = shells(trace.points(30)).radial()
     raw = lines(panel(figure, "a"))
     assert list(raw) == ["1", "3", "10", "30", "100", "300"]

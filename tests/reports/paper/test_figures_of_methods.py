@@ -24,6 +24,7 @@ from gbnbench.reports.paper import figure_12, shared
 from gbnbench.reports.paper.data import folder_name, obtain
 from gbnbench.reports.paper.figure import Ask, Drawing
 from gbnbench.reports.paper.registry import find
+from tests.smallest_sizes import smallest_sizes
 
 pytestmark = pytest.mark.slow
 
@@ -72,9 +73,9 @@ def made(tmp_path_factory):
     sets = {name: str(path / name) for name in ("bnot", "step", "house")}
     out = path / "out"
     options = [f"--sets={name}={place}" for name, place in sets.items()]
-    result = CliRunner().invoke(
-        gbnbench, ["figures", *NAMES, "--tiny", "--quiet", "--jobs", "1", "--out", str(out), *options]
-    )
+    arguments = ["figures", *NAMES, "--quick", "--quiet", "--jobs", "1", "--out", str(out), *options]
+    with smallest_sizes():
+        result = CliRunner().invoke(gbnbench, arguments)
     assert result.exit_code == 0, result.output
     return Folder(out, Ask("tiny", sets), json.loads((out / "captions.json").read_bytes()))
 

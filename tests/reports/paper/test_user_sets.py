@@ -14,6 +14,7 @@ from gbnbench.reports.paper.registry import find
 from gbnbench.reports.paper.shared import stroke
 from gbnbench.reports.paper.user_sets import check_sets
 from gbnbench.studies.integration.study import IntegrationStudy
+from tests.smallest_sizes import smallest_sizes
 
 
 @pytest.fixture
@@ -84,7 +85,7 @@ def test_a_folder_of_something_else_is_left_alone(tmp_path, capsys):
     folder = tmp_path / "mine"
     folder.mkdir()
     (folder / "thesis.txt").write_text("mine")
-    assert command(["figures", "6", "--tiny", "--out", str(folder), "--quiet"]) == 2
+    assert command(["figures", "6", "--quick", "--out", str(folder), "--quiet"]) == 2
     assert "is not empty and is not a folder of figures" in capsys.readouterr().err
     assert [p.name for p in folder.iterdir()] == ["thesis.txt"]
 
@@ -92,8 +93,10 @@ def test_a_folder_of_something_else_is_left_alone(tmp_path, capsys):
 @pytest.mark.slow
 def test_the_page_keeps_figures_of_earlier_calls(tmp_path, capsys):
     folder = tmp_path / "figures"
-    assert command(["figures", "6", "--tiny", "--out", str(folder), "--quiet"]) == 0
-    assert command(["figures", "4", "--tiny", "--out", str(folder), "--quiet", "--no-captions"]) == 0
+    common = ["--quick", "--out", str(folder), "--quiet"]
+    with smallest_sizes():
+        assert command(["figures", "6", *common]) == 0
+        assert command(["figures", "4", *common, "--no-captions"]) == 0
     page = (folder / "index.html").read_text()
     assert "figure-04.png" in page
     assert "figure-06.png" in page

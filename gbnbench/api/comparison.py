@@ -1,0 +1,281 @@
+"""A comparison of point-set sources as one object: its table, its figures and its report."""
+
+from __future__ import annotations
+
+import base64
+import html
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from gbnbench.api.source_arguments import SourceLike, as_sources
+from gbnbench.core.errors import InputError
+from gbnbench.execution import progress
+from gbnbench.opencl import use_device
+from gbnbench.reports.comparison import table
+from gbnbench.reports.comparison.figure_files import planned, png, write_figures
+from gbnbench.reports.html.page import write_report
+from gbnbench.runs.baseline import Change
+from gbnbench.runs.comparison_folder import long_table, read_run, wide_table
+from gbnbench.runs.comparison_result import Run, SourceResult
+from gbnbench.runs.sources import DEFAULT_SOURCES
+from gbnbench.studies.comparison import run_comparison
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
+
+REPORT, FIGURES = "report.html", "figures"  # in the folder
+NOTEBOOK_FIGURES = ("gallery", "loglog", "sweep")  # shown in a notebook
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """A finished comparison, as ``compare`` returns it and as its folder holds it.
+
+    In a notebook it shows its table and its main pictures; ``print`` shows the table.
+
+    Attributes
+    ----------
+    run : Run
+        Everything measured: ``run.sources`` has points, spectra and measures; ``run.manifest`` the settings.
+    folder : Path
+        Where it is kept.
+    changes : tuple of Change
+        Measures that are better or worse than the baseline's.
+    notes : tuple of str
+        Sources that could not be compared with the baseline.
+    reused, pieces : int
+        Pieces of work found finished in the folder, and all of them.
+    seconds : float
+        Wall time of the call.
+
+    Examples
+    --------
+    >>> import tempfile, gbnbench
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     made = gbnbench.compare("random", n=64, realizations=2, out=folder, jobs=1, quiet=True)
+    ...     again = gbnbench.Comparison.read(folder)
+    >>> again.table.equals(made.table), again.figures[:3]
+    (True, ('gallery', 'points', 'spectrum'))
+    """
+
+    run: Run
+    folder: Path
+    changes: tuple[Change, ...] = ()
+    notes: tuple[str, ...] = ()
+    reused: int = 0
+    pieces: int = 0
+    seconds: float = 0.0
+
+    @classmethod
+    def read(cls, folder: str | Path) -> Comparison:
+        """Read a finished comparison from its folder.
+
+        Raises
+        ------
+        InputError
+            If it is none, or an unfinished one.
+        FormatError
+            If a file in it is missing or was changed.
+        """
+        return cls(read_run(folder), Path(folder))
+
+    @property
+    def table(self) -> pd.DataFrame:
+        """A row a source: columns source, n, d, realizations, every measure, cpu_seconds (a set)."""
+        import pandas as pd
+
+        return pd.DataFrame(wide_table(self.run))
+
+    @property
+    def measures(self) -> pd.DataFrame:
+        """A row a source and measure: value, standard_error, better, unit, verdict and reason beside them."""
+        import pandas as pd
+
+        return pd.DataFrame(long_table(self.run))
+
+    @property
+    def sources(self) -> tuple[SourceResult, ...]:
+        """What was measured of each source, in order."""
+        return self.run.sources
+
+    @property
+    def skipped(self) -> tuple[str, ...]:
+        """A sentence for each generator, n and d that was refused."""
+        return tuple(self.run.manifest.get("skipped") or ())
+
+    @property
+    def worse(self) -> bool:
+        """Whether anything is worse than the baseline."""
+        return any(change.verdict == "worse" for change in self.changes)
+
+    @property
+    def figures(self) -> tuple[str, ...]:
+        """Names of all figures; with several (n, d) they end in ``_n1024_d2``, and ``sweep`` is of all."""
+        return tuple(name for name, _, _ in planned(self.run))
+
+    def figure(self, name: str = "gallery") -> Figure:
+        """Draw one figure.
+
+        Parameters
+        ----------
+        name : str
+            One of ``figures``.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            New at each call, and in no window: ``savefig`` writes it, a notebook shows it.
+
+        Raises
+        ------
+        InputError
+            If there is no figure of that name.
+        """
+        for known, draw, group in planned(self.run):
+            if known == name:
+                return draw(self.run, group)
+        raise InputError(f"this comparison has no figure {name!r}; it has {', '.join(self.figures)}")
+
+    def report(self) -> Path:
+        """Return the path of report.html, which is made, with the figures' files, where it is missing.
+
+        Raises
+        ------
+        OSError
+            If the folder cannot be written.
+        """
+        path = self.folder / REPORT
+        if not path.exists():
+            draw(self.run, self.folder)
+        return path
+
+    def __str__(self) -> str:
+        return table.terminal_text(self.run)
+
+    def _repr_html_(self) -> str:
+        """Return the table and the main pictures, for a notebook."""
+        names = [name for name in self.figures if name.partition("_n")[0] in NOTEBOOK_FIGURES]
+        pictures = [
+            f'<img alt="{name}" style="max-width:100%" src="data:image/png;base64,'
+            f'{base64.b64encode(png(self.figure(name))).decode("ascii")}">'
+            for name in names
+        ]
+        skipped = [f"<p>skipped: {html.escape(line)}</p>" for line in self.skipped]
+        return "\n".join([_html_table(self.run), *skipped, *pictures])
+
+
+def compare(
+    sources: SourceLike | Iterable[SourceLike] | Mapping[str, SourceLike] = DEFAULT_SOURCES,
+    *,
+    n: int | Sequence[int] = 1024,
+    d: int | Sequence[int] = 2,
+    realizations: int = 16,
+    seed: int = 0,
+    out: str | Path | None = None,
+    baseline: str | Path | None = None,
+    jobs: int | None = None,
+    quiet: bool = False,
+    device: str | None = None,
+    pictures: bool = False,
+    command: str = "gbnbench.compare",
+) -> Comparison:
+    """Make and measure every source, in a folder from which the same call goes on where it was stopped.
+
+    Parameters
+    ----------
+    sources : str, path, array_like, Generator or Source, or a sequence or mapping of these
+        Generators such as ``"gbn[iterations=1000]"``, files and folders, points (n, d) or
+        (realizations, n, d) on the unit torus, and instances of generators of your own. A mapping gives
+        labels: ``{"mine": x, "theirs": "their.txt"}``. By default six classics.
+    n, d : int or sequence of int
+        Points a set and dimensions for the generators: each is made at every pair. Files and arrays bring
+        their own.
+    realizations : int
+        Sets of each generator, >= 1.
+    seed : int
+        >= 0; realization k draws from ``SeedSequence(seed, spawn_key=(k,))``.
+    out : path, optional
+        The folder; by default one under ``runs`` named by the settings. One that holds another comparison,
+        such as of another array, is refused.
+    baseline : path, optional
+        Folder of a finished comparison against which this one is judged.
+    jobs : int, optional
+        Worker processes, each with one thread; by default one a core.
+    quiet : bool
+        No progress on standard error.
+    device : str, optional
+        Part of the name of the OpenCL device, or its position, as in ``GBNBENCH_DEVICE``, which it overrides.
+    pictures : bool
+        Also write report.html and the figures into the folder; ``Comparison.report`` makes them later.
+    command : str
+        What the manifest and the report say was called.
+
+    Returns
+    -------
+    Comparison
+
+    Raises
+    ------
+    InputError
+        If something given is no source, a number is wrong, the folder holds something else, or the baseline
+        is no finished comparison.
+    RefusalError
+        If no generator can make such sets and nothing else was given.
+    DeviceError
+        If there is no device, or the name fits none or several.
+    UnfinishedError
+        If a piece of the work failed; what is finished is kept, and the same call tries only the rest.
+
+    Examples
+    --------
+    >>> import tempfile, gbnbench
+    >>> x = gbnbench.generate("jittered", n=64, realizations=2)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     comparison = gbnbench.compare(
+    ...         {"white": "random", "mine": x}, n=64, realizations=2, out=folder, jobs=1, quiet=True
+    ...     )
+    >>> comparison.table[["source", "n", "d", "realizations"]].values.tolist()
+    [['white', 64, 2, 2], ['mine', 64, 2, 2]]
+    >>> bool(comparison.table.noise_floor[1] < comparison.table.noise_floor[0])
+    True
+    """
+    with use_device(device):
+        found, skipped = as_sources(sources, n, d, realizations)
+        with progress.choose(quiet) as shown:
+            done = run_comparison(
+                found,
+                None if out is None else Path(out),
+                seed=seed,
+                jobs=jobs,
+                baseline=None if baseline is None else Path(baseline),
+                command=command,
+                skipped=skipped,
+                progress=shown,
+                draw=draw if pictures else None,
+            )
+    return Comparison(done.run, done.folder, done.changes, done.notes, done.reused, done.pieces, done.seconds)
+
+
+def draw(run: Run, folder: Path) -> None:
+    """Write the figures and report.html of a comparison into its folder."""
+    write_figures(run, folder / FIGURES)
+    write_report(run, folder / REPORT)
+
+
+def _html_table(run: Run) -> str:
+    """Return the table in HTML, the best of each column in bold, standard errors as tooltips."""
+    heads = "".join(
+        f'<th title="{html.escape(column.text)}">{html.escape(column.title)}</th>' for column in table.COLUMNS
+    )
+    body = []
+    for row in table.rows(run):
+        cells = [f"<th>{html.escape(table.row_label(row.source, run))}</th>"]
+        for column in table.COLUMNS:
+            cell = row.cells[column.name]
+            tip, text = html.escape(cell.reason or cell.full), html.escape(cell.text)
+            cells.append(f'<td title="{tip}">{f"<b>{text}</b>" if cell.best else text}</td>')
+        body.append(f"<tr>{''.join(cells)}</tr>")
+    return f"<table><thead><tr><th>source</th>{heads}</tr></thead><tbody>{''.join(body)}</tbody></table>"

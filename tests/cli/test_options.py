@@ -1,0 +1,116 @@
+"""Options of the commands: one name for one thing in all, none hidden, and help by task."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator
+
+import click
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from gbnbench.cli import TASKS, gbnbench
+from gbnbench.cli.json_text import json_text
+from gbnbench.io.points import save
+
+
+def every_command(group: click.Group = gbnbench, prefix: str = "") -> Iterator[tuple[str, click.Command]]:
+    for name, command in group.commands.items():
+        if isinstance(command, click.Group):
+            yield from every_command(command, f"{prefix}{name} ")
+        else:
+            yield f"{prefix}{name}", command
+
+
+COMMANDS = dict(every_command())
+# Which command has which of the options that several have; report and analyze write and wait for little.
+SHARED = {
+    "--out": "compare spectrum generate integrate figures, bench periodogram, bench gbn",
+    "--json": "compare spectrum analyze integrate check devices doctor, bench periodogram, bench gbn",
+    "--quiet": "compare spectrum generate integrate figures check doctor, bench periodogram, bench gbn",
+    "--quick": "figures check doctor, bench periodogram, bench gbn",
+    "--full": "figures check doctor, bench periodogram, bench gbn",
+    "--seed": "compare generate integrate figures",
+    "--jobs": "compare integrate figures check",
+    "--realizations": "compare spectrum generate integrate",
+    "--device": "compare spectrum analyze generate integrate figures check devices doctor, "
+    "bench periodogram, bench gbn",
+}
+
+
+def options_of(command: click.Command) -> dict[str, click.Option]:
+    return {
+        spelling: parameter
+        for parameter in command.params
+        if isinstance(parameter, click.Option)
+        for spelling in (*parameter.opts, *parameter.secondary_opts)
+    }
+
+
+@pytest.mark.parametrize("option", SHARED)
+def test_the_same_option_has_the_same_name_in_every_command(option):
+    alone, *pairs = SHARED[option].split(", ")
+    expected = {*alone.split(), *pairs}
+    assert {name for name, command in COMMANDS.items() if option in options_of(command)} == expected
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_an_option_is_short_and_long_in_the_same_way_and_never_hidden(name):
+    options = options_of(COMMANDS[name])
+    assert not [option.name for option in options.values() if option.hidden]
+    assert ("-o" in options) == ("--out" in options)
+    assert ("--quick" in options) == ("--full" in options)
+    if "--out" in options:
+        assert options["-o"] is options["--out"]
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_every_option_says_what_it_does(name):
+    for spelling, option in options_of(COMMANDS[name]).items():
+        assert option.help or isinstance(option.type, click.Choice), spelling
+
+
+def test_the_first_screen_has_every_command_by_task_in_24_lines_of_80_columns(monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    said = CliRunner().invoke(gbnbench, ["--help"], terminal_width=80).output.splitlines()
+    assert len(said) <= 24
+    assert max(map(len, said)) <= 80
+    assert not [line for line in said if line.endswith("...")][1:]  # nothing is cut short after the usage
+    listed = [m.group(1) for line in said if (m := re.match(r"  (\w+)  +\S", line))]
+    assert listed == [command.name for commands in TASKS.values() for command in commands]
+    assert set(listed) == set(gbnbench.commands)
+    assert listed[:4] == ["compare", "spectrum", "analyze", "generate"]
+
+
+def test_json_has_null_for_what_is_not_a_number_and_keeps_every_bit():
+    content = {"a": np.array([1 / 3, np.nan, np.inf]), "b": (np.int64(2), None, "x", True)}
+    assert json.loads(json_text(content)) == {"a": [1 / 3, None, None], "b": [2, None, "x", True]}
+
+
+def test_json_of_a_spectrum_holds_its_shells(tmp_path):
+    x = np.random.default_rng(1).random((50, 2))
+    save(tmp_path / "x.npy", x)
+    done = CliRunner().invoke(gbnbench, ["spectrum", str(tmp_path / "x.npy"), "--fmax", "3", "--json"])
+    assert done.exit_code == 0, done.output
+    (spectrum,) = json.loads(done.stdout)
+    assert (spectrum["n"], spectrum["d"], spectrum["fmax"]) == (50, 2, 3)
+    first = spectrum["rows"][0]
+    power = (np.abs(np.exp(-2j * np.pi * x).sum(axis=0)) ** 2 / 50).mean()
+    assert first["frequency"] == 1
+    assert first["count"] == 4
+    assert first["power"] == pytest.approx(power, rel=1e-12)
+
+
+def test_json_does_not_go_with_a_file(tmp_path):
+    save(tmp_path / "x.npy", [[0.5, 0.5]])
+    arguments = ["spectrum", str(tmp_path / "x.npy"), "--json", "-o", str(tmp_path / "y.csv")]
+    done = CliRunner().invoke(gbnbench, arguments)
+    assert done.exit_code == 2
+    assert "--json and --out do not go together" in done.output
+
+
+def test_devices_as_json_mark_the_one_in_use():
+    rows = json.loads(CliRunner().invoke(gbnbench, ["devices", "--json"]).stdout)
+    assert sum(row["used"] for row in rows) == 1
