@@ -86,9 +86,8 @@ def rdf(x: ArrayLike) -> RadialDistribution:
             f"rdf has int({BINS_PER_POINT} n) bins, none of which fits the torus at n={n}, d={d}"
         )
     g = pair_density(sets, bins, width)
-    return RadialDistribution(
-        np.arange(bins, dtype=np.float64) * (width / unit), np.mean(g, axis=0, dtype=np.float64), g
-    )
+    mean: FloatArray = g.mean(axis=0)
+    return RadialDistribution(np.arange(bins, dtype=np.float64) * (width / unit), mean, g)
 
 
 def pair_density(sets: FloatArray, bins: int, width: float) -> FloatArray:

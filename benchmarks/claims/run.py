@@ -129,7 +129,15 @@ class ClaimTable:
         return None if self._again else self._table.get(key)
 
     def write(self, key: str, result: list[dict[str, str]] | str) -> None:
-        """Keep the rows of a claim; one that was left out has none."""
+        """Keep the rows of a claim; one that was left out has none.
+
+        Parameters
+        ----------
+        key : str
+            Name of the claim.
+        result : list of dict, or str
+            Its rows, or why it was left out.
+        """
         if not isinstance(result, str):
             self._table[key] = result
             write(self.path, self._table)

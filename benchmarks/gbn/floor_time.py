@@ -31,11 +31,10 @@ from gbnbench.execution.progress import Progress
 from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.operation_counts import CUTOFF
 from gbnbench.generators.gbn.optimiser import Descent, Nesterov, authors_step, step_size
+from gbnbench.generators.gbn.published_quality import AUTHORS_FLOOR
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.opencl import runtime
 
-# Mean over the ten sets of 1,024 points made by the authors' own program, 10,000 steps each.
-AUTHORS_FLOOR = 6.6e-10
 MEASURES = ("noise_floor", "power_at_1", "excess", "peak", "valence6", "psi6")
 FLOOR_TIME = (
     "case", "n", "d", "curve", "method", "step", "precision", "evaluation", "kernel", "cutoff", "set",

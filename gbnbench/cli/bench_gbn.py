@@ -89,7 +89,8 @@ def draw(outcome: Outcome, out: Path) -> None:
 
 def report(outcome: Outcome) -> Iterator[str]:
     """Write what was measured as text, a table a question."""
-    from gbnbench.benchmarks.gbn.floor_time import AUTHORS_FLOOR, MEASURES
+    from gbnbench.benchmarks.gbn.floor_time import MEASURES
+    from gbnbench.generators.gbn.published_quality import AUTHORS_FLOOR
 
     machine = outcome.machine
     yield f"{machine['processor']}, {machine['cores']} cores; {machine['device']}"

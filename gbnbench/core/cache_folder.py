@@ -1,4 +1,4 @@
-"""Where gbnbench may keep what it learnt: a folder that is known to be writable."""
+"""The folder in which gbnbench keeps what it has measured of this machine, and the values in it."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from gbnbench.core.atomic_write import write_whole
 
 
 def is_writable(folder: Path) -> bool:
-    """Whether a file can really be made in folder, which is created if need be."""
+    """Return whether a file can really be made in a folder, which is created if need be."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
@@ -26,11 +26,11 @@ def is_writable(folder: Path) -> bool:
 
 @cache
 def cache_folder() -> Path:
-    """``$GBNBENCH_CACHE``, else the user's cache folder, else a temporary one: the first that is writable."""
+    """Choose the first writable of ``$GBNBENCH_CACHE``, the user's cache folder and a temporary one."""
     import platformdirs
 
-    asked = os.environ.get("GBNBENCH_CACHE")
-    for folder in ([Path(asked)] if asked else []) + [Path(platformdirs.user_cache_dir("gbnbench"))]:
+    named = os.environ.get("GBNBENCH_CACHE")
+    for folder in ([Path(named)] if named else []) + [Path(platformdirs.user_cache_dir("gbnbench"))]:
         if is_writable(folder):
             return folder
     own = Path(tempfile.gettempdir()) / f"gbnbench-cache-{getpass.getuser()}"
@@ -50,6 +50,14 @@ def recall(name: str) -> Any | None:
 
 
 def remember(name: str, value: Any) -> None:
-    """Keep a JSON value under name, whole or not at all; a cache that cannot be written costs only time."""
+    """Keep a value for later runs; a cache that cannot be written costs only time.
+
+    Parameters
+    ----------
+    name : str
+        The value's name, safe in a file name.
+    value : object
+        JSON-ready.
+    """
     with contextlib.suppress(OSError):
         write_whole(cache_folder() / f"{name}.json", json.dumps(value).encode())

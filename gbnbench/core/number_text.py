@@ -1,4 +1,4 @@
-"""Numbers as text: three significant digits, a standard error in the digits of its value."""
+"""Numbers as text: three significant digits, and standard errors to the decimals of their values."""
 
 from __future__ import annotations
 
@@ -29,7 +29,19 @@ def number(value: float) -> str:
 
 
 def error_number(value: float, error: float) -> str:
-    """Write a standard error in the digits of its value's text, or one of its own where smaller than those.
+    """Write a standard error to as many decimals as its value, or to its first digit where that is smaller.
+
+    Parameters
+    ----------
+    value : float
+        The value that it belongs to.
+    error : float
+        The standard error.
+
+    Returns
+    -------
+    str
+        Empty where there is nothing to write.
 
     Examples
     --------

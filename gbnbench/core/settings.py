@@ -1,4 +1,4 @@
-"""Settings as text, ``name[setting=value,...]``: read, checked against the class's fields, written back."""
+"""Settings as text, ``name[setting=value,...]``, checked against the fields of a dataclass."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ T = TypeVar("T", bound=Configured)
 
 
 def parse(text: str, what: str = "a generator") -> tuple[str, dict[str, str]]:
-    """Part a text in its name and settings, both unchecked.
+    """Split a text into its name and its settings, without checking them.
 
     Parameters
     ----------
@@ -37,6 +37,13 @@ def parse(text: str, what: str = "a generator") -> tuple[str, dict[str, str]]:
         ``name`` or ``name[setting=value,...]``.
     what : str
         What it should describe, for the error.
+
+    Returns
+    -------
+    name : str
+        The name.
+    settings : dict of str
+        Texts by the names of the settings.
 
     Raises
     ------
@@ -73,6 +80,11 @@ def configure(kind: type[T], settings: Mapping[str, object]) -> T:
     settings : mapping
         Setting -> text, read by its field's type, or a value of that type; a field may bring a function of
         its own as the metadata ``read``.
+
+    Returns
+    -------
+    object
+        An instance of ``kind``.
 
     Raises
     ------
@@ -118,7 +130,19 @@ def specification(thing: Configured) -> str:
 
 
 def nearest(word: str, words: Iterable[str]) -> str:
-    """``; did you mean 'x'?`` for the nearest spelling among words, empty where none is near."""
+    """Suggest the nearest spelling: ``; did you mean 'x'?``, or nothing where none is near.
+
+    Parameters
+    ----------
+    word : str
+        What was written.
+    words : iterable of str
+        What could be meant.
+
+    Returns
+    -------
+    str
+    """
     close = difflib.get_close_matches(word.lower(), list(words), n=1)
     return f"; did you mean {close[0]!r}?" if close else ""
 

@@ -14,7 +14,20 @@ def number(value: Any) -> str:
 
 
 def aligned(head: Sequence[str], rows: Sequence[Sequence[Any]]) -> Iterator[str]:
-    """Lay out a table: a line a row, under its head."""
+    """Lay out a table with one line a row under its head.
+
+    Parameters
+    ----------
+    head : sequence of str
+        Titles of the columns.
+    rows : sequence of sequences
+        Cells, written by ``str``.
+
+    Returns
+    -------
+    iterator of str
+        The lines.
+    """
     columns = list(zip(head, *(map(str, row) for row in rows), strict=True))
     shown = []
     for column in columns:

@@ -1,1 +1,1 @@
-"""Whether an OpenCL device can be trusted, proved on the user's own machine."""
+"""The doctor: checks of the OpenCL kernels on the user's own device, and the trust that follows."""

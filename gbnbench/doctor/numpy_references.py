@@ -10,7 +10,19 @@ from gbnbench.core.torus import FloatArray, spacing
 
 
 def numpy_power(x: FloatArray, frequencies: NDArray[np.int64]) -> FloatArray:
-    """Power at listed frequencies by integer phases and numpy's own cosines: (m,) float64."""
+    """Power at listed frequencies by exact integer phases and numpy's own cosines.
+
+    Parameters
+    ----------
+    x : (n, d) float64
+        Points on the unit torus.
+    frequencies : (m, d) int64
+        In cycles per unit length.
+
+    Returns
+    -------
+    (m,) float64
+    """
     turns = np.rint(x * 2.0**64).astype(np.uint64)
     phase = np.zeros((len(frequencies), len(x)), np.uint64)
     for a in range(x.shape[1]):
@@ -21,7 +33,20 @@ def numpy_power(x: FloatArray, frequencies: NDArray[np.int64]) -> FloatArray:
 
 
 def numpy_gradient(x: FloatArray, sigma: float) -> FloatArray:
-    """Gradient of the energy by points in spacings, images summed one by one: (n, d) float64."""
+    """Gradient of the energy on the torus, with the periodic images summed one by one.
+
+    Parameters
+    ----------
+    x : (n, d) float64
+        Points on the unit torus.
+    sigma : float
+        Width of the kernel, in spacings.
+
+    Returns
+    -------
+    (n, d) float64
+        Derivatives by the points' coordinates in spacings.
+    """
     n, d = x.shape
     side = 1 / spacing(n, d)
     images = np.arange(-np.ceil(9 * sigma / side) - 1, np.ceil(9 * sigma / side) + 2) * side
@@ -33,7 +58,20 @@ def numpy_gradient(x: FloatArray, sigma: float) -> FloatArray:
 
 
 def numpy_box_gradient(x: FloatArray, sigma: float) -> FloatArray:
-    """Gradient of the box's energy, pairs less the pull of a uniform density (Eq. 24-26): (n, d) float64."""
+    """Gradient of the energy in a box: that of the pairs less the pull of a uniform density (Eq. 24-26).
+
+    Parameters
+    ----------
+    x : (n, d) float64
+        Points in the unit box.
+    sigma : float
+        Width of the kernel, in spacings.
+
+    Returns
+    -------
+    (n, d) float64
+        Derivatives by the points' coordinates in spacings.
+    """
     n, d = x.shape
     side, root = 1 / spacing(n, d), np.sqrt(2) * sigma
     u = x * side

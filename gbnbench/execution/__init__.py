@@ -1,1 +1,1 @@
-"""Carrying work out: a pool of worker processes, the tasks they are given, and progress."""
+"""Execution: a pool of worker processes, and the progress that is shown of their work."""

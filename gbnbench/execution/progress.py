@@ -1,4 +1,4 @@
-"""What a long command says while it works: a live bar on a terminal, a line now and then elsewhere."""
+"""Progress of a long command: a live bar on a terminal, elsewhere a line now and then."""
 
 from __future__ import annotations
 
@@ -31,10 +31,28 @@ class Progress:
         """Print one line beside the progress."""
 
     def start(self, total: int, done: int, doing: str) -> None:
-        """Begin counting steps, of which some are done already."""
+        """Begin counting steps, of which some are done already.
+
+        Parameters
+        ----------
+        total : int
+            Steps in all.
+        done : int
+            Steps that are finished already.
+        doing : str
+            What is being done now.
+        """
 
     def advance(self, doing: str, steps: int = 1) -> None:
-        """Count steps and name what is being done now."""
+        """Count steps and name what is being done now.
+
+        Parameters
+        ----------
+        doing : str
+            What is being done now.
+        steps : int
+            Steps finished since the last call.
+        """
 
 
 class Lines(Progress):
@@ -49,13 +67,31 @@ class Lines(Progress):
         print(text, file=sys.stderr, flush=True)
 
     def start(self, total: int, done: int, doing: str) -> None:
-        """Begin counting and say what is first."""
+        """Begin counting and say what is first.
+
+        Parameters
+        ----------
+        total : int
+            Steps in all.
+        done : int
+            Steps that are finished already.
+        doing : str
+            What is being done now.
+        """
         self._total, self._done, self._before = total, done, done
         self._began = self._spoke = time.monotonic()
         self.say(f"{done}/{total} {doing}")
 
     def advance(self, doing: str, steps: int = 1) -> None:
-        """Count, and print when the last line is old enough."""
+        """Count, and print when the last line is old enough.
+
+        Parameters
+        ----------
+        doing : str
+            What is being done now.
+        steps : int
+            Steps finished since the last call.
+        """
         self._done += steps
         now = time.monotonic()
         if now - self._spoke < QUIET_SECONDS and (steps == 0 or self._done < self._total):
@@ -108,11 +144,29 @@ class Live(Progress):
         self._bar.console.print(text, markup=False, highlight=False)
 
     def start(self, total: int, done: int, doing: str) -> None:
-        """Show the bar with what is done already."""
+        """Show the bar with what is done already.
+
+        Parameters
+        ----------
+        total : int
+            Steps in all.
+        done : int
+            Steps that are finished already.
+        doing : str
+            What is being done now.
+        """
         self._bar.reset(self._task, total=total, completed=done, description=doing)
 
     def advance(self, doing: str, steps: int = 1) -> None:
-        """Move the bar."""
+        """Move the bar.
+
+        Parameters
+        ----------
+        doing : str
+            What is being done now.
+        steps : int
+            Steps finished since the last call.
+        """
         self._bar.update(self._task, advance=steps, description=doing)
 
 

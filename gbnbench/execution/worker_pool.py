@@ -1,4 +1,4 @@
-"""A pool of single-threaded child processes that outlives a crashed child and says which task killed it."""
+"""A pool of single-threaded worker processes that outlives a crashed one and names the fatal task."""
 
 from __future__ import annotations
 
@@ -95,7 +95,17 @@ class Pool:
         return self._pending
 
     def submit(self, key: Hashable, function: Callable[..., object], *arguments: object) -> None:
-        """Queue one call of a module-level function."""
+        """Queue one call of a module-level function.
+
+        Parameters
+        ----------
+        key : hashable
+            Handed back with what became of the call.
+        function : callable
+            Found by its module and name in the child.
+        *arguments
+            They can be pickled.
+        """
         self._pending += 1
         self._todo.put((key, pickle.dumps((function, arguments), protocol=5)))
 

@@ -21,7 +21,25 @@ T = TypeVar("T")
 
 
 def read_or_explain(path: Path, read: Callable[[Path], T]) -> T:
-    """Read a file, turning whatever is wrong with it into one FormatError that names it."""
+    """Read a file, turning whatever is wrong with it into one FormatError that names it.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    read : callable
+        Reads it, given the path.
+
+    Returns
+    -------
+    object
+        What ``read`` returned.
+
+    Raises
+    ------
+    FormatError
+        If the file is missing or is not what gbnbench wrote.
+    """
     try:
         return read(path)
     except FormatError:
@@ -62,13 +80,23 @@ def to_csv(table: pd.DataFrame) -> bytes:
 
 
 def read_csv(path: Path, text: Sequence[str] = ()) -> pd.DataFrame:
-    """Read a table of numbers: whole columns as int64, the rest as the float64 that were written.
+    """Read a table of numbers exactly as it was written.
 
-    Columns named in ``text`` stay text.
+    Parameters
+    ----------
+    path : Path
+        The file.
+    text : sequence of str
+        Columns that stay text.
+
+    Returns
+    -------
+    DataFrame
+        Columns of whole numbers are int64, the others float64.
 
     Notes
     -----
-    How exactly pandas reads floats by itself depends on its version.
+    Numbers are parsed by Python: the precision of pandas' own parser depends on its version.
     """
     import pandas as pd
 

@@ -1,4 +1,4 @@
-"""What a spectrum is asked with, from files: listed frequencies, and weights of the points.
+"""Lists that a spectrum can be computed with, read from files: frequencies, and weights of the points.
 
 Text is read line by line: numbers parted by blanks or by one comma each, ``#`` starts a comment, blank lines
 count for nothing, and a first line of column names is passed over. ``.npy`` arrays are told by their content.

@@ -58,6 +58,13 @@ def read_cases(path: Path) -> tuple[Case, ...]:
 def write_cases(path: Path, cases: Iterable[Case]) -> None:
     """Write a file of cases, whole or not at all.
 
+    Parameters
+    ----------
+    path : Path
+        The file.
+    cases : iterable of Case
+        Its content, in this order.
+
     Raises
     ------
     OSError
@@ -68,7 +75,20 @@ def write_cases(path: Path, cases: Iterable[Case]) -> None:
 
 
 def select(cases: Sequence[Case], only: Sequence[str], full: bool) -> tuple[Case, ...]:
-    """Choose cases: those named, else those of the default run, else with `full` all.
+    """Choose cases: those named, or those of the default run, or with ``full`` all.
+
+    Parameters
+    ----------
+    cases : sequence of Case
+        To choose from.
+    only : sequence of str
+        Names; none leaves the choice to ``full``.
+    full : bool
+        Choose all, not only those of the default run.
+
+    Returns
+    -------
+    tuple of Case
 
     Raises
     ------

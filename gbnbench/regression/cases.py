@@ -1,4 +1,4 @@
-"""What a case of the regression is: what to measure, what to expect of it, and by how much it may be off."""
+"""A case of the regression check: what is measured, what is expected of it, and how far it may be off."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the cases measure: sets of a generator, the energy's field at fixed points, a lattice's spectrum."""
+"""Measurements of the cases: generated sets, the energy's field at fixed points, a lattice's spectrum."""
 
 from __future__ import annotations
 
@@ -7,8 +7,12 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from gbnbench.analysis.measure_definitions import DEFINITIONS
+from gbnbench.analysis.measures import measures
+from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
+from gbnbench.generators.gbn import energy
+from gbnbench.generators.registry import generate
 from gbnbench.regression.cases import Case, Values
 
 LISTED = 4  # points whose gradient a field's case lists
@@ -47,7 +51,19 @@ def observe(case: Case, seed: int) -> dict[str, Values]:
 
 
 def fixed_points(n: int, d: int, seed: int) -> FloatArray:
-    """Points that are the same on every machine and exact in float: (n, d) float64, multiples of 2^-24.
+    """Make points that are the same on every machine and exact in float.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    seed : int
+        Of the stream that they come from.
+
+    Returns
+    -------
+    (n, d) float64
+        Multiples of 2^-24.
 
     Notes
     -----
@@ -68,7 +84,19 @@ def listed(gradient: FloatArray) -> FloatArray:
 
 
 def lattice(n: int, d: int) -> tuple[FloatArray, int]:
-    """Shifted lattice of n = m^d points, m a power of two, and m.
+    """Make a shifted lattice of n = m^d points, m being a power of two.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+
+    Returns
+    -------
+    x : (n, d) float64
+        The lattice.
+    m : int
+        Points along an axis.
 
     Raises
     ------
@@ -82,16 +110,11 @@ def lattice(n: int, d: int) -> tuple[FloatArray, int]:
 
 
 def _sets(case: Case, seed: int) -> Mapping[str, Values]:
-    from gbnbench.analysis.measures import measures
-    from gbnbench.generators.registry import generate
-
     x = generate(case.generator, case.n, case.d, seed, case.realizations)
     return {name: (value,) for name, value in measures(x).items()}
 
 
 def _field(case: Case, seed: int) -> Mapping[str, Values]:
-    from gbnbench.generators.gbn import energy
-
     x = fixed_points(case.n, case.d, seed)
     at = energy.energy_evaluation(case.n, case.d, case.sigma, case.precision)(x[None])
     return {
@@ -102,8 +125,6 @@ def _field(case: Case, seed: int) -> Mapping[str, Values]:
 
 
 def _lattice(case: Case, seed: int) -> Mapping[str, Values]:  # noqa: ARG001 - there is nothing random in it
-    from gbnbench.analysis.spectrum.periodogram import periodogram
-
     x, m = lattice(case.n, case.d)
     fmax = PERIODS * m
     power = periodogram(x, fmax, "double" if case.precision == "double" else "float").power

@@ -142,6 +142,11 @@ def expect(what: str, expectation: Expectation, values: Sequence[Values]) -> Exp
     values : sequence of tuple of float
         A value a seed.
 
+    Returns
+    -------
+    Expectation
+        With the mean, the tolerance and the spread.
+
     Raises
     ------
     InputError

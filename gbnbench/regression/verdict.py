@@ -1,4 +1,4 @@
-"""Whether a measured value departs from the expected one, to which side, and in words by how much."""
+"""Verdicts on measured values: the departure from what is expected, its side, and a sentence for it."""
 
 from __future__ import annotations
 
@@ -57,6 +57,10 @@ def judge(case: Case, measure: str, found: Values) -> Verdict:
         Name of the measure.
     found : tuple of float
         What it is now; nan, or another number of values than expected, is worse than anything.
+
+    Returns
+    -------
+    Verdict
     """
     expectation = case.measures[measure]
     name = f"{case.name}: {title(measure)}"
@@ -74,12 +78,38 @@ def judge(case: Case, measure: str, found: Values) -> Verdict:
 
 
 def failed(case: Case, failure: str) -> list[Verdict]:
-    """Judge a case that could not be measured."""
+    """Judge a case that could not be measured.
+
+    Parameters
+    ----------
+    case : Case
+        The case.
+    failure : str
+        What went wrong.
+
+    Returns
+    -------
+    list of Verdict
+        One a measure.
+    """
     return _once(case, "worse", f"{case.name}: could not be measured: {failure}")
 
 
 def skipped(case: Case, reason: str) -> list[Verdict]:
-    """Pass over a case that this device cannot run."""
+    """Pass over a case that this device cannot run.
+
+    Parameters
+    ----------
+    case : Case
+        The case.
+    reason : str
+        Why it cannot run.
+
+    Returns
+    -------
+    list of Verdict
+        One a measure.
+    """
     return _once(case, "skipped", f"{case.name}: skipped: {reason}")
 
 
@@ -92,7 +122,20 @@ def _once(case: Case, word: Word, text: str) -> list[Verdict]:
 
 
 def departed(expectation: Expectation, found: Values) -> float:
-    """Departure on the measure's scale, that of largest size where there are several values."""
+    """Compute the departure on the measure's scale, the largest where there are several values.
+
+    Parameters
+    ----------
+    expectation : Expectation
+        What is expected, and the scale.
+    found : tuple of float
+        What was measured.
+
+    Returns
+    -------
+    float
+        A factor, a signed difference, or a relative error.
+    """
     if expectation.scale == "ratio":
         return found[0] / expectation.expected[0]
     difference = max((f - e for f, e in zip(found, expectation.expected, strict=True)), key=abs)

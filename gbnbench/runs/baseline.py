@@ -1,4 +1,4 @@
-"""Better or worse than an earlier run: measures have directions, and chance gets three standard errors."""
+"""The comparison of a run with an earlier one: changes of measures beyond three standard errors are told."""
 
 from __future__ import annotations
 
@@ -88,6 +88,13 @@ def verdict(before: float, after: float, error: float, better: str) -> tuple[str
         Standard error of their difference; nan gives no verdict, 0 makes all but rounding count.
     better : {"lower", "higher"}
         The measure's direction.
+
+    Returns
+    -------
+    word : {"better", "worse", ""}
+        Empty where chance alone explains the difference.
+    deviations : float
+        Size of the difference in standard errors.
     """
     difference = after - before
     if not math.isfinite(difference) or math.isnan(error) or math.isclose(before, after, rel_tol=ROUNDING):

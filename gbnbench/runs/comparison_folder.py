@@ -59,7 +59,15 @@ class ComparisonFolder(ResumableFolder):
         return self.read_realization(source, int(number)) if number else self.read_source(source)
 
     def write(self, key: str, result: SourceResult | Realization) -> None:
-        """Keep the result of a task."""
+        """Keep the result of a task.
+
+        Parameters
+        ----------
+        key : str
+            The task's.
+        result : SourceResult or Realization
+            What it made.
+        """
         if isinstance(result, Realization):
             source, _, number = key.partition("/")
             self.write_realization(source, int(number), result)
@@ -91,6 +99,10 @@ class ComparisonFolder(ResumableFolder):
             The key of the source.
         k : int
             The number of the realization.
+
+        Returns
+        -------
+        Realization or None
         """
         try:
             arrays = data_files.read_or_explain(self._realization(source, k), data_files.read_npz)
@@ -127,7 +139,19 @@ class ComparisonFolder(ResumableFolder):
 
 
 def realization_key(source: str, k: int) -> str:
-    """Name the task that makes realization k of a source, given the source's key."""
+    """Name the task that makes a realization.
+
+    Parameters
+    ----------
+    source : str
+        The key of its source.
+    k : int
+        Its number.
+
+    Returns
+    -------
+    str
+    """
     return f"{source}/{k:06d}"
 
 
@@ -140,6 +164,10 @@ def default_folder(identity: Mapping[str, Any], command: str = "") -> Path:
         The settings, with ``sources`` among them.
     command : str
         A word that the name begins with.
+
+    Returns
+    -------
+    Path
     """
     sources = identity["sources"]
     labels = dict.fromkeys(source["label"].lower() for source in sources)

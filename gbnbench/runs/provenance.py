@@ -1,4 +1,4 @@
-"""Which versions made a result."""
+"""Versions of Python, gbnbench and its libraries, for the manifest of a result."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ LIBRARIES = ("numpy", "scipy", "pandas", "matplotlib", "pyopencl", "scikit-image
 
 
 def versions() -> dict[str, str]:
-    """Of Python, gbnbench and the libraries that it stands on, where they are installed."""
+    """Return the versions of Python, of gbnbench and of the libraries that are installed."""
     found = {"python": platform.python_version(), "gbnbench": __version__}
     for library in LIBRARIES:
         try:

@@ -57,7 +57,15 @@ class ResultStore(Protocol):
         """Return the result of a task; None where it is absent, or was spoilt and has to be made again."""
 
     def write(self, key: str, result: Any) -> None:
-        """Keep the result of a task."""
+        """Keep the result of a task.
+
+        Parameters
+        ----------
+        key : str
+            The task's.
+        result : object
+            What it made.
+        """
 
 
 class TaskRun:

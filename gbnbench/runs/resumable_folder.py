@@ -1,4 +1,4 @@
-"""A folder of results that any stop can be resumed from: settings first, pieces whole, the manifest last."""
+"""A folder of results that a stopped command can go on with: settings come first, the manifest last."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ SETTINGS, MANIFEST = "settings.json", "manifest.json"
 
 
 class ResumableFolder:
-    """Where the results of one command are kept as they come.
+    """A folder that keeps the results of one command as they come.
 
     Parameters
     ----------
@@ -45,11 +45,11 @@ class ResumableFolder:
     def _check(self) -> None:
         settings = self.path / SETTINGS
         if settings.exists():
-            there = data_files.read_json(settings)
-            if there != self.identity:
+            stored = data_files.read_json(settings)
+            if stored != self.identity:
                 raise InputError(
                     f"{self.path} holds a {self.kind} with other settings "
-                    f"({_difference(there, self.identity)}); choose another folder with --out, or delete "
+                    f"({_difference(stored, self.identity)}); choose another folder with --out, or delete "
                     "this one"
                 )
         elif self.path.exists() and any(not _is_ours(entry.name) for entry in self.path.iterdir()):
@@ -60,7 +60,7 @@ class ResumableFolder:
 
     @property
     def whole(self) -> bool:
-        """Whether everything in it is finished."""
+        """Return whether everything in it is finished."""
         return (self.path / MANIFEST).exists()
 
     def lock(self) -> FolderLock:
@@ -86,7 +86,7 @@ class ResumableFolder:
 
 @contextmanager
 def explain_interruption(folder: Path) -> Iterator[None]:
-    """Tell who stops the work where the finished pieces are."""
+    """Add to an interruption, or a full disk, where the finished results are and that the command goes on."""
     try:
         yield
     except KeyboardInterrupt:
@@ -103,10 +103,10 @@ def _is_ours(name: str) -> bool:
     return name == FolderLock.NAME or (name.startswith(".") and name.endswith(".tmp"))
 
 
-def _difference(there: Mapping[str, Any], asked: Mapping[str, Any]) -> str:
+def _difference(stored: Mapping[str, Any], wanted: Mapping[str, Any]) -> str:
     """Name the first setting that differs, with both values."""
-    for name in dict.fromkeys([*asked, *there]):
-        old, new = there.get(name), asked.get(name)
+    for name in dict.fromkeys([*wanted, *stored]):
+        old, new = stored.get(name), wanted.get(name)
         if old == new:
             continue
         if not (name == "sources" and isinstance(old, list) and isinstance(new, list)):

@@ -20,7 +20,15 @@ class TaskFolder(ResumableFolder):
     """A folder that keeps the result of a task as ``pieces/KEY.npz``."""
 
     def write(self, key: str, result: Arrays) -> None:
-        """Keep the arrays of a task."""
+        """Keep the arrays of a task.
+
+        Parameters
+        ----------
+        key : str
+            The task's.
+        result : mapping of str to array
+            What it made.
+        """
         atomic_write.write_whole(self.path / FOLDER / f"{key}.npz", data_files.to_npz(**result))
 
     def read(self, key: str) -> dict[str, NDArray[Any]] | None:

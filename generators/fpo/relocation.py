@@ -147,7 +147,7 @@ class Sweeps:
 
 
 def move_afresh(x: FloatArray, v: int) -> tuple[bool, float]:
-    """Move point v of x (n, 2) in place; return whether it moved and how wide the largest gap was.
+    """Move one point of a set to the farthest place from all others, where that is farther than its own.
 
     Parameters
     ----------
@@ -158,7 +158,10 @@ def move_afresh(x: FloatArray, v: int) -> tuple[bool, float]:
 
     Returns
     -------
-    bool
+    moved : bool
+        Whether the point was moved.
+    radius : float
+        Distance of the farthest place from the nearest of the other points.
     """
     rest = np.delete(x, v, axis=0)
     if len(rest) == 0:

@@ -27,7 +27,7 @@ def wave_sum_operations(n: int, d: int, square: int) -> float:
     float
     """
     lead = math.ceil(d / 2)
-    return 2.0 * n * (ball_count(square, lead) + 2) * (ball_count(square, d - lead) + 2)
+    return 2.0 * n * (ball_count(lead, square) + 2) * (ball_count(d - lead, square) + 2)
 
 
 def convolution_operations(d: int, square: int) -> float:

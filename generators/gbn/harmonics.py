@@ -60,7 +60,7 @@ class Harmonics(DeviceEvaluation):
         derivatives = [g.derivative() for g in self._groups]
         self._partner = [runtime.upload(partner) for partner, _ in derivatives]
         self._factor = [runtime.upload(factor.astype(self.real)) for _, factor in derivatives]
-        self._reach = [runtime.upload(modes.reach(side)) for side in (0, 1)]
+        self._column_ends = [runtime.upload(modes.column_ends(side)) for side in (0, 1)]
         defines = {"FMAX": fmax, "WAVES": self._waves, "CHUNK": CHUNK, "TILE_A": TILE[0], "TILE_B": TILE[1]}
         self._program = self.program(*FILES, **defines)
         self._slopes = [
@@ -95,7 +95,7 @@ class Harmonics(DeviceEvaluation):
         for side, program in enumerate(self._slopes):
             self.launch(
                 program, "gbn_slopes", sets * vectors // 2, *tables[side], *tables[1 - side], many, stride,
-                rows[side], rows[1 - side], self._reach[side], weighted[side], self._partner[side],
+                rows[side], rows[1 - side], self._column_ends[side], weighted[side], self._partner[side],
                 self._factor[side], np.uint32(self._groups[side].first), gradient,
             )  # fmt: skip
         slopes = self.runtime.download(gradient, np.empty((sets, self.stride, self.d), self.real))

@@ -161,7 +161,7 @@ class ProjectiveEnergy:
         wrong = [axes for axes in terms if not (math.isfinite(weight[axes]) and weight[axes] > 0)]
         if wrong:
             raise InputError(f"weights must be positive; got {weight[wrong[0]]} for {wrong[0]}")
-        self._fields = {
+        self._terms = {
             axes: energy_evaluation(n, len(axes), sigma, precision, edge=None if axes == whole else edge)
             for axes in terms
         }
@@ -170,20 +170,20 @@ class ProjectiveEnergy:
         self._unit = {axes: n ** (1 / len(axes) - 1 / d) for axes in terms}
         step = {axes: step_size(n, len(axes), sigma) / self._unit[axes] ** 2 for axes in terms}
         self.scale = {axes: weight[axes] / largest * step[axes] / step[whole] for axes in terms}
-        self.method = "; ".join(f"{axes}: {term.method}" for axes, term in self._fields.items())
-        self.error = max(term.error for term in self._fields.values())
+        self.method = "; ".join(f"{axes}: {term.method}" for axes, term in self._terms.items())
+        self.error = max(term.error for term in self._terms.values())
 
     @property
     def anchor(self) -> FloatArray | None:
         """What the terms keep between calls, side by side; see ``Strips``."""
-        kept = [at for term in self._fields.values() if (at := getattr(term, "anchor", None)) is not None]
+        kept = [at for term in self._terms.values() if (at := getattr(term, "anchor", None)) is not None]
         return np.concatenate(kept, axis=2) if kept else None
 
     @anchor.setter
     def anchor(self, x: FloatArray) -> None:
         """Go on as if the points had last been sorted at x."""
         begin = 0
-        for axes, term in self._fields.items():
+        for axes, term in self._terms.items():
             if hasattr(term, "anchor"):
                 term.anchor = np.ascontiguousarray(x[:, :, begin : begin + len(axes)])
                 begin += len(axes)
@@ -191,7 +191,7 @@ class ProjectiveEnergy:
     def __call__(self, x: FloatArray) -> EnergyGradient:
         """Gradient and energy, the sum of c_S Ex_S, at x, (sets, n, d) float64 in box sides."""
         gradient, excess = np.zeros(x.shape), np.zeros(len(x))
-        for axes, term in self._fields.items():
+        for axes, term in self._terms.items():
             at = term(np.ascontiguousarray(x[:, :, axes]))
             gradient[:, :, axes] += self.scale[axes] * self._unit[axes] * at.gradient
             excess += self.scale[axes] * at.excess

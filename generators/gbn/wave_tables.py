@@ -240,7 +240,7 @@ class WaveTables:
         inside = (square > 0) & (square <= self.square)
         return np.where(inside, np.exp2(axes) * np.exp(-b * (np.where(inside, square, 1) - 1.0)), 0.0)
 
-    def reach(self, side: int) -> NDArray[np.uint32]:
+    def column_ends(self, side: int) -> NDArray[np.uint32]:
         """Columns beyond which a tile of rows of the leading (0) or trailing (1) group has no weight."""
         rows = (self.leading, self.trailing)[side].rows // TILE[side]
         tile, end = self.tiles[:, side] // TILE[side], self.tiles[:, 1 - side] + TILE[1 - side]

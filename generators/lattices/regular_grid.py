@@ -61,16 +61,19 @@ def grid_refusal(what: str, n: int, d: int) -> str | None:
 
 
 def grid_corners(m: int, d: int) -> FloatArray:
-    """Lower corners of the m**d cells, in units of a cell: (m**d, d) float64 whole numbers.
+    """List the lower corners of the cells of a grid, in units of a cell.
 
     Parameters
     ----------
-    n, d : int
-        Points and dimension.
+    m : int
+        Cells on an axis.
+    d : int
+        Dimension.
 
     Returns
     -------
-    (n, d) float64
+    (m**d, d) float64
+        Whole numbers.
     """
     return np.ascontiguousarray(np.indices((m,) * d, dtype=np.float64).reshape(d, -1).T)
 

@@ -56,7 +56,7 @@ def figure(table: pd.DataFrame, n: int = 1024, d: int = 2, start: int = 100) -> 
     Parameters
     ----------
     table : DataFrame
-        Columns of ``gbnbench.benchmarks.experiments.depth_order.COLUMNS``.
+        Columns of ``gbnbench.benchmarks.experiments.depth_order_row.COLUMNS``.
     n, d, start : int
         Which points, dimension and length of start of the table are drawn.
     """

@@ -16,8 +16,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from gbnbench.benchmarks.gbn.floor_time import AUTHORS_FLOOR
 from gbnbench.generators.gbn.operation_counts import CUTOFF
+from gbnbench.generators.gbn.published_quality import AUTHORS_FLOOR
 from gbnbench.reports import style
 from gbnbench.reports.benchmarks.speed_error import machine_line
 

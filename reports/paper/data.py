@@ -1,4 +1,4 @@
-"""What figures are drawn from: comparisons, studies of integration and tables, asked for and kept."""
+"""Data that figures are drawn from: comparisons, studies of integration and tables, made once and kept."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 from numpy.typing import NDArray
 
 from gbnbench import __version__
+from gbnbench.execution.progress import Progress
+from gbnbench.runs.comparison_result import Run
 from gbnbench.runs.resumable import Task, run_tasks
+from gbnbench.runs.sources import resolve
 from gbnbench.runs.task_folder import Arrays, TaskFolder
-
-if TYPE_CHECKING:
-    from gbnbench.execution.progress import Progress
-    from gbnbench.runs.comparison_result import Run
-    from gbnbench.studies.integration.study import IntegrationStudy
+from gbnbench.studies.comparison import run_comparison
+from gbnbench.studies.integration.study import IntegrationStudy, run_integration_study
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,23 @@ class ComparisonRequest:
 
 @dataclass(frozen=True)
 class IntegrationRequest:
-    """A run of ``gbnbench integrate``; becomes an ``IntegrationStudy``."""
+    """A run of ``gbnbench integrate``; becomes an ``IntegrationStudy``.
+
+    Attributes
+    ----------
+    sources : tuple of str
+        Generators with settings, files, folders.
+    n, d : tuple of int
+        Sizes and dimensions for the generators.
+    realizations : int
+        Sets of each generator.
+    integrands : tuple of str
+        Families of integrands, with or without settings.
+    instances : int
+        Integrands of each family.
+    shifts : int
+        Random toroidal shifts of each set.
+    """
 
     sources: tuple[str, ...]
     n: tuple[int, ...]
@@ -74,12 +90,24 @@ class TableRequest:
 
 DataRequest: TypeAlias = ComparisonRequest | IntegrationRequest | TableRequest
 KINDS = {ComparisonRequest: "Comparison", IntegrationRequest: "Study"}  # words of the settings on disk
-FigureData: TypeAlias = "Run | IntegrationStudy | dict[str, dict[str, NDArray[Any]]]"
+FigureData: TypeAlias = Run | IntegrationStudy | dict[str, dict[str, NDArray[Any]]]
 
 
 def folder_name(request: DataRequest, seed: int) -> str:
-    """Name that says what is kept there, and ends in a digest of all that was asked."""
-    content = {"seed": seed, "version": __version__, **_asked(request)}
+    """Name the folder of a request: words for its content and a digest of all that decides it.
+
+    Parameters
+    ----------
+    request : DataRequest
+        What is kept there.
+    seed : int
+        Of its sets.
+
+    Returns
+    -------
+    str
+    """
+    content = {"seed": seed, "version": __version__, **_content(request)}
     digest = hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:8]
     if isinstance(request, TableRequest):
         words = request.function.__name__
@@ -92,12 +120,12 @@ def folder_name(request: DataRequest, seed: int) -> str:
 
 
 def obtain(request: DataRequest, folder: Path, seed: int, jobs: int, progress: Progress) -> FigureData:
-    """Do what was asked, or read it where the folder holds it whole.
+    """Make the data of a request, or read them where the folder holds them whole.
 
     Parameters
     ----------
     request : ComparisonRequest, IntegrationRequest or TableRequest
-        What is asked.
+        What to make.
     folder : Path
         Where it is kept; the same call goes on with what a stopped one left.
     seed, jobs, progress
@@ -114,23 +142,18 @@ def obtain(request: DataRequest, folder: Path, seed: int, jobs: int, progress: P
         As ``compare``, ``integrate`` and ``run_tasks`` do.
     """
     if isinstance(request, ComparisonRequest):
-        from gbnbench.runs.sources import resolve
-        from gbnbench.studies.comparison import run_comparison
-
         sources, skipped = resolve(request.sources, request.n, request.d, request.realizations)
         return run_comparison(
             sources, folder, seed=seed, jobs=jobs, command="gbnbench figures", skipped=skipped,
             progress=progress,
         ).run  # fmt: skip
     if isinstance(request, IntegrationRequest):
-        from gbnbench.studies.integration.study import run_integration_study
-
         return run_integration_study(
             request.sources, folder, n=request.n, d=request.d, realizations=request.realizations,
             integrands=request.integrands, instances=request.instances, shifts=request.shifts, seed=seed,
             jobs=jobs, command="gbnbench figures", progress=progress,
         ).study  # fmt: skip
-    store = TaskFolder(folder, {"gbnbench": __version__, **_asked(request)})
+    store = TaskFolder(folder, {"gbnbench": __version__, **_content(request)})
     name = request.function.__name__.replace("_", " ")
     tasks = [
         Task(key, f"{name}: {key}", request.function, arguments) for key, arguments in request.calls.items()
@@ -145,7 +168,7 @@ def obtain(request: DataRequest, folder: Path, seed: int, jobs: int, progress: P
         return results
 
 
-def _asked(request: DataRequest) -> dict[str, Any]:
+def _content(request: DataRequest) -> dict[str, Any]:
     """JSON-ready form of a request."""
     if isinstance(request, TableRequest):
         function = f"{request.function.__module__}.{request.function.__name__}"

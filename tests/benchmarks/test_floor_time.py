@@ -19,7 +19,6 @@ from gbnbench.benchmarks.gbn import floor_cases
 from gbnbench.benchmarks.gbn.cutoffs import FORCES, exact_forces
 from gbnbench.benchmarks.gbn.floor_cases import Case, Curve
 from gbnbench.benchmarks.gbn.floor_time import (
-    AUTHORS_FLOOR,
     FLOOR_TIME,
     SPEEDUP,
     Outcome,
@@ -35,6 +34,7 @@ from gbnbench.core.errors import InputError
 from gbnbench.execution.progress import Progress
 from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
+from gbnbench.generators.gbn.published_quality import AUTHORS_FLOOR
 from gbnbench.generators.protocol import realization_rng
 from tests import smallest_sizes
 from tests.oracles.power import direct_power

@@ -98,8 +98,13 @@ class HalfSpace:
         values: FloatArray = (across >= 0).astype(np.float64)
         return values
 
-    @cached_property
+    @property
     def integral(self) -> float:
+        """Volume of the box beyond the plane, computed once."""
+        return self._volume
+
+    @cached_property
+    def _volume(self) -> float:
         """Volume of the box beyond the plane.
 
         Notes

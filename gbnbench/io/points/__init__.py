@@ -1,4 +1,4 @@
-"""Point-set files: formats are told by their content, and a file gives the right sets or one clear error.
+"""Files of point sets: the content of a file decides its format, and it gives the right sets or one error.
 
 Text, whatever the file is called, is lines of numbers parted by blanks or by one comma each; UTF-8 or ASCII,
 any line ends, with or without a byte-order mark or a last newline. Its sets are framed in one of four ways:
@@ -79,7 +79,25 @@ def load(path: str | os.PathLike[str], *, max_bytes: int | None = None) -> Float
 
 
 def read(path: str | os.PathLike[str], *, max_bytes: int | None = None) -> list[FloatArray]:
-    """Read every set of a file, in file order: a list of (n_i, d) float64; otherwise as ``load``."""
+    """Read every set of a file.
+
+    Parameters
+    ----------
+    path : path-like
+        As for ``load``.
+    max_bytes : int, optional
+        As for ``load``.
+
+    Returns
+    -------
+    list of (n_i, d) float64
+        The sets in the order of the file.
+
+    Raises
+    ------
+    FormatError
+        If the file cannot be read as points.
+    """
     path = Path(path)
     limit = size_limit(max_bytes)
     size, head = look(path, limit)

@@ -81,7 +81,19 @@ def read_rps(path: Path, data: bytes, *, named: bool = True) -> list[FloatArray]
 
 
 def read_npy(path: Path, size: int) -> list[FloatArray]:
-    """Read an .npy file of the given size that holds (n, d) or (realizations, n, d) floats."""
+    """Read an .npy file that holds (n, d) or (realizations, n, d) floats.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    size : int
+        Its bytes.
+
+    Returns
+    -------
+    list of (n, d) float64
+    """
     with path.open("rb") as file:
         array = _array(path, file, size, "")
     return _sets(path, array, "")
@@ -90,6 +102,19 @@ def read_npy(path: Path, size: int) -> list[FloatArray]:
 def read_npz(path: Path, limit: int) -> list[FloatArray]:
     """Read an .npz file: its array ``points``, else ``x``, else the only one, else each as a set.
 
+    Parameters
+    ----------
+    path : Path
+        The file.
+    limit : int
+        Bytes that the arrays may have together.
+
+    Returns
+    -------
+    list of (n_i, d) float64
+
+    Notes
+    -----
     Sizes are checked as the archive declares them, before anything is unpacked.
     """
     try:

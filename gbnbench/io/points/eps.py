@@ -22,6 +22,13 @@ _ENDING = frozenset(b"grestore restore showpage stroke fill end \x04".split())
 def read_eps(path: Path, data: bytes) -> list[FloatArray]:
     """Read the one 2D set of a PSA .eps file.
 
+    Parameters
+    ----------
+    path : Path
+        Named in errors.
+    data : bytes
+        The whole file.
+
     Returns
     -------
     list of one (n, 2) float64

@@ -1,4 +1,4 @@
-"""Which format a file is in: decided by its first bytes, and by its name only where bytes cannot tell."""
+"""The format of a file, decided by its first bytes, and by its name only where bytes cannot tell."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _LEGIBLE = bytes(range(32, 127)) + b"\t\n\r\f\v" + bytes(range(128, 256))
 
 
 def size_limit(max_bytes: int | None = None) -> int:
-    """Bytes a file may have: the argument, else the environment variable, else 2 GB.
+    """Return the bytes that a file has to stay below: the argument, else the environment variable, else 2 GB.
 
     Raises
     ------
@@ -39,7 +39,7 @@ def size_limit(max_bytes: int | None = None) -> int:
 
 
 def readable(size: float) -> str:
-    """Bytes in words, such as 2.15 GB."""
+    """Write a number of bytes in words, such as 2.15 GB."""
     for unit in ("bytes", "kB", "MB"):
         if size < 1000:
             return f"{size:.4g} {unit}"
@@ -48,7 +48,17 @@ def readable(size: float) -> str:
 
 
 def refuse_large(path: Path, size: int, limit: int, what: str = "the file holds") -> None:
-    """Raise FormatError where size bytes are not fewer than the limit."""
+    """Raise FormatError where a size is not below the limit.
+
+    Parameters
+    ----------
+    path : Path
+        Named in the error.
+    size, limit : int
+        Bytes.
+    what : str
+        What has the size, for the error.
+    """
     if size >= limit:
         raise FormatError(
             path,
@@ -58,13 +68,27 @@ def refuse_large(path: Path, size: int, limit: int, what: str = "the file holds"
 
 
 def reason(error: Exception) -> str:
-    """Why the system refused, in its own words, without the path it repeats."""
+    """Return the reason of the operating system in its own words, without the path that it repeats."""
     text = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
     return text[:1].lower() + text[1:]
 
 
 def look(path: Path, limit: int) -> tuple[int, bytes]:
-    """Size and first bytes of a regular file that is within the limit.
+    """Return the size and the first bytes of a regular file that is within the limit.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    limit : int
+        Bytes that it has to stay below.
+
+    Returns
+    -------
+    size : int
+        Bytes.
+    head : bytes
+        At most the first 4,096 of them.
 
     Raises
     ------
@@ -90,7 +114,20 @@ def look(path: Path, limit: int) -> tuple[int, bytes]:
 
 
 def kind(path: Path, size: int, head: bytes) -> str:
-    """Name of the format: "npy", "npz", "eps", "rps" or "text".
+    """Name the format of a file.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    size : int
+        Its bytes.
+    head : bytes
+        The first of them.
+
+    Returns
+    -------
+    {"npy", "npz", "eps", "rps", "text"}
 
     Raises
     ------

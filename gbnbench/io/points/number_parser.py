@@ -1,4 +1,4 @@
-"""Text into numbers: which line holds how many, at numpy speed, with the first fault named by its line."""
+"""A parser of text to numbers, at numpy speed, that counts them by line and names the line of a fault."""
 
 from __future__ import annotations
 
@@ -62,6 +62,18 @@ class Lexed:
 
 def lex(path: Path, data: bytes) -> Lexed:
     """Read every number of a text: separated by blanks, or by one comma each, the lines ended in any fashion.
+
+    Parameters
+    ----------
+    path : Path
+        Named in errors.
+    data : bytes
+        The whole text.
+
+    Returns
+    -------
+    Lexed
+        The numbers with the lines that they stand in.
 
     Raises
     ------

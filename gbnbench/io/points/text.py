@@ -40,7 +40,19 @@ def read_text(path: Path, data: bytes) -> list[FloatArray]:
 
 
 def frame(path: Path, text: Lexed) -> list[FloatArray]:
-    """Cut the numbers of a text into point sets."""
+    """Cut the numbers of a text into point sets.
+
+    Parameters
+    ----------
+    path : Path
+        Named in errors.
+    text : Lexed
+        The numbers.
+
+    Returns
+    -------
+    list of (n_i, d) float64
+    """
     if len(text.line) == 0:
         raise FormatError(path, "the file holds no points")
     begin = np.concatenate([[0], np.cumsum(text.width)])

@@ -17,7 +17,7 @@ from gbnbench.io.points.file_format import reason
 
 
 def checked_sets(x: ArrayLike | Sequence[ArrayLike]) -> list[FloatArray]:
-    """Check the points and part them into sets.
+    """Check points and split them into sets.
 
     Parameters
     ----------
@@ -102,7 +102,24 @@ WRITERS: dict[str, Callable[[list[FloatArray]], bytes]] = {
 
 
 def encode(path: Path, x: ArrayLike | Sequence[ArrayLike]) -> bytes:
-    """Make the bytes of a file of the format that the path's extension names."""
+    """Make the bytes of a file of the format that the path's extension names.
+
+    Parameters
+    ----------
+    path : Path
+        Ends in one of ``WRITERS``.
+    x : (n, d) or (realizations, n, d) array_like, or a list of (n_i, d)
+        Points in [0, 1).
+
+    Returns
+    -------
+    bytes
+
+    Raises
+    ------
+    InputError
+        If the extension is none of these, or x is not points.
+    """
     writer = WRITERS.get(path.suffix.lower())
     if writer is None:
         raise InputError(f"{path}: points are written as {', '.join(WRITERS)}; got extension {path.suffix!r}")
@@ -110,7 +127,14 @@ def encode(path: Path, x: ArrayLike | Sequence[ArrayLike]) -> bytes:
 
 
 def write_atomically(path: Path, data: bytes) -> None:
-    """Put data at path whole: a file beside it takes the bytes and then the name.
+    """Write a file whole or not at all, and say what is wrong with its place.
+
+    Parameters
+    ----------
+    path : Path
+        A regular file or nothing yet; a link is followed.
+    data : bytes
+        The whole content.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""What the workers of a study of integration do: draw a block of sets and estimate every integral with it."""
+"""The tasks of a study of integration: each draws a block of sets and estimates every integral with it."""
 
 from __future__ import annotations
 
@@ -20,11 +20,27 @@ from gbnbench.runs.resumable import Task
 from gbnbench.runs.sources import Source
 
 INSTANCE, SHIFT = 2**31 + 1, 2**31 + 2  # first words of spawn keys, far from any realization's number
-BLOCK_POINTS, BLOCK_SETS = 16_384, 32  # of a piece; fixed, so that pieces do not depend on the machine
+BLOCK_POINTS, BLOCK_SETS = 16_384, 32  # of a block; fixed, so that blocks do not depend on the machine
 
 
 def instances_of(family: Family, d: int, seed: int, count: int) -> list[Integrand]:
-    """Draw integrands: number i from ``SeedSequence(seed, spawn_key=(2^31 + 1, i))`` whatever the count."""
+    """Draw integrands; the first of many are the same as those of few.
+
+    Parameters
+    ----------
+    family : Family
+        Of integrands.
+    d : int
+        Dimension.
+    seed : int
+        Number i is drawn from ``SeedSequence(seed, spawn_key=(2^31 + 1, i))``.
+    count : int
+        How many.
+
+    Returns
+    -------
+    list of Integrand
+    """
     seeds = (np.random.SeedSequence(seed, spawn_key=(INSTANCE, i)) for i in range(count))
     return [family.draw(d, np.random.default_rng(each)) for each in seeds]
 
@@ -32,7 +48,25 @@ def instances_of(family: Family, d: int, seed: int, count: int) -> list[Integran
 def tasks_of(
     source: Source, families: tuple[Family, ...], instances: int, shifts: int, seed: int
 ) -> list[Task]:
-    """Part the work on one source in pieces, whose keys are ``SOURCE/FIRST``."""
+    """List the tasks of one source, a block of its realizations each.
+
+    Parameters
+    ----------
+    source : Source
+        Whose sets.
+    families : tuple of Family
+        Of integrands.
+    instances : int
+        Integrands of each family.
+    shifts : int
+        Random toroidal shifts of each set; 0 takes the sets as they are.
+    seed : int
+        Of the sets, integrands and shifts.
+
+    Returns
+    -------
+    list of Task
+    """
     return [
         Task(
             task_key(source, first),
@@ -55,12 +89,24 @@ def tasks_of(
 
 
 def task_key(source: Source, first: int) -> str:
-    """Name the piece of a source that begins with this realization."""
+    """Name the task of a block, ``SOURCE/FIRST``.
+
+    Parameters
+    ----------
+    source : Source
+        Whose block.
+    first : int
+        The realization that the block begins with.
+
+    Returns
+    -------
+    str
+    """
     return f"{source.key}/{first:06d}"
 
 
 def blocks(source: Source) -> list[tuple[int, int]]:
-    """Part a source's realizations in (first, count)."""
+    """Split the realizations of a source into blocks, (first, count) each."""
     size = max(1, min(BLOCK_SETS, BLOCK_POINTS // source.n))
     return [(first, min(size, source.realizations - first)) for first in range(0, source.realizations, size)]
 
@@ -77,6 +123,23 @@ def estimate_block(
     seed: int,
 ) -> dict[str, NDArray[Any]]:
     """Draw a block of sets and estimate every integral with it.
+
+    Parameters
+    ----------
+    origin : Generator or (count, n, d) float64
+        What draws the sets, or the sets.
+    n, d : int
+        Points a set and dimension.
+    first, count : int
+        The first realization of the block, and how many it has.
+    families : sequence of Family
+        Of integrands.
+    instances : int
+        Integrands of each family.
+    shifts : int
+        Random toroidal shifts of each set; 0 takes the sets as they are.
+    seed : int
+        Of the sets, integrands and shifts.
 
     Returns
     -------
@@ -107,7 +170,26 @@ def estimate_block(
 def errors_of(
     integrands: Sequence[Integrand], sets: FloatArray, first: int, seed: int, shifts: int
 ) -> FloatArray:
-    """Estimates less integrals: (integrands, sets, shifts or 1)."""
+    """Compute the errors of the estimates by every set, shifted or not.
+
+    Parameters
+    ----------
+    integrands : sequence of Integrand
+        What is integrated.
+    sets : (sets, n, d) float64
+        Points.
+    first : int
+        Realization number of the first set, which decides its shifts.
+    seed : int
+        Of the shifts.
+    shifts : int
+        Random toroidal shifts of each set; 0 takes the sets as they are.
+
+    Returns
+    -------
+    (integrands, sets, shifts or 1) float64
+        Estimates less integrals.
+    """
     if shifts == 0:
         return estimate_errors(integrands, sets)[:, :, None]
     errors = np.empty((len(integrands), len(sets), shifts))
