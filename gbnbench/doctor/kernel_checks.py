@@ -12,9 +12,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from gbnbench.analysis.precision import PrecisionName
+from gbnbench.analysis.spectrum.evaluators.gridded.product import griddable
+from gbnbench.analysis.spectrum.periodogram import periodogram
+from gbnbench.analysis.spectrum.shell_spectrum import shells
 from gbnbench.core.errors import GbnbenchError
 from gbnbench.core.torus import displacement
 from gbnbench.doctor.numpy_references import numpy_box_gradient, numpy_gradient, numpy_power
+from gbnbench.generators.fpo.relocation import Sweeps, move_afresh
+from gbnbench.generators.gbn.box import BoxEnergy
+from gbnbench.generators.gbn.energy import energy_evaluation
+from gbnbench.generators.gbn.plan import plan_energy
 from gbnbench.opencl import Device, choose
 
 # n, d, fmax: none a multiple of a vector, a tile or a chunk.
@@ -95,10 +102,6 @@ class Examination:
 
 
 def _periodogram(n: int, d: int, fmax: int, precision: PrecisionName) -> Iterator[Check]:
-    from gbnbench.analysis.spectrum.evaluators.gridded.product import griddable
-    from gbnbench.analysis.spectrum.periodogram import periodogram
-    from gbnbench.analysis.spectrum.shell_spectrum import shells
-
     x = np.random.default_rng(n).random((n, d))
     base = 2 * fmax + 1
     f = np.stack(np.unravel_index(np.arange(base**d), (base,) * d), axis=1).astype(np.int64) - fmax
@@ -122,9 +125,6 @@ def _periodogram(n: int, d: int, fmax: int, precision: PrecisionName) -> Iterato
 
 
 def _energy(n: int, d: int, sigma: float, precision: str) -> Iterator[Check]:
-    from gbnbench.generators.gbn.energy import energy_evaluation
-    from gbnbench.generators.gbn.plan import plan_energy
-
     x = np.random.default_rng(n).random((2, n, d))
     expected = np.stack([numpy_gradient(one, sigma) for one in x])
     found = plan_energy(n, d, sigma, precision)
@@ -137,8 +137,6 @@ def _energy(n: int, d: int, sigma: float, precision: str) -> Iterator[Check]:
 
 
 def _box(n: int, d: int, sigma: float, precision: str) -> Iterator[Check]:
-    from gbnbench.generators.gbn.box import BoxEnergy
-
     x = np.random.default_rng(n).random((2, n, d))
     expected = np.stack([numpy_box_gradient(one, sigma) for one in x])
     box = BoxEnergy(n, d, sigma, precision)
@@ -149,8 +147,6 @@ def _box(n: int, d: int, sigma: float, precision: str) -> Iterator[Check]:
 
 
 def _farthest_points(n: int, precision: str) -> Iterator[Check]:
-    from gbnbench.generators.fpo.relocation import Sweeps, move_afresh
-
     x = np.random.default_rng(n).random((n, 2))
     work = Sweeps(x[None])
     work.sweep(np.array([True]))

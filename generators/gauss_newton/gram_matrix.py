@@ -117,8 +117,7 @@ class _Places:
         self._mirror = self._flat(-f[self._plane], shape)
 
     def _flat(self, f: IntArray, shape: tuple[int, ...]) -> IntArray:
-        flat: IntArray = np.ravel_multi_index(tuple(np.mod(f, shape).T), self._half)
-        return flat
+        return np.asarray(np.ravel_multi_index(tuple(np.mod(f, shape).T), self._half), dtype=np.int64)
 
     def spread(self, y: ComplexArray) -> ComplexArray:
         spectrum = np.zeros(math.prod(self._half), np.complex128)

@@ -91,10 +91,10 @@ class WaveSums:
         turn = 2 * math.pi / side
         for block, first, second in self._blocks():
             beside = _product(second.view(self._real), weights.T).view(self._kind)
-            out[block, : self.lead] = _combine((np.conj(first) * beside).imag, turn * self._first)
+            out[block, : self.lead] = _combine(np.imag(np.conj(first) * beside), turn * self._first)
             if self.lead < self.x.shape[1]:
                 beside = _product(first.view(self._real), weights).view(self._kind)
-                out[block, self.lead :] = _combine((np.conj(second) * beside).imag, turn * self._second)
+                out[block, self.lead :] = _combine(np.imag(np.conj(second) * beside), turn * self._second)
         return out
 
     def divergence(self, move: FloatArray, side: float) -> ComplexArray:

@@ -12,6 +12,7 @@ import matplotlib as mpl
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
+from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter, NullLocator
@@ -55,7 +56,7 @@ def figure(table: pd.DataFrame, n: int = 1024, d: int = 2, start: int = 100) -> 
     Parameters
     ----------
     table : DataFrame
-        Columns of ``gbnbench.benchmarks.experiments.depth_order.COLUMNS``.
+        Columns of ``gbnbench.benchmarks.experiments.depth_order_row.COLUMNS``.
     n, d, start : int
         Which points, dimension and length of start of the table are drawn.
     """
@@ -112,7 +113,7 @@ def figure(table: pd.DataFrame, n: int = 1024, d: int = 2, start: int = 100) -> 
 def _colours(count: int) -> list[str]:
     """From light to dark, in order of steepness."""
     ramp = mpl.colormaps["viridis_r"](np.linspace(0.12, 1.0, count))
-    return [mpl.colors.to_hex(colour) for colour in ramp]
+    return [to_hex(colour) for colour in ramp]
 
 
 def _reference(ax: Axes, gbn: pd.DataFrame, name: str) -> None:

@@ -10,6 +10,7 @@ import matplotlib as mpl
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
+from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
@@ -117,7 +118,7 @@ def _cutoffs(ax: Axes, rows: pd.DataFrame) -> None:
     marks = "vsD^oP"
     handles = []
     for k, (cutoff, shade) in enumerate(zip(cutoffs, shades, strict=True)):
-        colour = mpl.colors.to_hex(shade)
+        colour = to_hex(shade)
         _curve(ax, rows[rows.cutoff == cutoff], colour, marks[k % len(marks)], "double", numbered=False)
         handles.append(
             Line2D([], [], color=colour, marker=marks[k % len(marks)], markersize=3, label=f"{cutoff:g}")

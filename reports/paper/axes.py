@@ -8,6 +8,7 @@ from typing import Any
 import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import to_hex
 from numpy.typing import ArrayLike
 
 from gbnbench.core.torus import FloatArray
@@ -19,7 +20,7 @@ DOTTED: dict[str, Any] = {"color": style.FAINT, "linestyle": (0, (1, 1.6)), "lin
 
 def family(count: int) -> list[str]:
     """Colours of an ordered family from dark to light, none too light for a white page."""
-    return [mpl.colors.to_hex(c) for c in mpl.colormaps["viridis"](np.linspace(0.0, 0.9, max(count, 1)))]
+    return [to_hex(c) for c in mpl.colormaps["viridis"](np.linspace(0.0, 0.9, max(count, 1)))]
 
 
 def loglog(ax: Axes, low: float, nu: tuple[float, float], high: float = 30.0) -> None:

@@ -76,7 +76,7 @@ class PaperFigure:
     needs : callable
         Ask -> what it is drawn from, by names of its own choice.
     draw : callable
-        (material by the same names, ask) -> Drawing. Computes nothing: it selects, scales and draws.
+        (data by the same names, ask) -> Drawing. Computes nothing: it selects, scales and draws.
     """
 
     name: str

@@ -27,10 +27,10 @@ def needs(ask: Ask) -> Mapping[str, DataRequest]:
     return {"sets": ComparisonRequest((NARROW, _wide(ask)[0]), (shared.size(ask),), (2,), count)}
 
 
-def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
+def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
     """Points over spectra, and both radial powers in one plot."""
     text, gradients = _wide(ask)
-    run, n = material["sets"], shared.size(ask)
+    run, n = data["sets"], shared.size(ask)
     narrow = shared.made(run, NARROW, n, "σ = 0.5, 30 steps")
     wide = shared.made(run, text, n, f"σ = 1.1, {gradients:,} gradients")
     both = (narrow, wide)

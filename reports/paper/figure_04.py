@@ -50,9 +50,9 @@ def needs(ask: Ask) -> Mapping[str, DataRequest]:
     return {"kernels": TableRequest(transforms, {key: (key, count) for key in CUTOFFS})}
 
 
-def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:  # noqa: ARG001 - as every figure's
+def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:  # noqa: ARG001 - as every figure's
     """Draw kernels, transforms, and the transforms' absolute values in log scale."""
-    kernels: dict[str, dict[str, FloatArray]] = material["kernels"]
+    kernels: dict[str, dict[str, FloatArray]] = data["kernels"]
 
     def paint(panel: SubFigure) -> None:
         axes = panel.subplots(1, 3)

@@ -31,9 +31,9 @@ def needs(ask: Ask) -> Mapping[str, DataRequest]:
     return {"profiles": TableRequest(profile, {str(points): (points, count) for points in POINTS})}
 
 
-def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:  # noqa: ARG001 - as every figure's
+def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:  # noqa: ARG001 - as every figure's
     """Draw all profiles in one panel, each labelled at its curve."""
-    profiles: dict[str, dict[str, FloatArray]] = material["profiles"]
+    profiles: dict[str, dict[str, FloatArray]] = data["profiles"]
     colours = family(len(profiles))[::-1]
 
     def paint(panel: SubFigure) -> None:

@@ -85,10 +85,10 @@ def needs(ask: Ask) -> Mapping[str, DataRequest]:
     return {"evolution": TableRequest(evolution, calls)}
 
 
-def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
+def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
     """Draw rows: descent, Nesterov's method. Columns: raw, filtered; then excess energy and noise floor."""
     counts = _counts(ask)
-    found = {method: _mean(material["evolution"], method) for method in METHODS}
+    found = {method: _mean(data["evolution"], method) for method in METHODS}
     colours = axes.family(len(counts["descent"]))[::-1]
 
     def paint(panel: SubFigure) -> None:

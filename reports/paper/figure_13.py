@@ -46,9 +46,9 @@ def _gradients(ask: Ask) -> int:
     return count
 
 
-def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
+def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
     """Draw two sets as beads on a circle, then their mean periodogram in linear and in log scale."""
-    pieces: Mapping[str, Mapping[str, FloatArray]] = material["line"]
+    pieces: Mapping[str, Mapping[str, FloatArray]] = data["line"]
     blocks = [pieces[key] for key in sorted(pieces)]
     nu, power = blocks[0]["nu"], np.mean([block["power"] for block in blocks], axis=0)
 

@@ -22,12 +22,12 @@ def needs(ask: Ask) -> Mapping[str, DataRequest]:
     return {"sobol": many, "classic": shared.classic(ask), **shared.given(ask, PAPER)}
 
 
-def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
+def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
     """Exact shells over annuli, a column an example."""
     n = shared.size(ask)
     examples = [
-        *(shared.yours(material, PAPER, n) or [shared.made(material["classic"], "gbn", n)]),
-        shared.made(material["sobol"], "sobol", n),
+        *(shared.yours(data, PAPER, n) or [shared.made(data["classic"], "gbn", n)]),
+        shared.made(data["sobol"], "sobol", n),
     ]
     exact = [one.source.radial for one in examples]
     rings = [radial(one.source.spectrum, by="annuli", width=WIDTH) for one in examples]

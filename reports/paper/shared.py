@@ -128,11 +128,11 @@ def made(run: Run, text: str, n: int, title: str | None = None) -> Column:
     return Column(title or title_of(label), source, stroke(label))
 
 
-def yours(material: Mapping[str, Any], methods: Iterable[str], n: int) -> list[Column]:
+def yours(data: Mapping[str, Any], methods: Iterable[str], n: int) -> list[Column]:
     """Pick the user's plane sets of these methods: of n points, or else the most."""
     found = []
     for name in methods:
-        flat = [source for source in material[name].sources if source.d == 2] if name in material else []
+        flat = [source for source in data[name].sources if source.d == 2] if name in data else []
         if flat:
             best = max(flat, key=lambda source: (source.n == n, source.n))
             found.append(Column(title_of(name), best, stroke(name)))

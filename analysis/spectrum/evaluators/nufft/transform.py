@@ -116,7 +116,7 @@ def _transform(
 ) -> Any:
     import finufft
 
-    call = (finufft.nufft1d1, finufft.nufft2d1, finufft.nufft3d1)[len(modes) - 1]
+    call: Any = (finufft.nufft1d1, finufft.nufft2d1, finufft.nufft3d1)[len(modes) - 1]
     try:
         return call(
             *radians,

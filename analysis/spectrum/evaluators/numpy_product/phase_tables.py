@@ -137,4 +137,4 @@ def group_table(
     for x, fmax in zip(turns[1:], fmaxes[1:], strict=True):
         table = (table[:, None] * _both_signs(axis_table(x, fmax, real))).reshape(-1, turns.shape[1])
     table = table[len(table) - half_count(fmaxes) :]
-    return np.stack([table.real, table.imag], axis=axis).reshape(-1, turns.shape[1])
+    return np.stack([np.real(table), np.imag(table)], axis=axis).reshape(-1, turns.shape[1])
