@@ -57,7 +57,7 @@ def shells(
     Returns
     -------
     ShellSpectrum
-        ``radial()`` and ``gbnbench.anisotropy`` make the same tables of it as of a whole cube.
+        ``gbnbench.radial`` and ``analysis.radial.anisotropy`` make the same tables of it as of a cube.
 
     Raises
     ------
