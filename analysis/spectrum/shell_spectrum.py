@@ -57,7 +57,7 @@ def shells(
     Returns
     -------
     ShellSpectrum
-        ``gbnbench.radial`` and ``analysis.radial.anisotropy`` make the same tables of it as of a cube.
+        ``gbnbench.radial`` and ``gbnbench.analysis.radial.anisotropy`` make the same tables as of a cube.
 
     Raises
     ------
