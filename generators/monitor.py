@@ -35,7 +35,7 @@ class OptimiserState(Protocol):
 
 @dataclass
 class Trace:
-    """What an optimiser did, gradient by gradient.
+    """A record of an optimiser's run, gradient by gradient.
 
     Attributes
     ----------
@@ -103,7 +103,7 @@ class Trace:
 
 @dataclass
 class Monitor:
-    """What a caller wants to be told of a long draw; by default nothing.
+    """A caller's wishes for a long draw: progress, a trace, checkpoints; by default none.
 
     Attributes
     ----------

@@ -172,7 +172,7 @@ class FarthestPoint:
         ]
 
     def _settled(self, history: FloatArray) -> bool:
-        """Whether the stop rule holds for minimum distances in densest spacings, start first."""
+        """Tell whether the stop rule holds for minimum distances in densest spacings, start first."""
         if len(history) <= WINDOW:
             return False
         gain = history[-1] - history[-1 - WINDOW]

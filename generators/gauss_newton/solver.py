@@ -31,7 +31,7 @@ HALVINGS = 6  # of a step before a start is given up
 
 @dataclass(frozen=True)
 class AmplitudeSolution:
-    """What ``solve_for_amplitudes`` came to.
+    """The result of ``solve_for_amplitudes``.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""Amplitudes to reach: those of the start, scaled ring by ring to a target power, their spread kept."""
+"""Target amplitudes: those of the start, scaled ring by ring to a target power; their spread is kept."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A run of the optimiser over many sets: batches that share the device, watched and kept."""
+"""A run of the optimiser over many sets, in batches that share the device, with progress and checkpoints."""
 
 from __future__ import annotations
 
@@ -53,9 +53,9 @@ def optimise_in_batches(
     gradients : int
         Evaluations a set at most.
     monitor : Monitor
-        What is to be said, traced and kept.
+        Progress, trace and checkpoint.
     name : str
-        What the run is, for progress and for its checkpoint.
+        Name of the run, for progress and for its checkpoint.
     inside : callable
         Brings points into their domain for the trace.
 

@@ -178,7 +178,7 @@ class BoxEnergy:
 
     @property
     def anchor(self) -> FloatArray | None:
-        """What strips keep between calls; see ``Strips``."""
+        """Points as the strips were last sorted; see ``Strips``."""
         return self._torus.anchor if isinstance(self._torus, Strips) else None
 
     @anchor.setter

@@ -175,7 +175,7 @@ class ProjectiveEnergy:
 
     @property
     def anchor(self) -> FloatArray | None:
-        """What the terms keep between calls, side by side; see ``Strips``."""
+        """Points as each term's strips were last sorted, side by side; see ``Strips``."""
         kept = [at for term in self._terms.values() if (at := getattr(term, "anchor", None)) is not None]
         return np.concatenate(kept, axis=2) if kept else None
 

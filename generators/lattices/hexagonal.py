@@ -18,7 +18,7 @@ MOST_POINTS = 1_000_000  # there are more than n lattices to choose from
 
 @lru_cache(maxsize=1024)
 def best_lattice(n: int) -> tuple[int, int, int, float]:
-    """Of all lattices of n points with the unit torus's periods, the one nearest to hexagonal.
+    """Find the lattice of n points nearest to hexagonal, of all with the unit torus's periods.
 
     Returns
     -------
