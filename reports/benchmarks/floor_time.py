@@ -1,4 +1,4 @@
-"""Noise floor against CPU time of the optimisers, and what a cut-off costs, from the saved tables."""
+"""Figure of the noise floor against the CPU time of each optimiser, and of the cost of cut-offs."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import matplotlib as mpl
+import matplotlib.colors
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
@@ -54,6 +55,11 @@ def figure(floors: pd.DataFrame, forces: pd.DataFrame, machine: Mapping[str, Any
         Columns of ``gbnbench.benchmarks.gbn.cutoffs.FORCES``.
     machine : mapping
         The record ``machine.json``.
+
+    Returns
+    -------
+    Figure
+        Noise floor against CPU time, one panel for each case, and panels of the cut-offs.
     """
     whole, cut = floors[floors.kernel == "whole"], floors[floors.kernel != "whole"]
     panels: list[tuple[str, Any, pd.DataFrame]] = [
@@ -117,7 +123,7 @@ def _cutoffs(ax: Axes, rows: pd.DataFrame) -> None:
     marks = "vsD^oP"
     handles = []
     for k, (cutoff, shade) in enumerate(zip(cutoffs, shades, strict=True)):
-        colour = mpl.colors.to_hex(shade)
+        colour = matplotlib.colors.to_hex(shade)
         _curve(ax, rows[rows.cutoff == cutoff], colour, marks[k % len(marks)], "double", numbered=False)
         handles.append(
             Line2D([], [], color=colour, marker=marks[k % len(marks)], markersize=3, label=f"{cutoff:g}")

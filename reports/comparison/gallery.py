@@ -1,4 +1,4 @@
-"""All pictures side by side, a column a source (Ahmed, Ren & Wonka 2022, Fig. 8)."""
+"""Figure with all pictures of every source, one column for each source (Ahmed, Ren & Wonka 2022, Fig. 8)."""
 
 from __future__ import annotations
 
@@ -16,7 +16,21 @@ Draw = Callable[[Axes, SourceResult], None]
 
 
 def rows(run: Run, sources: Sequence[SourceResult]) -> list[tuple[str, float, Draw]]:
-    """Name, height over width, and drawing function of each row these sources can fill."""
+    """List the rows of the gallery that these sources have data for.
+
+    Parameters
+    ----------
+    run : Run
+        The comparison.
+    sources : sequence of SourceResult
+        Columns of the gallery, which share the scales of their axes.
+
+    Returns
+    -------
+    list of (str, float, callable)
+        Title of each row, height of its panels over their width, and the function that draws a source
+        into axes.
+    """
     given = style.strokes(run)
     scale = spectrum.norm(sources)
     top, limits = radial.power_limit(sources), radial.decibel_limits(sources)
@@ -38,7 +52,20 @@ def rows(run: Run, sources: Sequence[SourceResult]) -> list[tuple[str, float, Dr
 
 @style.styled
 def figure(run: Run, group: style.Group | None = None) -> Figure:
-    """Points, spectrum, radial power with anisotropy, zone plate and valence of every source."""
+    """Draw points, spectrum, radial power, anisotropy, zone plate and valence of every source.
+
+    Parameters
+    ----------
+    run : Run
+        The comparison.
+    group : (n, d), optional
+        Draw only the sources of this size and dimension; all sources where not given.
+
+    Returns
+    -------
+    Figure
+        One column for each source.
+    """
     sources = style.members(run, group)
     lines = rows(run, sources)
     names = [name for name, _, _ in lines]

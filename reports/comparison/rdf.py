@@ -1,4 +1,4 @@
-"""Radial distribution functions: how often two points stand at each distance, white noise being 1."""
+"""Figure of radial distribution functions, the density of pairs at each distance over that of white noise."""
 
 from __future__ import annotations
 
@@ -16,7 +16,20 @@ REACH = 5.0  # in densest spacings; beyond it every curve lies on 1
 
 @style.styled
 def figure(run: Run, group: style.Group | None = None) -> Figure:
-    """Radial distribution function of every source that has one, laid over one another."""
+    """Draw the radial distribution function of every source that has one.
+
+    Parameters
+    ----------
+    run : Run
+        The comparison.
+    group : (n, d), optional
+        Draw only the sources of this size and dimension; all sources where not given.
+
+    Returns
+    -------
+    Figure
+        One plot of all these sources.
+    """
     given = style.strokes(run)
     drawn = [(s, s.rdf) for s in style.members(run, group) if s.rdf is not None]
     labels = [style.name(source, run, 30) for source, _ in drawn]

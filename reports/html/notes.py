@@ -1,4 +1,4 @@
-"""The page's notes: what is undefined and why, how each number is defined, and what made the run."""
+"""Notes of the page: values that are undefined and why, definitions of the measures, and provenance."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def escaped(value: object) -> str:
 
 
 def undefined(run: Run) -> str:
-    """List every undefined value once with its reason, sources that share one together."""
+    """List every undefined value with its reason, once for all sources that share it."""
     found: dict[tuple[str, str], list[str]] = {}
     for row in table.rows(run):
         for column in table.COLUMNS:
@@ -37,7 +37,7 @@ def undefined(run: Run) -> str:
 
 
 def definitions() -> str:
-    """Say how every column of the table is defined, and by whom."""
+    """Return the definition of every column of the table and its source in the literature."""
     opening = (
         "<p>A set has n points x in [0, 1)<sup>d</sup> on the unit torus. Its power at an integer "
         "frequency f is P(f) = |Σ exp(−2πi f·x)|² / n, 1 in expectation for white "
@@ -56,7 +56,7 @@ def _definition(column: Definition) -> str:
 
 
 def made(manifest: Mapping[str, Any]) -> str:
-    """Say what made the run: command, seed, device, versions, time, and all settings as saved."""
+    """Describe the provenance of the run: command, seed, device, versions, time and all saved settings."""
     rows = []
     if manifest.get("command"):
         rows.append(("command", f"<code>{escaped(manifest['command'])}</code>"))

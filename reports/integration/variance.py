@@ -1,4 +1,4 @@
-"""Variance of integration against n, log-log, beside the N^-1 of random sampling (Fig. 9 of the paper)."""
+"""Figure of the variance of integration against n in log-log scale (Ahmed, Ren & Wonka 2022, Fig. 9)."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ SLOPES = (
 
 
 def strokes(study: IntegrationStudy) -> dict[str, style.Stroke]:
-    """Source label -> stroke, the same in every panel."""
+    """Assign each source label a stroke that is the same in every panel."""
     labels = dict.fromkeys(study.variance["source"])
     given = {}
     for k, label in enumerate(labels):
@@ -105,7 +105,17 @@ def _apart(sizes: Any) -> list[float]:
 
 
 def guide_line(ax: Axes, sizes: Any, part: pd.DataFrame) -> None:
-    """Draw 1/n through the random source's first variance, else through the largest there."""
+    """Draw 1/n through the first variance of random sampling, or through the largest first one without it.
+
+    Parameters
+    ----------
+    ax : Axes
+        Axes to draw in.
+    sizes : (sizes,) float64
+        Numbers of points, ascending.
+    part : DataFrame
+        Rows of ``IntegrationStudy.variance`` that the panel shows, with positive variances.
+    """
     first = part[part["n"] == part["n"].min()]
     anchor = first[first["source"] == "random"] if (first["source"] == "random").any() else first
     row = anchor.loc[anchor["variance"].idxmax()]
@@ -115,7 +125,7 @@ def guide_line(ax: Axes, sizes: Any, part: pd.DataFrame) -> None:
 
 @style.styled
 def figure(study: IntegrationStudy) -> Figure:
-    """Draw a panel for each family and dimension of a study."""
+    """Draw one panel for each family of integrands and dimension of a study."""
     table = study.variance
     parts = list(table.groupby(["integrand", "d"], sort=False))
     given = strokes(study)

@@ -1,4 +1,4 @@
-"""Our own figure: what depth costs in order, and what it buys in integration."""
+"""Figure ``depth``, not in the paper: what depth costs in order, and what it gains in integration."""
 
 from __future__ import annotations
 
@@ -61,7 +61,20 @@ def needs(ask: Ask) -> Mapping[str, DataRequest]:
 
 
 def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
-    """Draw spectra and integration above, order against the noise floor below."""
+    """Draw spectra and variances of integration above measures of order against the noise floor.
+
+    Parameters
+    ----------
+    material : mapping
+        Data under the names that ``needs`` gives them.
+    ask : Ask
+        Scale, sets of the user and seed.
+
+    Returns
+    -------
+    Drawing
+        The figure, as wide as the page, with its caption.
+    """
     n, gradients = shared.size(ask), _gradients(ask)
     gbn = [
         shared.made(material["long" if k == gradients[-1] else "sets"], _gbn(k), n, f"GBN, {k:,}")

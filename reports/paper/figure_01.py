@@ -59,7 +59,20 @@ def needs(ask: Ask) -> Mapping[str, DataRequest]:
 
 
 def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
-    """Points, spectrum and its middle, a column a method; beside or below them the radial power."""
+    """Draw points, spectrum and the middle of the spectrum for each method, and the radial power of all.
+
+    Parameters
+    ----------
+    material : mapping
+        Data under the names that ``needs`` gives them.
+    ask : Ask
+        Scale, sets of the user and seed.
+
+    Returns
+    -------
+    Drawing
+        The figure, as wide as the page, with its caption.
+    """
     n, text, long_n = shared.size(ask), _long(ask)[0], _long_n(ask)
     methods = shared.shown_methods(ask, PAPER)
     early, late = (

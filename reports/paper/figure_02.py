@@ -22,13 +22,26 @@ def _wide(ask: Ask) -> tuple[str, int]:
 
 
 def needs(ask: Ask) -> Mapping[str, DataRequest]:
-    """Both settings, many sets each."""
+    """Ask for many sets of both settings."""
     count = ask.pick(2, 32, 1000)
     return {"sets": ComparisonRequest((NARROW, _wide(ask)[0]), (shared.size(ask),), (2,), count)}
 
 
 def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
-    """Points over spectra, and both radial powers in one plot."""
+    """Draw points and spectra of two settings, and their radial powers in one plot.
+
+    Parameters
+    ----------
+    material : mapping
+        Data under the names that ``needs`` gives them.
+    ask : Ask
+        Scale, sets of the user and seed.
+
+    Returns
+    -------
+    Drawing
+        The figure, as wide as a column, with its caption.
+    """
     text, gradients = _wide(ask)
     run, n = material["sets"], shared.size(ask)
     narrow = shared.made(run, NARROW, n, "σ = 0.5, 30 steps")

@@ -26,7 +26,7 @@ STROKES = (
 
 
 def needs(ask: Ask) -> Mapping[str, DataRequest]:
-    """One setting for each cut-off, the whole kernel, and centroidal tessellations."""
+    """Ask for sets at each cut-off, of the whole kernel, and of centroidal tessellations."""
     cut = tuple(f"gbn[cutoff={cutoff}]" for cutoff in CUTOFFS)
     return {
         "cut": ComparisonRequest(cut, (shared.size(ask),), (2,), shared.sets(ask)),
@@ -36,7 +36,20 @@ def needs(ask: Ask) -> Mapping[str, DataRequest]:
 
 
 def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
-    """Points, spectrum and radial power, a column each."""
+    """Draw points, spectrum and radial power for each cut-off.
+
+    Parameters
+    ----------
+    material : mapping
+        Data under the names that ``needs`` gives them.
+    ask : Ask
+        Scale, sets of the user and seed.
+
+    Returns
+    -------
+    Drawing
+        The figure, as wide as the page, with its caption.
+    """
     n = shared.size(ask)
     columns = [
         shared.made(material["cvt"], "lloyd", n, "CVT"),

@@ -29,7 +29,20 @@ def needs(ask: Ask) -> Mapping[str, DataRequest]:
 
 
 def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
-    """Five rows: points, spectrum, radial power, zone plate and valence."""
+    """Draw points, spectrum, radial power, zone plate and valence for each method.
+
+    Parameters
+    ----------
+    material : mapping
+        Data under the names that ``needs`` gives them.
+    ask : Ask
+        Scale, sets of the user and seed.
+
+    Returns
+    -------
+    Drawing
+        The figure, as wide as the page, with its caption.
+    """
     n = shared.size(ask)
     columns = [
         shared.made(material["strata"], "jittered", n),

@@ -40,7 +40,14 @@ MARK = 512  # points of the nominal grid that the Gaussians' width is that of
 
 
 def pictures(seed: int, pixels: int) -> Arrays:
-    """First integrand of each family in the plane.
+    """Compute pictures of the first integrand of each family in the plane.
+
+    Parameters
+    ----------
+    seed : int
+        Seed of the integrands.
+    pixels : int
+        Pixels along a side.
 
     Returns
     -------
@@ -66,7 +73,20 @@ def needs(ask: Ask) -> Mapping[str, DataRequest]:
 
 
 def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
-    """Draw a row a family, a column a dimension."""
+    """Draw the variance against n, with a row for each family of integrands and a column for each dimension.
+
+    Parameters
+    ----------
+    material : mapping
+        Data under the names that ``needs`` gives them.
+    ask : Ask
+        Scale, sets of the user and seed.
+
+    Returns
+    -------
+    Drawing
+        The figure, as wide as the page, with its caption.
+    """
     tables = {d: _table(material, ask, d) for d in DIMENSIONS}
     labels = list(dict.fromkeys(label for table in tables.values() for label in table["source"]))
     given = {label: stroke(label) for label in labels}

@@ -30,12 +30,38 @@ def needs(ask: Ask) -> Mapping[str, DataRequest]:
 
 
 def band(radial: RadialPower, edge: float) -> float:
-    """Highest radial power below an edge."""
+    """Return the highest radial power below an edge.
+
+    Parameters
+    ----------
+    radial : RadialPower
+        Radial power on exact shells.
+    edge : float
+        Edge in nu; the shell at the edge is left out.
+
+    Returns
+    -------
+    float
+        Power over that of white noise.
+    """
     return float(radial.power[radial.nu < edge * (1 - 1e-9)].max())
 
 
 def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
-    """Points, spectrum and radial power in log scale, a column each."""
+    """Draw points, spectrum and radial power in log scale for each way to step blue noise.
+
+    Parameters
+    ----------
+    material : mapping
+        Data under the names that ``needs`` gives them.
+    ask : Ask
+        Scale, sets of the user and seed.
+
+    Returns
+    -------
+    Drawing
+        The figure, as wide as the page, with its caption.
+    """
     n = shared.size(ask)
     cut = [shared.made(material["sets"], f"gbn[edge={e}]", n, f"harmonics to {e}") for e in EDGES]
     newton = shared.made(material["sets"], f"stealthy[edge={EDGES[-1]}]", n, f"stealthy to {EDGES[-1]}")

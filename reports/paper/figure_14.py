@@ -17,13 +17,26 @@ PAPER = ("bnot",)
 
 
 def needs(ask: Ask) -> Mapping[str, DataRequest]:
-    """Owen-scrambled Sobol sets, many of them, and GBN or the user's BNOT."""
+    """Ask for many Owen-scrambled Sobol sets, and for GBN or the user's BNOT."""
     many = ComparisonRequest(("sobol",), (shared.size(ask),), (2,), ask.pick(4, 160, 1000))
     return {"sobol": many, "classic": shared.classic(ask), **shared.given(ask, PAPER)}
 
 
 def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
-    """Exact shells over annuli, a column an example."""
+    """Draw the radial power on exact shells above that over annuli, for each example.
+
+    Parameters
+    ----------
+    material : mapping
+        Data under the names that ``needs`` gives them.
+    ask : Ask
+        Scale, sets of the user and seed.
+
+    Returns
+    -------
+    Drawing
+        The figure, as wide as the page, with its caption.
+    """
     n = shared.size(ask)
     examples = [
         *(shared.yours(material, PAPER, n) or [shared.made(material["classic"], "gbn", n)]),
