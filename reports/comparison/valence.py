@@ -82,7 +82,7 @@ def cells(x: FloatArray, side: float = 1.0) -> tuple[list[FloatArray], NDArray[n
         bounding = np.repeat(inside[drawn], sides)  # corners of the cells whose points lie in the square
         if not np.any(inside & ~drawn) and overhang(corners[bounding], radius[bounding], side) <= margin:
             break
-    degrees = np.add.reduceat((edge > SHORTEST_EDGE * unit).astype(np.intp), start)
+    degrees = np.add.reduceat(np.asarray(edge > SHORTEST_EDGE * unit, dtype=np.intp), start)
     return np.split(corners, start[1:]), degrees
 
 

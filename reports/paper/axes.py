@@ -20,9 +20,8 @@ DOTTED: dict[str, Any] = {"color": style.FAINT, "linestyle": (0, (1, 1.6)), "lin
 
 def family(count: int) -> list[str]:
     """Return colours of an ordered family from dark to light, all dark enough for a white page."""
-    return [
-        matplotlib.colors.to_hex(c) for c in mpl.colormaps["viridis"](np.linspace(0.0, 0.9, max(count, 1)))
-    ]
+    shades = mpl.colormaps["viridis"](np.linspace(0.0, 0.9, max(count, 1)))
+    return [matplotlib.colors.to_hex(shade) for shade in shades]
 
 
 def loglog(ax: Axes, low: float, nu: tuple[float, float], high: float = 30.0) -> None:

@@ -26,7 +26,8 @@ class Ask:
     scale : {"tiny", "quick", "full"}
         Size of the data: for tests (seconds for a figure), for minutes in all, or the paper's.
     sets : mapping
-        Name in lower case of a method without a generator here, such as ``bnot`` -> file or folder of its sets.
+        Name in lower case of a method without a generator here, such as ``bnot`` -> file or folder of its
+        sets.
     seed : int
         Seed of all data.
     """

@@ -37,7 +37,7 @@ LOOKS: dict[str, dict[str, Any]] = {
 
 def gradients(steps: int) -> int:
     """Return how many gradients of Nesterov's method do the work of these steps of descent."""
-    return max(1, round(3 * math.sqrt(steps)))
+    return max(1, round(3 * math.sqrt(steps)))  # k gradients do the work of k^2 / 9 steps
 
 
 def evolution(
