@@ -37,6 +37,7 @@ from gbnbench.analysis.standard_errors import Estimate, jackknife, mean_over_set
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.results import Measures, RadialPower, Spectrum
 from gbnbench.core.torus import FloatArray, as_realizations
+from gbnbench.opencl import use_device
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -80,7 +81,7 @@ class Analysis:
     warnings: tuple[str, ...]
 
 
-def measures(x: ArrayLike, fmax: int | None = None) -> Measures:
+def measures(x: ArrayLike, fmax: int | None = None, *, device: str | None = None) -> Measures:
     """Compute every scalar measure of one or several sets.
 
     Parameters
@@ -90,6 +91,8 @@ def measures(x: ArrayLike, fmax: int | None = None) -> Measures:
         are of the mean spectrum.
     fmax : int, optional
         Largest harmonic on each axis; by default as far as nu = 2, or as affordable (``default_fmax``).
+    device : str, optional
+        Part of the name of the OpenCL device, or its position, as in ``GBNBENCH_DEVICE``, which it overrides.
 
     Returns
     -------
@@ -102,6 +105,8 @@ def measures(x: ArrayLike, fmax: int | None = None) -> Measures:
     ------
     InputError
         If x is not points of the unit torus, or fmax is no harmonic that can be evaluated.
+    DeviceError
+        If a device is named and fits none or several.
 
     Notes
     -----
@@ -117,7 +122,8 @@ def measures(x: ArrayLike, fmax: int | None = None) -> Measures:
     >>> measures(gbnbench.generate("random", n=64, d=3, seed=1)).reasons["psi6"]
     'psi6 is defined in the plane; got d=3'
     """
-    return _Scalars(as_realizations(x), fmax).measures()
+    with use_device(device):
+        return _Scalars(as_realizations(x), fmax).measures()
 
 
 def analyse(x: ArrayLike, fmax: int | None = None) -> Analysis:

@@ -13,23 +13,23 @@ from gbnbench.core.errors import DeviceError, InputError
 from gbnbench.core.torus import FloatArray, fixed_point
 from gbnbench.opencl import Program, Runtime, runtime
 
-SUM_POINTS = 128  # points a lane sums in registers before the sum goes on in double
+SUM_POINTS = 128  # points that a lane sums in registers before these sums are added up in double
 PACKAGE = "gbnbench.analysis"
 PrecisionName = Literal["double", "float"]
 
 
 @dataclass(frozen=True)
 class Precision:
-    """Double or float on a device.
+    """Double or float arithmetic on an OpenCL device.
 
     Attributes
     ----------
     runtime : Runtime
-        The device.
+        The device's context, queue and program cache.
     double : bool
-        Which of the two.
+        True for double, False for float.
     lanes : int
-        Proven vector width.
+        Width of the vectors that the kernels use; the device was checked to compute correctly with it.
     """
 
     runtime: Runtime
@@ -38,7 +38,7 @@ class Precision:
 
     @property
     def name(self) -> str:
-        """As the user says it: "double" or "float"."""
+        """Name of the precision in requests and messages: "double" or "float"."""
         return "double" if self.double else "float"
 
     @property
@@ -53,15 +53,41 @@ class Precision:
 
     @property
     def sum(self) -> type[np.floating[Any]]:
-        """Type of what is added up: double where the device has it."""
+        """Type in which register sums are added up: double wherever the device has it."""
         return np.float64 if self.runtime.device.has_double else np.float32
 
     def program(self, *files: str, **defines: object) -> Program:
-        """Build kernel files of the analysis for this precision."""
+        """Build kernel files of the analysis for this precision.
+
+        Parameters
+        ----------
+        *files : str
+            Names of files in ``analysis/kernels``, joined in this order.
+        **defines : int or str
+            Macros for the compiler, besides those of the precision itself.
+
+        Returns
+        -------
+        Program
+            Kept from call to call.
+        """
         return _program(self, files, tuple(sorted(defines.items())))
 
     def turns(self, x: FloatArray, stride: int) -> NDArray[Any]:
-        """Return coordinates of (sets, n, d) points as turns, (sets, d, stride), 0 beyond the last."""
+        """Round coordinates to fixed-point turns, so that phases wrap exactly in integer arithmetic.
+
+        Parameters
+        ----------
+        x : (sets, n, d) float64
+            Points of the unit torus.
+        stride : int
+            Length of each row, at least n.
+
+        Returns
+        -------
+        (sets, d, stride) uint64 or uint32
+            Fractions of a turn in units of 2^-64 or 2^-32; 0 beyond the last point.
+        """
         sets, n, d = x.shape
         rows = np.zeros((sets, d, stride), self.turn)
         rows[:, :, :n] = fixed_point(x, rows.itemsize * 8).transpose(0, 2, 1)
@@ -81,12 +107,21 @@ def _program(p: Precision, files: tuple[str, ...], defines: tuple[tuple[str, obj
 
 
 def precision_of(name: str) -> Precision:
-    """Look up "double" or "float" on the chosen device.
+    """Look up a precision on the chosen device.
+
+    Parameters
+    ----------
+    name : {"double", "float"}
+        The precision.
+
+    Returns
+    -------
+    Precision
 
     Raises
     ------
     InputError
-        For another name.
+        If the name is neither of the two.
     DeviceError
         If there is no device, or it has no double precision.
     """
@@ -102,5 +137,15 @@ def precision_of(name: str) -> Precision:
 
 
 def padded(count: int, step: int) -> int:
-    """Round count up to a multiple of step."""
+    """Round a count up to a multiple of a step.
+
+    Parameters
+    ----------
+    count, step : int
+        Any count, and a positive step.
+
+    Returns
+    -------
+    int
+    """
     return -(-count // step) * step

@@ -66,7 +66,7 @@ numpydoc_xref_aliases = {
     "RefusalError": "gbnbench.core.errors.RefusalError",
     "ShellSpectrum": "gbnbench.ShellSpectrum",
     "Spectrum": "gbnbench.Spectrum",
-    "Watch": "gbnbench.generators.monitor.Watch",
+    "Monitor": "gbnbench.generators.monitor.Monitor",
 }
 nitpicky = True
 toc_object_entries_show_parents = "hide"

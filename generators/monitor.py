@@ -1,4 +1,4 @@
-"""How a long draw is watched: progress, a trace of what the optimiser did, and checkpoints to go on from."""
+"""Monitoring of a long draw: progress, a trace of what the optimiser did, checkpoints to go on from."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ CHECKPOINT_SECONDS = 30.0
 CHECKPOINT_VARIABLE = "GBNBENCH_CHECKPOINT_SECONDS"
 
 
-class Watched(Protocol):
-    """What a trace reads of an optimiser."""
+class OptimiserState(Protocol):
+    """The state of an optimiser that a trace records."""
 
     x: FloatArray
     gradients: int
@@ -35,7 +35,7 @@ class Watched(Protocol):
 
 @dataclass
 class Trace:
-    """What an optimiser did, gradient by gradient.
+    """A record of an optimiser's run, gradient by gradient.
 
     Attributes
     ----------
@@ -52,8 +52,20 @@ class Trace:
     rows: list[tuple[int, int, float, float, float, float]] = dataclasses.field(default_factory=list)
     kept: dict[int, list[FloatArray]] = dataclasses.field(default_factory=dict)
 
-    def record(self, optimiser: Watched, first: int, inside: Callable[[FloatArray], FloatArray]) -> None:
-        """Add a row for each set of a batch, whose first set has this number; inside keeps to the domain."""
+    def record(
+        self, optimiser: OptimiserState, first: int, inside: Callable[[FloatArray], FloatArray]
+    ) -> None:
+        """Add a row for each set of a batch.
+
+        Parameters
+        ----------
+        optimiser : OptimiserState
+            The batch, after an evaluation.
+        first : int
+            Number of the batch's first set.
+        inside : callable
+            Brings points into their domain.
+        """
         for k, (excess, largest, step) in enumerate(
             zip(optimiser.excess, optimiser.largest, optimiser.size, strict=True)
         ):
@@ -90,8 +102,8 @@ class Trace:
 
 
 @dataclass
-class Watch:
-    """What a caller wants of a long draw; by default nothing.
+class Monitor:
+    """A caller's wishes for a long draw: progress, a trace, checkpoints; by default none.
 
     Attributes
     ----------
@@ -114,8 +126,15 @@ class Watch:
     )
 
 
-def only_progress(watch: Watch, name: str) -> None:
+def refuse_all_but_progress(monitor: Monitor, name: str) -> None:
     """Refuse a trace or a checkpoint that a generator cannot keep.
+
+    Parameters
+    ----------
+    monitor : Monitor
+        What the caller wants.
+    name : str
+        The generator, for the message.
 
     Raises
     ------
@@ -123,14 +142,29 @@ def only_progress(watch: Watch, name: str) -> None:
         If one is asked for.
     """
     for what in ("trace", "checkpoint"):
-        if getattr(watch, what) is not None:
+        if getattr(monitor, what) is not None:
             raise InputError(f"{name} has no {what}: gbn and deep have, which optimise in many small steps")
 
 
 @runtime_checkable
-class Watchable(Protocol):
-    """A generator that draws many sets at once and can be watched."""
+class MonitoredGenerator(Protocol):
+    """A generator that draws many sets at once and reports to a monitor."""
 
-    def draw(self, n: int, d: int, rngs: Sequence[np.random.Generator], watch: Watch) -> FloatArray:
-        """Draw one set from each stream: (len(rngs), n, d), each bitwise the same as drawn alone."""
+    def draw(self, n: int, d: int, rngs: Sequence[np.random.Generator], monitor: Monitor) -> FloatArray:
+        """Draw one set from each stream.
+
+        Parameters
+        ----------
+        n, d : int
+            Points and dimension.
+        rngs : sequence of numpy.random.Generator
+            One for each set.
+        monitor : Monitor
+            What the caller wants to be told and kept.
+
+        Returns
+        -------
+        (len(rngs), n, d) float64
+            Each set bit by bit as if it were drawn alone.
+        """
         ...

@@ -1,4 +1,4 @@
-"""What every generator is: a frozen dataclass of its settings that draws one realization when called."""
+"""The protocol of generators: a frozen dataclass of settings that draws one realization when called."""
 
 from __future__ import annotations
 
@@ -26,21 +26,72 @@ class Generator(Protocol):
     summary: ClassVar[str]
 
     def refusal(self, n: int, d: int) -> str | None:
-        """Why n points in d dimensions cannot be made, with the nearest that can; None where they can."""
+        """Say why n points in d dimensions cannot be made, and which numbers near by can.
+
+        Parameters
+        ----------
+        n, d : int
+            Points and dimension, >= 1.
+
+        Returns
+        -------
+        str or None
+            The reason; None where the set can be made.
+        """
         ...
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
-        """Draw one realization: (n, d) float64 in [0, 1), the same for the same state of rng."""
+        """Draw one realization.
+
+        Parameters
+        ----------
+        n, d : int
+            Points and dimension.
+        rng : numpy.random.Generator
+            The stream that it is drawn from; the same state gives the same set.
+
+        Returns
+        -------
+        (n, d) float64
+            In [0, 1).
+        """
         ...
 
 
 def realization_rng(seed: int, k: int) -> np.random.Generator:
-    """Random stream of realization k: the k-th child of SeedSequence(seed), whatever the count asked for."""
+    """Return the random stream of a realization, the same however many realizations are drawn.
+
+    Parameters
+    ----------
+    seed : int
+        >= 0.
+    k : int
+        The realization, from 0.
+
+    Returns
+    -------
+    numpy.random.Generator
+        Of the k-th child of ``SeedSequence(seed)``.
+    """
     return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(k,)))
 
 
 def checked_draw(generator: Generator, x: FloatArray, n: int, d: int) -> FloatArray:
-    """Return what a generator drew as (n, d) float64 points of the torus, or say that it is none of that.
+    """Check that a generator drew a set of n points of the torus.
+
+    Parameters
+    ----------
+    generator : Generator
+        For the message.
+    x : array_like
+        What it drew.
+    n, d : int
+        Points and dimension.
+
+    Returns
+    -------
+    (n, d) float64
+        The points.
 
     Raises
     ------

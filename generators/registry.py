@@ -21,11 +21,12 @@ from gbnbench.generators.fpo.generator import FarthestPoint
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.lattices.hexagonal import Hexagonal
 from gbnbench.generators.lattices.regular_grid import Grid
-from gbnbench.generators.monitor import Watch, Watchable, only_progress
+from gbnbench.generators.monitor import Monitor, MonitoredGenerator, refuse_all_but_progress
 from gbnbench.generators.protocol import Generator, checked_draw, realization_rng
 from gbnbench.generators.spectral_control.deep import Deep
 from gbnbench.generators.spectral_control.stealthy import Stealthy
 from gbnbench.generators.voronoi.lloyd import Lloyd
+from gbnbench.opencl import use_device
 
 GENERATORS: dict[str, type[Generator]] = {
     "random": Uniform,
@@ -41,6 +42,28 @@ GENERATORS: dict[str, type[Generator]] = {
     "deep": Deep,
     "stealthy": Stealthy,
 }
+# Keywords of ``generate``, which no setting may be named after.
+RESERVED = frozenset({"name", "n", "d", "seed", "realizations", "monitor", "device", "settings"})
+
+
+def check_setting_names(kind: type[Generator]) -> None:
+    """Refuse a generator with a setting of the name of a keyword of ``generate``, which would never reach it.
+
+    Raises
+    ------
+    InputError
+        If there is such a setting.
+    """
+    fields = {field.name for field in dataclasses.fields(kind)}  # type: ignore[arg-type]
+    if taken := sorted(fields & RESERVED):
+        raise InputError(
+            f"a setting of a generator must not be named as a keyword of generate; {kind.__name__} has "
+            f"{', '.join(taken)}: rename it"
+        )
+
+
+for _kind in GENERATORS.values():
+    check_setting_names(_kind)
 
 
 def find(text: str, **settings: object) -> Generator:
@@ -52,6 +75,10 @@ def find(text: str, **settings: object) -> Generator:
         A name of ``GENERATORS``, with settings in brackets where they are not the defaults.
     **settings
         More settings, as values or text.
+
+    Returns
+    -------
+    Generator
 
     Raises
     ------
@@ -84,10 +111,16 @@ def of_instance(generator: object, settings: Mapping[str, object] | None = None)
     settings : mapping, optional
         What was given beside it: it has its settings already, so there must be none.
 
+    Returns
+    -------
+    Generator
+        The instance itself.
+
     Raises
     ------
     InputError
-        If it is a class, no frozen dataclass, or no generator, or if settings came with it.
+        If it is a class, no frozen dataclass, or no generator, if a setting of it has the name of a keyword
+        of ``generate``, or if settings came with it.
     """
     kind = type(generator)
     if isinstance(generator, type):
@@ -100,6 +133,7 @@ def of_instance(generator: object, settings: Mapping[str, object] | None = None)
     frozen = getattr(getattr(kind, "__dataclass_params__", None), "frozen", False)
     if not (dataclasses.is_dataclass(generator) and frozen):
         raise InputError(f"a generator must be a frozen dataclass of its settings; {kind.__name__} is none")
+    check_setting_names(kind)
     if settings:
         given = ", ".join(f"{name}=..." for name in settings)
         raise InputError(f"an instance has its settings already: write {kind.__name__}({given})")
@@ -112,7 +146,8 @@ def generate(
     d: int = 2,
     seed: int = 0,
     realizations: int = 1,
-    watch: Watch | None = None,
+    monitor: Monitor | None = None,
+    device: str | None = None,
     **settings: object,
 ) -> FloatArray:
     """Draw point sets on the unit torus.
@@ -131,8 +166,11 @@ def generate(
         whatever the generator and however many are asked for.
     realizations : int
         Sets, >= 1.
-    watch : Watch, optional
+    monitor : Monitor, optional
         Progress, a trace of the optimiser, checkpoints to go on from.
+    device : str, optional
+        OpenCL device for generators that use one: an index or part of a name, as ``gbnbench devices`` lists
+        them; without it that of ``$GBNBENCH_DEVICE``, else the best found.
     **settings
         The generator's settings, where it is named.
 
@@ -148,6 +186,8 @@ def generate(
         checkpoint is asked of a generator that has none, or what was drawn is no set of n points.
     RefusalError
         If the generator cannot make n points in d dimensions.
+    DeviceError
+        If there is no such device.
 
     Examples
     --------
@@ -161,19 +201,24 @@ def generate(
         raise RefusalError(f"{realizations} sets of n={n} points in d={d} {reason}; draw fewer at a time")
     if reason := generator.refusal(n, d):
         raise RefusalError(reason)
-    sets = _draw(generator, n, d, [realization_rng(seed, k) for k in range(realizations)], watch or Watch())
+    with use_device(device):
+        sets = _draw(
+            generator, n, d, [realization_rng(seed, k) for k in range(realizations)], monitor or Monitor()
+        )
     return sets[0] if realizations == 1 else sets
 
 
-def _draw(generator: Generator, n: int, d: int, rngs: list[np.random.Generator], watch: Watch) -> FloatArray:
-    if isinstance(generator, Watchable):
-        return generator.draw(n, d, rngs, watch)
-    only_progress(watch, generator.name)
+def _draw(
+    generator: Generator, n: int, d: int, rngs: list[np.random.Generator], monitor: Monitor
+) -> FloatArray:
+    if isinstance(generator, MonitoredGenerator):
+        return generator.draw(n, d, rngs, monitor)
+    refuse_all_but_progress(monitor, generator.name)
     sets = []
     for k, rng in enumerate(rngs):
         sets.append(checked_draw(generator, generator(n, d, rng), n, d))
-        if watch.progress is not None:
-            watch.progress(k + 1, len(rngs), generator.name)
+        if monitor.progress is not None:
+            monitor.progress(k + 1, len(rngs), generator.name)
     return np.stack(sets)
 
 

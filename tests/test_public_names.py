@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import dataclasses
 import inspect
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 import gbnbench
+from gbnbench.generators.registry import GENERATORS
 
 
 def test_dir_shows_the_public_names_and_nothing_else():
@@ -50,3 +53,23 @@ def test_the_import_loads_no_heavy_library():
     )
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
+
+
+def test_no_setting_of_a_generator_has_the_name_of_an_argument_of_generate():
+    own = {*inspect.signature(gbnbench.generate).parameters} - {"settings"}
+    for kind in GENERATORS.values():
+        assert not own & {field.name for field in dataclasses.fields(kind)}, kind.name
+
+
+@pytest.mark.parametrize(
+    "name", ["compare", "generate", "integrate", "measures", "periodogram", "plan", "shells"]
+)
+def test_a_device_can_be_named_wherever_a_kernel_runs(name):
+    assert inspect.signature(getattr(gbnbench, name)).parameters["device"].default is None
+
+
+def test_a_device_that_is_not_there_is_named():
+    with pytest.raises(gbnbench.GbnbenchError, match="'no such' fits no device"):
+        gbnbench.measures(np.full((1, 2), 0.5), device="no such")
+    with pytest.raises(gbnbench.GbnbenchError, match="'no such' fits no device"):
+        gbnbench.generate("gbn", n=16, device="no such")

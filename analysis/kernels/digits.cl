@@ -1,10 +1,14 @@
-/* Frequencies of two groups by base-(2F+1) digits (Ahmed, Ren & Wonka 2022, App. C), as pairs of table entries.
+/* Pairs of table entries for the frequencies of two groups, by digits (Ahmed, Ren & Wonka 2022, App. C).
  *
- * Index i of a group has digits g_0 (most significant) .. g_{axes-1} of the bases 2 F_a + 1, and f_a = g_a - F_a.
- * Digits before the axis `at` belong to the leading entry, those behind it to the trailing one; that axis is B h + l,
- * h leading and |l| <= fine trailing, B = 2 fine + 1. One work-item decodes one index, in order from the centre up
- * (f = 0, then one half space) or as listed, into its leading entry, counted from the centre, and its trailing one.
- * `groups` holds for each group its frequencies, axes, at, fine and whether it is listed.
+ * Index i of a group has digits g_0 (most significant) .. g_{axes-1} of bases 2 F_a + 1, so that
+ * f_a = g_a - F_a. Digits before the axis `at` make the leading entry of the pair, and digits behind it the
+ * trailing one. The axis `at` itself is B h + l with B = 2 fine + 1; h goes to the leading entry, and l,
+ * |l| <= fine, to the trailing one.
+ *
+ * One work-item decodes one frequency. It writes its leading entry, counted from the centre, and its
+ * trailing one. Frequencies come in order from the centre up (f = 0, then one half space), or as listed.
+ * `groups` holds for each group its number of frequencies, its number of axes, `at`, `fine`, and whether it
+ * is listed.
  */
 #define FIELDS 5
 

@@ -1,10 +1,12 @@
-/* Toroidal sum of Gaussians of one width at points: sum over centres of prod over axes of theta(x_a - c_a), theta being
- * sum over j of exp(-(u + j)^2 / 2 width^2); needs vector.cl, turns.cl and exp2.cl.
+/* Toroidal sum of Gaussians at points x: sum over centres c of the product over axes of theta(x_a - c_a).
  *
- * DEGREE 0: of each axis the nearest image alone, so that one power of two serves all axes: 2^(scale |u|^2) with
- * scale = -1 / (2 width^2 ln 2). Else theta over its mean as a polynomial of that degree in cos 2 pi u
- * (integrands/theta_polynomial.py), whose cosine comes from those of points and centres: neither exp nor cos a pair. Points are doubles or turns, [axis][point];
- * centres their coordinates, or cos and sin of each, [centre][axis]. One work-item takes LANES points.
+ * theta(u) is the sum over integers j of exp(-(u + j)^2 / (2 width^2)). With DEGREE 0 only the nearest image
+ * counts on each axis, so one power of two serves all axes: 2^(scale |u|^2), scale = -1 / (2 width^2 ln 2).
+ * Otherwise theta over its mean is a polynomial of that degree in cos 2 pi u (theta_polynomial.py). That
+ * cosine is computed from cosines and sines of points and centres, so that no pair takes an exp or a cos.
+ *
+ * One work-item takes LANES points. Points are turns, or REAL with DEGREE 0: [axis][point]. Centres are
+ * their coordinates, or the cos and sin of each: [centre][axis]. Needs vector.cl, turns.cl and exp2.cl.
  */
 #if DEGREE
 #define COORDINATE TURN
@@ -12,8 +14,9 @@
 #define COORDINATE REAL
 #endif
 
-__kernel void gaussians(__global const COORDINATE *restrict x, const uint stride, __global const REAL *restrict centres,
-                        const uint count, __global const REAL *restrict shape, __global REAL *restrict out)
+__kernel void gaussians(__global const COORDINATE *restrict x, const uint stride,
+                        __global const REAL *restrict centres, const uint count,
+                        __global const REAL *restrict shape, __global REAL *restrict out)
 {
     const uint k = get_global_id(0) * LANES;
     if (k >= stride) return;

@@ -1,8 +1,11 @@
-/* Power |F|^2 / norm from amplitudes (product.cl): of a whole cube, or kept by pairs of a block's frequencies.
+/* Power |F|^2 / norm from the amplitudes of product.cl, for a cube or for pairs of a block.
  *
- * A set has `splits` slots, whose amplitudes are added. Of the cube one work-item takes a row of the leading group
- * (of `half_rows`, the block's `rows` from first_row on) and `each` frequencies of the trailing one, and writes (fa, fb), (fa, -fb) and the mirror images of both that the
- * output holds; a row's amplitudes count gain^-1/2 times. The output begins at the flat index `start`; sets stand `set_size` apart, 0 where they are added up.
+ * A set has `splits` slots, whose amplitudes are added up first. In cube_power one work-item takes one row
+ * of the leading group and `each` frequencies of the trailing group. It writes the power at (fa, fb) and
+ * (fa, -fb), and at the mirror images of both that lie in the output. Power is also divided by the gain of
+ * its row. The leading half space has `half_rows` rows; this launch has `rows` of them, from first_row on.
+ * The output begins at the flat index `start` of the cube. Sets stand set_size numbers apart, or are added
+ * up where set_size is 0.
  */
 #if COMPENSATED
 #define KEPT 2
@@ -29,10 +32,11 @@ static SUM power_of(__global const SUM *at, const ulong slot_size, const uint sp
     return (re * re + im * im) / norm;
 }
 
-__kernel void cube_power(__global const SUM *amplitude, const uint half_rows, const uint first_row, const uint rows,
-                         const uint columns, const uint stride, const uint each, const uint splits, const uint sets,
-                         __global const SUM *norm, __global const SUM *gain, const uint first_set,
-                         __global SUM *out, const ulong start, const ulong set_size)
+__kernel void cube_power(__global const SUM *amplitude, const uint half_rows, const uint first_row,
+                         const uint rows, const uint columns, const uint stride, const uint each,
+                         const uint splits, const uint sets, __global const SUM *norm,
+                         __global const SUM *gain, const uint first_set, __global SUM *out,
+                         const ulong start, const ulong set_size)
 {
     const uint i = get_global_id(1);
     const uint first = get_global_id(0) * each;
@@ -63,7 +67,8 @@ __kernel void cube_power(__global const SUM *amplitude, const uint half_rows, co
     }
 }
 
-/* Of a block's pairs (i, j) within a row tile's bounds, F(fa, fb) and F(fa, -fb) side by side. */
+/* Power of a block at (fa, fb) and (fa, -fb), side by side, for the columns within the bounds of a row tile.
+ * One work-item takes one row and `each` columns; sets are added up. */
 __kernel void pair_power(__global const SUM *amplitude, __global const uint *bounds, const uint rows,
                          const uint stride, const uint each, const uint splits, const uint sets,
                          __global const SUM *norm, const uint first_set, __global SUM *out)

@@ -1,14 +1,17 @@
-/* Amplitudes F(fa, fb) and F(fa, -fb) from two groups' tables as a real product, tile by tile.
+/* Amplitudes F(fa, fb) and F(fa, -fb) from the tables of two groups, as a real product in tiles.
  *
- * With alpha = 2 pi fa.xa and beta = 2 pi fb.xb the four sums over points of cos alpha cos beta, sin sin,
- * sin cos and cos sin give both amplitudes; Hermitian symmetry gives the other two quadrants. One work-item takes
- * ROWS frequencies of the leading group with `each` of the trailing one, no others than those between the row tile's
- * two `bounds`; its lanes are points. It sums SUM_POINTS points a lane in registers, and adds such sums in SUM, with
- * their rounding kept beside them where COMPENSATED. Rows are written out by macro, since an array of accumulators
- * would live in memory. Layout of amplitudes: [slot][row tile][column][row][4], of tables see tables.cl.
+ * With alpha = 2 pi fa.xa and beta = 2 pi fb.xb both follow from four sums over points: cos alpha cos beta,
+ * sin alpha sin beta, sin alpha cos beta and cos alpha sin beta. F(-f) is its conjugate.
  *
- * Where FOLDED, points are the nodes m = 0 .. M/2 of a grid, and columns hold four parts: cosines and sines carried to m
- * and to M - m added up, which go with cos alpha, and their differences, which go with sin alpha (spread.cl).
+ * One work-item takes ROWS frequencies of the leading group and `each` of the trailing one, of those within
+ * the two `bounds` of the row tile; its lanes are points. It sums SUM_POINTS points a lane in registers, and
+ * adds up these sums in SUM. Where COMPENSATED, the rounding of those additions is kept beside the sums.
+ * Rows are written out by macros, since an array of accumulators would lie in memory.
+ * Layout of amplitudes: [slot][row tile][column][row][4]; that of tables stands in tables.cl.
+ *
+ * Where FOLDED, points are the nodes m = 0 .. M/2 of a grid, and a column has four parts (spread.cl): the
+ * sums of the cosines and of the sines that were carried to m and to M - m, which are multiplied with cos
+ * alpha, and their differences, which are multiplied with sin alpha.
  */
 #if ROWS == 2
 #define EACH_ROW(DO) DO(0) DO(1)
@@ -55,7 +58,8 @@ static void put(__global SUM *at, const SUM value, const uint started)
 #endif
 }
 
-static void add_up(const SUM cc, const SUM ss, const SUM sc, const SUM cs, __global SUM *at, const uint started)
+static void add_up(const SUM cc, const SUM ss, const SUM sc, const SUM cs, __global SUM *at,
+                   const uint started)
 {
     put(at, cc - ss, started);
     put(at + 1, sc + cs, started);

@@ -1,8 +1,8 @@
 /* Sums F(f) = sum_k w_k exp(-2 pi i f.x_k) at listed frequencies, with exact phases.
  *
- * One work-item takes one frequency and one run of points, LANES at a time: a few frequencies of many points keep
- * every core busy too. SUM_POINTS a lane are summed in registers, such sums in SUM with their rounding kept.
- * Output: [run][cosines, sines][frequency].
+ * One work-item takes one frequency and one run of points, LANES at a time, so that a few frequencies of
+ * many points keep every core busy. It sums SUM_POINTS points a lane in registers, and adds up these sums in
+ * SUM with their rounding kept. Output: [run][cosines, sines][frequency].
  */
 static void add_kept(SUM *sum, SUM *rest, const SUM value)
 {
@@ -13,7 +13,8 @@ static void add_kept(SUM *sum, SUM *rest, const SUM value)
 }
 
 __kernel void selected(__global const TURN *frequency, __global const TURN *x, __global const REAL *weight,
-                       __global SUM *out, const uint count, const uint dim, const uint stride, const uint length)
+                       __global SUM *out, const uint count, const uint dim, const uint stride,
+                       const uint length)
 {
     const uint j = get_global_id(0);
     const uint run = get_global_id(1);

@@ -1,12 +1,14 @@
-/* Mean and spread of power over shells of equal |f|^2, from the pairs of a block (power.cl).
+/* Mean and spread of power over shells of equal |f|^2, from the pairs of a block (pair_power in power.cl).
  *
- * One work-item takes every `strips`-th row and keeps for each shell how many frequencies of the half space it met,
- * their mean and the sum of squared departures from it (Welford 1962), which the host merges. A pair stands for
- * (fa, fb) and (fa, -fb), which are the same frequency or its mirror image where either is 0; DC is left out.
+ * One work-item takes every `strips`-th row. For each shell it keeps the number of frequencies of the half
+ * space that it met, their mean power, and the sum of squared departures from it (Welford 1962); the host
+ * merges these. A pair stands for (fa, fb) and (fa, -fb). Where fa or fb is 0 these are one frequency or
+ * mirror images, and count once. DC is left out.
  */
-__kernel void shells(__global const SUM *power, __global const uint *bounds, const uint rows, const uint stride,
-                     __global const uint *square_a, __global const uint *square_b, const uint low, const uint high,
-                     const SUM sets, __global SUM *out, __global uint *counts)
+__kernel void shells(__global const SUM *power, __global const uint *bounds, const uint rows,
+                     const uint stride, __global const uint *square_a, __global const uint *square_b,
+                     const uint low, const uint high, const SUM sets, __global SUM *out,
+                     __global uint *counts)
 {
     const uint strip = get_global_id(0);
     const uint strips = get_global_size(0);

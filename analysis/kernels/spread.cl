@@ -1,10 +1,15 @@
-/* The trailing group's cosines and sines, carried from points to the nodes of a grid on the first axis (window.py).
+/* Sums G_m(g) = sum_k w_k W(m - M x_k0) exp(-2 pi i g.x_k') at the nodes m of a grid of M on the first axis.
  *
- * One work-item takes LANES neighbouring nodes of one set: it finds the window's values at its nodes for up to RUN
- * neighbouring points at a time, of those whose support reaches them, and adds to each node the points' cosines and sines by them,
- * NODES nodes and LANES frequencies side by side. Points are sorted by cell, where each cell's begin is told by
- * `starts`; this launch takes those from `begin` on, for which there are tables, and begins at 0 where `fresh`. The rounding of the nodes' sums is
- * kept beside them where KEPT_SUMS. Layout of points: [LANES frequencies][point][cos, sin][lane]; of nodes as tables.cl.
+ * W is the window (kaiser_bessel.py), g and x' are frequencies and coordinates on the other axes, whose
+ * cosines and sines tables.cl made. One work-item takes LANES neighbouring nodes of one set. It takes up to
+ * RUN neighbouring points at a time, of those whose window reaches its nodes, and evaluates the window
+ * there. Then it adds the cosines and sines of these points, times the window, to its nodes: NODES nodes and
+ * LANES frequencies side by side.
+ *
+ * Points are sorted by cell, and `starts` holds the first point of each cell. A launch takes the `length`
+ * points from `begin` on; where `fresh`, the sums begin at 0. Where KEPT_SUMS, the rounding of the sums is
+ * kept beside them.
+ * Layout of points: [LANES frequencies][point][cos, sin][lane]; of nodes as in tables.cl.
  */
 #define RUN SUM_POINTS
 #define NOT_YET 0xffffffffu
@@ -42,8 +47,8 @@ static void put(__global REAL *to, __global REAL *rest, const REAL value)
     *to = sum;
 }
 
-static void add_up(const REALV cosines, const REALV sines, __global REAL *grid, __global REAL *rest, const uint lane,
-                   const uint node, const uint nodes, const uint j, const uint columns)
+static void add_up(const REALV cosines, const REALV sines, __global REAL *grid, __global REAL *rest,
+                   const uint lane, const uint node, const uint nodes, const uint j, const uint columns)
 {
     REAL c[LANES], s[LANES];
     STOREV(cosines, c, 0);
@@ -56,12 +61,12 @@ static void add_up(const REALV cosines, const REALV sines, __global REAL *grid, 
     }
 }
 
-__kernel void spread(__global const REAL *restrict table, const ulong slot_size, const uint begin, const uint length,
-                     const uint columns, __global const REAL *place, __global const uint *starts,
-                     __global const REAL *coefficients, const uint stride, const uint nodes, const uint first_node,
-                     __global const REAL *weight, const uint weight_stride, __global REAL *restrict out,
-                     __global REAL *restrict kept, const ulong grid_size, const uint groups,
-                     const uint fresh)
+__kernel void spread(__global const REAL *restrict table, const ulong slot_size, const uint begin,
+                     const uint length, const uint columns, __global const REAL *place,
+                     __global const uint *starts, __global const REAL *coefficients, const uint stride,
+                     const uint nodes, const uint first_node, __global const REAL *weight,
+                     const uint weight_stride, __global REAL *restrict out, __global REAL *restrict kept,
+                     const ulong grid_size, const uint groups, const uint fresh)
 {
     if (get_global_id(0) >= groups) return;
     const uint node = (first_node + get_global_id(0) * LANES) % nodes;
@@ -73,20 +78,21 @@ __kernel void spread(__global const REAL *restrict table, const ulong slot_size,
     const uint row = WIDTH + 2 * LANES;
     REAL values[RUN * LANES];
     uint held = 0, first_held = 0;
-    /* of the points held, those that reach each NODES of the nodes: from low to high, as far as either is met yet */
+    /* points low .. high of those held reach each NODES of the nodes; NOT_YET before either is met */
     uint low[LANES / NODES], high[LANES / NODES];
     for (uint q = 0; q < LANES / NODES; q++)
         low[q] = high[q] = NOT_YET;
     if (fresh) {
         for (uint j = 0; j < columns; j++) {
-            const ulong to = ((ulong)(j / COLUMNS) * nodes * COLUMNS + (ulong)node * COLUMNS + j % COLUMNS * LANES) * 2;
+            const ulong to = ((ulong)(j / COLUMNS) * nodes * COLUMNS + (ulong)node * COLUMNS
+                              + j % COLUMNS * LANES) * 2;
             STOREV((REALV)0, grid + to, 0);
             STOREV((REALV)0, grid + to, LANES);
             STOREV((REALV)0, rest + to, 0);
             STOREV((REALV)0, rest + to, LANES);
         }
     }
-    /* from the first cell whose points reach the first node to the last that reach the last, and one step to end */
+    /* from the first cell that reaches the first node to the last that reaches the last, and one step more */
     for (uint step = 0; step < WIDTH + LANES; step++) {
         const uint cell = (node + nodes + step - WIDTH / 2) % nodes;
         const uint last = step == WIDTH + LANES - 1;
@@ -136,15 +142,16 @@ __kernel void spread(__global const REAL *restrict table, const ulong slot_size,
     }
 }
 
-/* Sums and differences of what nodes m and M - m hold, m = 0 .. M/2: what the cosines and the sines of the first axis
- * take. One work-item takes one frequency; layout [frequency tile][LANES nodes][frequency][4][lane]. */
-__kernel void fold(__global const REAL *restrict grid, const ulong grid_size, __global const REAL *restrict kept,
-                   const uint nodes, const uint columns, const uint length, __global REAL *restrict out,
-                   const ulong out_size)
+/* Sums and differences of the numbers at nodes m and M - m, m = 0 .. M/2, for product.cl where FOLDED.
+ * One work-item takes one frequency; layout [frequency tile][LANES nodes][frequency][4][lane]. */
+__kernel void fold(__global const REAL *restrict grid, const ulong grid_size,
+                   __global const REAL *restrict kept, const uint nodes, const uint columns,
+                   const uint length, __global REAL *restrict out, const ulong out_size)
 {
     const uint j = get_global_id(0);
     if (j >= columns) return;
-    const ulong column = get_global_id(1) * grid_size + ((ulong)(j / COLUMNS) * nodes * COLUMNS + j % COLUMNS * LANES) * 2;
+    const ulong column = get_global_id(1) * grid_size
+        + ((ulong)(j / COLUMNS) * nodes * COLUMNS + j % COLUMNS * LANES) * 2;
     __global REAL *to = out + get_global_id(1) * out_size
         + (ulong)(j / COLUMNS) * length * COLUMNS * 4 + j % COLUMNS * (4 * LANES);
     for (uint m = 0; m < length; m++) {

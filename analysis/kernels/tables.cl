@@ -1,13 +1,15 @@
-/* Tables of cos and sin of 2 pi f.x for both groups of frequencies and a run of points, packed for product.cl.
+/* Tables of cos and sin of 2 pi f.x for two groups of frequencies at points, as product.cl reads them.
  *
- * A group is divided once more: exp(i f.x) is the complex product of a leading and a trailing entry (digits.cl).
- * One work-item takes LANES points and one group: it finds the entries of one half space of either part by their
- * exact phases, the other half of the trailing ones as conjugates, and each frequency as a product of two, which
- * costs a tenth of a sine and cosine of its own. The first group is weighted; points beyond the last have weight 0.
- * Layout: [tile of frequencies][LANES points][frequency in the tile][cos, sin][lane], where BY_POINT for spread.cl
- * [LANES frequencies][point][cos, sin][lane]. `groups` holds for each group
- * its first coordinate and their number, leading entries, trailing ones of the half space, where its multiples and
- * codes begin, frequencies, and frequencies in a tile.
+ * A group is divided once more: exp(i f.x) is the complex product of a leading and a trailing entry
+ * (digits.cl). One work-item takes LANES points and one group. It computes the leading and the trailing
+ * entries of one half space from exact phases; the other half of the trailing ones are their conjugates.
+ * Each frequency is then one complex product, which costs a tenth of a sine and cosine. The first group is
+ * multiplied by the weights, which are 0 beyond the last point.
+ *
+ * Layout: [tile of frequencies][LANES points][frequency in the tile][cos, sin][lane], or where BY_POINT, as
+ * spread.cl reads it, [LANES frequencies][point][cos, sin][lane]. `groups` holds for each group its first
+ * coordinate, its number of coordinates, leading entries, trailing entries of the half space, where its
+ * multiples begin, where its codes begin, its number of frequencies, and frequencies in a tile.
  */
 #define FIELDS 8
 
@@ -24,7 +26,8 @@ __kernel void tables(__global const TURN *x, __global const REAL *weight, const 
     const uint set = slot / splits;
     const uint point = begin + slot % splits * length + k;
     __global const uint *group = groups + which * FIELDS;
-    const uint coordinates = group[1], leading = group[2], trailing = group[3], count = group[6], width = group[7];
+    const uint coordinates = group[1], leading = group[2], trailing = group[3];
+    const uint count = group[6], width = group[7];
     __global const TURN *at = x + ((ulong)set * dim + group[0]) * stride + point;
     __global const TURN *factor = multiple + group[4];
     __global const uint *pair = code + group[5];

@@ -1,10 +1,12 @@
-/* Sum of waves at points: sum over waves of cos 2 pi (f . x + phase); needs vector.cl and turns.cl.
+/* Sum of waves at points: sum over waves of cos 2 pi (f.x + phase).
  *
- * Points, [axis][point], and phases are turns and frequencies whole numbers, so f . x mod 1 is exact. Frequencies are
- * [wave][axis], negative ones as their two's complement. One work-item takes LANES points.
+ * Points, [axis][point], and phases are turns, and frequencies are whole numbers, so f.x mod 1 is exact.
+ * Frequencies are [wave][axis], negative ones as their two's complement. One work-item takes LANES points.
+ * Needs vector.cl and turns.cl.
  */
-__kernel void waves(__global const TURN *restrict x, const uint stride, __global const TURN *restrict frequency,
-                    __global const TURN *restrict phase, const uint count, __global REAL *restrict out)
+__kernel void waves(__global const TURN *restrict x, const uint stride,
+                    __global const TURN *restrict frequency, __global const TURN *restrict phase,
+                    const uint count, __global REAL *restrict out)
 {
     const uint k = get_global_id(0) * LANES;
     if (k >= stride) return;

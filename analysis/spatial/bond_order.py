@@ -40,7 +40,7 @@ def bond_order(x: ArrayLike | Sequence[Neighbours]) -> FloatArray:
         bond = _complex(each.vector)
         edge = bond[_following(each.indptr)] - bond
         values.append(np.abs(each.sum_over_points(_sixfold(edge))).sum() / len(bond))
-    return np.array(values, np.float64)
+    return np.array(values, dtype=np.float64)
 
 
 def psi6(x: ArrayLike | Sequence[Neighbours]) -> FloatArray:
@@ -69,7 +69,7 @@ def psi6(x: ArrayLike | Sequence[Neighbours]) -> FloatArray:
         np.mean(np.abs(each.sum_over_points(_sixfold(_complex(each.vector)))) / each.degree)
         for each in plane_neighbours(x, "psi6")
     ]
-    return np.array(values, np.float64)
+    return np.array(values, dtype=np.float64)
 
 
 def _complex(vector: FloatArray) -> NDArray[np.complex128]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -100,10 +100,8 @@ def neighbours(x: ArrayLike) -> tuple[Neighbours, ...]:
 
 def as_neighbours(x: ArrayLike | Sequence[Neighbours]) -> Sequence[Neighbours]:
     """Return neighbours as they are, and compute those of points."""
-    if isinstance(x, (tuple, list)):
-        given = [item for item in x if isinstance(item, Neighbours)]
-        if given and len(given) == len(x):
-            return given
+    if isinstance(x, (tuple, list)) and x and all(isinstance(item, Neighbours) for item in x):
+        return cast("Sequence[Neighbours]", x)
     return neighbours(x)  # type: ignore[arg-type]
 
 

@@ -1,7 +1,8 @@
-"""Power of sets of the bounded box by cosines, the box's own modes: a torus's periodogram shows its border.
+"""Power of point sets in the bounded box by cosines, which are the box's own modes.
 
-The cosines prod cos(pi f_a x_a) are the waves of a box through whose faces nothing flows; their sum over
-points is the periodogram of the set and its mirror images on the torus of side 2, whose border shows no step.
+The waves prod cos(pi f_a x_a) are those of a box through whose faces nothing flows. Their sum over points is
+the periodogram of the set and its mirror images on the torus of side 2. That torus shows no step at the
+border of the box, while the periodogram on the unit torus does.
 """
 
 from __future__ import annotations
@@ -62,13 +63,19 @@ def cosine_power(x: ArrayLike, fmax: int) -> FloatArray:
 
 
 def cosine_radial(power: FloatArray, n: int) -> RadialPower:
-    """Mean of a cube of ``cosine_power`` over modes of equal |f| <= fmax; frequencies in cycles a box side.
+    """Average a cube of ``cosine_power`` over modes of equal |f| <= fmax.
 
     Parameters
     ----------
     power : (fmax + 1,)*d float64
+        What ``cosine_power`` returned.
     n : int
         Points of a set.
+
+    Returns
+    -------
+    RadialPower
+        Frequencies are in cycles a box side.
     """
     fmax, d = power.shape[0] - 1, power.ndim
     r2 = squared_radius(fmax, d).reshape((2 * fmax + 1,) * d)[(slice(fmax, None),) * d].ravel()

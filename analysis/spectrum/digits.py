@@ -1,8 +1,8 @@
-"""Integer frequencies in balanced digits, and how a cube of them becomes the product of two groups.
+"""Balanced digits of integer frequencies, and the division of a cube of frequencies in two groups.
 
-A digit of base 2F+1 runs over -F .. F (Ahmed, Ren & Wonka 2022, App. C). Any f with |f| <= F is B h + l,
-again in balanced digits, |l| <= (B-1)/2 of an odd base B: so a dimension can be divided where a whole one
-would leave two groups of very different size, and one dimension alone becomes a product of two.
+A digit of base 2F+1 runs over -F .. F (Ahmed, Ren & Wonka 2022, App. C). For an odd base B, every f with |f|
+<= F is B h + l with |l| <= (B-1)/2 and both h and l in balanced digits again. An axis can thus be cut in a
+coarse and a fine part. This makes two groups of nearly the same size out of any number of axes, even of one.
 """
 
 from __future__ import annotations
@@ -14,19 +14,21 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-TABLE_COST = 40  # multiply-adds that a table's entry costs, against 4 of a pair of entries
+TABLE_COST = 40  # multiply-adds for an entry of a table; a pair of entries takes 4
 
 
 @dataclass(frozen=True)
 class Axis:
-    """Digits of one coordinate in a group: f = multiple * digit, |digit| <= largest.
+    """One digit of the frequency on one coordinate: f = multiple * digit with |digit| <= largest.
 
     Attributes
     ----------
     coordinate : int
-        Which of the points' coordinates.
-    multiple, largest : int
-        Of the digit; base 2*largest+1.
+        Index of the points' coordinate.
+    multiple : int
+        Weight of the digit in the frequency.
+    largest : int
+        Largest digit; the base is 2*largest+1.
     """
 
     coordinate: int
@@ -35,7 +37,7 @@ class Axis:
 
     @property
     def base(self) -> int:
-        """Number of digits."""
+        """Number of values of the digit."""
         return 2 * self.largest + 1
 
 
@@ -43,7 +45,20 @@ Axes = tuple[Axis, ...]
 
 
 def divide(axis: Axis, fine: int) -> tuple[Axes, Axes]:
-    """Coarse and fine digits of an axis, the fine ones up to fine; an empty part has no axis."""
+    """Cut an axis in coarse and fine digits.
+
+    Parameters
+    ----------
+    axis : Axis
+        The axis.
+    fine : int
+        Largest fine digit, 0 .. axis.largest.
+
+    Returns
+    -------
+    coarse, fine : tuple of Axis
+        One axis each, or none where the part has no digit but 0.
+    """
     base = 2 * fine + 1
     coarse = Axis(axis.coordinate, axis.multiple * base, -(-(axis.largest - fine) // base))
     return ((coarse,) if coarse.largest else ()), (
@@ -57,27 +72,39 @@ def size(axes: Axes) -> int:
 
 
 def half_size(axes: Axes) -> int:
-    """Zero and one half space of a group."""
+    """Count zero and one half space of a group of axes."""
     return (size(axes) + 1) // 2
 
 
 def whole_axes(d: int, fmax: int) -> Axes:
-    """Every coordinate with digits up to fmax."""
+    """List one undivided axis for each coordinate.
+
+    Parameters
+    ----------
+    d, fmax : int
+        Dimension, and largest harmonic on each axis.
+
+    Returns
+    -------
+    tuple of Axis
+    """
     return tuple(Axis(a, 1, fmax) for a in range(d))
 
 
 @dataclass(frozen=True)
 class Division:
-    """A group of axes in a leading and a trailing part; the axis divided stands in both.
+    """Division of a group of axes in a leading and a trailing part; the axis that is cut stands in both.
 
     Attributes
     ----------
     leading, trailing : tuple of Axis
-        Their frequencies' sums are the group's, each once, and perhaps a few beyond its edge.
+        Sums of one frequency of each part give every frequency of the group once. They may also give a few
+        beyond the group's edge.
     at : int
-        Position of the axis that is divided, or with which the trailing part begins.
+        Position of the axis that is cut, or with which the trailing part begins.
     fine : int
-        Its largest fine digit: 0 where all of it leads, its own largest where all of it trails.
+        Largest fine digit of that axis: 0 where the whole axis leads, its own largest where the whole axis
+        trails.
     """
 
     leading: Axes
@@ -87,14 +114,31 @@ class Division:
 
 
 def division(axes: Axes, at: int, fine: int) -> Division:
-    """Divide at an axis, whose fine digits trail."""
+    """Divide a group at one of its axes, whose fine digits go to the trailing part.
+
+    Parameters
+    ----------
+    axes : tuple of Axis
+        The group.
+    at : int
+        Position of the axis that is cut.
+    fine : int
+        Its largest fine digit.
+
+    Returns
+    -------
+    Division
+    """
     coarse, rest = divide(axes[at], fine)
     return Division(axes[:at] + coarse, rest + axes[at + 1 :], at, fine)
 
 
 @lru_cache(maxsize=256)
 def even_division(axes: Axes) -> Division:
-    """Division with the fewest entries in both half spaces together: one sine and cosine each."""
+    """Find the division whose two half spaces have the fewest frequencies together.
+
+    Every one of them takes a sine and a cosine, so this division is the cheapest to tabulate.
+    """
     if not axes:
         return Division((), (), 0, 0)
     best: tuple[int, Division] | None = None
@@ -112,7 +156,19 @@ def even_division(axes: Axes) -> Division:
 
 @lru_cache(maxsize=256)
 def cheapest_division(d: int, fmax: int, rows: int) -> Division:
-    """Division of a whole cube that a real product in tiles of so many rows evaluates at least cost."""
+    """Find the division of a whole cube that a real matrix product evaluates at the least cost.
+
+    Parameters
+    ----------
+    d, fmax : int
+        Dimension, and largest harmonic on each axis.
+    rows : int
+        Rows of a register tile; the leading group is padded to a multiple of it.
+
+    Returns
+    -------
+    Division
+    """
     axes = whole_axes(d, fmax)
     best: tuple[float, Division] | None = None
     for at in range(d):
@@ -130,7 +186,7 @@ def cheapest_division(d: int, fmax: int, rows: int) -> Division:
 
 
 def half_space(axes: Axes) -> NDArray[np.int64]:
-    """Digits of zero and of one half space, in the order of the index: (half_size, axes) int64."""
+    """Digits of zero and of one half space, in the order of their indices: (half_size, axes) int64."""
     bases = tuple(axis.base for axis in axes)
     index = np.arange(size(axes) // 2, size(axes))
     digits = np.stack(np.unravel_index(index, bases), axis=1) if axes else np.zeros((1, 0), np.int64)
@@ -138,7 +194,22 @@ def half_space(axes: Axes) -> NDArray[np.int64]:
 
 
 def multiples(axes: Axes, digits: NDArray[np.int64], d: int) -> NDArray[np.int64]:
-    """Frequency vectors of digits: (m, axes) -> (m, d) int64."""
+    """Turn digits into frequency vectors.
+
+    Parameters
+    ----------
+    axes : tuple of Axis
+        The group.
+    digits : (m, axes) int64
+        One digit for each axis.
+    d : int
+        Dimension.
+
+    Returns
+    -------
+    (m, d) int64
+        Frequencies; 0 on coordinates that the group lacks.
+    """
     f = np.zeros((len(digits), d), np.int64)
     for column, axis in zip(digits.T, axes, strict=True):
         f[:, axis.coordinate] += axis.multiple * column

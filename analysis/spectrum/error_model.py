@@ -1,4 +1,4 @@
-"""What an evaluation can resolve: errors of sqrt(power), worst and typical, and the power seen to 1%."""
+"""Errors of the square root of power, worst and typical, from the rounding of each step of an evaluation."""
 
 from __future__ import annotations
 
@@ -12,27 +12,27 @@ from gbnbench.core.torus import FloatArray
 
 UNIT = {"double": 2.0**-53, "float": 2.0**-24}  # half the distance from 1 to the next number
 BITS = {"double": 64, "float": 32}  # of a fixed-point coordinate
-EXACT_FROM = 2.0**-12  # doubles from here up are multiples of 2^-64
+EXACT_FROM = 2.0**-12  # doubles of at least this size are multiples of 2^-64
 
-# Worst cases in units of rounding. Cosine and sine together: three roundings of a phase up to pi/4, and those
-# of the two series. A complex product: sqrt(5) (Brent, Percival & Zimmermann 2007).
+# Worst cases in units of rounding. A cosine and sine take three roundings of a phase up to pi/4, and those of
+# the two series. A complex product takes sqrt(5) (Brent, Percival & Zimmermann 2007).
 COSINE = 5.0
 COMPLEX = math.sqrt(5.0)
-LEAST_SHARE = 0.01  # of a typical error squared that a mean over sets keeps
+LEAST_SHARE = 0.01  # part of the squared typical error that does not average out over sets
 SETS_ROUNDING = 0.12  # typical rounding of a sum over sets, in units times the root of their number
-UNRELATED = math.sqrt(2 - math.pi / 2)  # rms difference of two roots of exponentially distributed powers
+UNRELATED = math.sqrt(2 - math.pi / 2)  # rms difference of the roots of two independent exponential powers
 
 
 @dataclass(frozen=True)
 class Errors:
-    """Errors of the square root of power, |F| / sqrt(n): there they do not depend on the power.
+    """Errors of the square root of power, |F| / sqrt(n), which do not depend on the power.
 
     Attributes
     ----------
     rms : float
-        Typical: root mean square over frequencies, for scattered points.
+        Typical error: the root mean square over frequencies, for scattered points.
     bound : float
-        Worst case: no frequency of any set, coincident points included, is further off.
+        Worst case: no frequency of any set is further off, even if all points coincide.
     """
 
     rms: float
@@ -44,10 +44,21 @@ class Errors:
         return resolvable_power(self.rms)
 
     def averaged(self, sets: int, n: int) -> Errors:
-        """Of the mean power of so many sets of n points.
+        """Give the errors of the mean power of several sets.
 
-        Typical errors average out, though not where nearly all there is is error, and roundings of the sum
-        over sets add up.
+        Typical errors average out over sets, but not below a tenth, since where nearly all of the power is
+        error its mean is too. The rounding of the sum over sets is added.
+
+        Parameters
+        ----------
+        sets : int
+            Number of sets, each evaluated with these errors.
+        n : int
+            Points of a set.
+
+        Returns
+        -------
+        Errors
         """
         if sets == 1:
             return self
@@ -58,17 +69,16 @@ class Errors:
 
 @dataclass(frozen=True)
 class Coordinates:
-    """How far fixed-point coordinates are from the true ones, at the worst of several sets.
+    """Distance of fixed-point coordinates from the true ones, for the worst of several sets.
 
     Attributes
     ----------
     coherent : float
-        Sum over points of |w| times the sum over axes of the distance, over the root of the sum of w^2;
-        in turns.
+        sum_k |w_k| sum_a |delta_ka| / sqrt(sum_k w_k^2), delta being the rounding of a coordinate; in turns.
     scattered : float
-        Root of the sum over points and axes of w^2 times the squared distance, over the same; turns.
+        sqrt(sum_k w_k^2 sum_a delta_ka^2 / sum_k w_k^2); in turns.
     share : float
-        Sum of |w| over the root of the sum of w^2: sqrt(n) without weights.
+        sum_k |w_k| / sqrt(sum_k w_k^2), which is sqrt(n) without weights.
     """
 
     coherent: float
@@ -77,7 +87,21 @@ class Coordinates:
 
 
 def coordinates(x: FloatArray, precision: str, weights: FloatArray | None = None) -> Coordinates:
-    """Measure the rounding of (sets, n, d) points to 64 or, in float, 32 bits of a turn."""
+    """Measure how far coordinates are rounded: to 64 bits of a turn in double, to 32 in float.
+
+    Parameters
+    ----------
+    x : (sets, n, d) float64
+        Points of the unit torus.
+    precision : {"double", "float"}
+        Precision of the evaluation.
+    weights : (sets or 1, n) float64, optional
+        Weights of the points; 1 where not given.
+
+    Returns
+    -------
+    Coordinates
+    """
     n = x.shape[1]
     if weights is None:
         share = math.sqrt(n)
@@ -106,21 +130,23 @@ def sum_errors(
     Parameters
     ----------
     precision, sums : {"double", "float"}
-        Of the terms and the sums in registers, and of what adds those up.
+        Precision of the terms and of the sums in registers, and of what adds those sums up.
     at : Coordinates
         Rounding of the coordinates.
     fmax : int
         Largest harmonic on an axis.
     products : int
-        Complex products that make a term of its cosines and sines, each tabulated once.
-    in_registers, beyond : int
-        Terms of a lane added up one after another, and additions after that.
+        Complex products by which a term is made from tabulated cosines and sines.
+    in_registers : int
+        Terms that a lane adds up one after another.
+    beyond : int
+        Additions one after another behind those.
 
     Returns
     -------
     Errors
-        The bound adds up every rounding at its worst; the typical error is that of independent roundings, its
-        two constants fitted to scattered points.
+        The bound adds up every rounding at its worst. The typical error is that of independent roundings; its
+        two constants were fitted to scattered points.
     """
     u, v = UNIT[precision], UNIT[sums]
     term = (products + 1) * COSINE + products * COMPLEX + 1  # and a weight
@@ -129,22 +155,29 @@ def sum_errors(
     bound += 2 * math.pi * fmax * at.coherent
     typical = u * math.sqrt(1.2 + 0.05 * in_registers)
     typical = math.hypot(typical, 2 * math.pi * fmax / math.sqrt(6) * at.scattered)
-    # Amplitudes lie between 0 and the share; those that have nothing in common any more differ by 0.66.
+    # Amplitudes lie between 0 and the share. Two that have nothing in common differ by UNRELATED, 0.66.
     return Errors(min(typical, UNRELATED), min(bound, 1.001 * at.share))
 
 
 def rounded_at_worst(n: int, d: int, precision: str) -> Coordinates:
-    """Assume of coordinates nobody has seen yet: exact in double, as far off as can be in float."""
+    """Assume the rounding of unknown coordinates: none in double, the largest possible in float.
+
+    Parameters
+    ----------
+    n, d : int
+        Points of a set, and dimension.
+    precision : {"double", "float"}
+        Precision of the evaluation.
+
+    Returns
+    -------
+    Coordinates
+    """
     half = 0.0 if precision == "double" else 2.0 ** -(BITS[precision] + 1)
     share = math.sqrt(n)
     return Coordinates(share * d * half, math.sqrt(d / 3) * half, share)
 
 
-def power_error(power: float, error: float) -> float:
-    """Error of a power whose square root is off by error: 2 sqrt(P) e + e^2."""
-    return 2 * math.sqrt(power) * error + error * error
-
-
 def rms_for(floor: float) -> float:
-    """Error of sqrt(power) that still resolves a power of floor to 1%."""
+    """Find the error of sqrt(power) at which a power equal to ``floor`` is still known to 1%."""
     return math.sqrt(floor) * RESOLVED / (1 + math.sqrt(1 + RESOLVED))

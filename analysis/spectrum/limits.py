@@ -1,4 +1,4 @@
-"""What fits: the largest cube of frequencies for this machine's memory, and what to ask for instead."""
+"""Largest cubes of frequencies that fit in memory and can be counted, and the defaults of fmax."""
 
 from __future__ import annotations
 
@@ -11,23 +11,35 @@ from gbnbench.core.errors import InputError
 from gbnbench.core.memory import physical_memory
 
 MEMORY_SHARE = 0.5  # of the machine's memory that one cube may take
-BYTES = 24  # a frequency: on the device, on the host, and room to work with it
+BYTES = 24  # for each frequency: 8 on the device, 8 on the host and 8 to work with it
 LARGEST_COUNT = 1 << 63
 FLOOR_NU = 0.25  # end of the band whose mean power is the noise floor
-LARGEST_NU = 2.0  # what the peak and the pictures need
-FLOOR_NU = 0.25  # end of the band whose mean power is the noise floor
-MOST_FREQUENCIES = 6_000_000  # of one cube, 48 MB: F = 3 in d = 8
-MOST_TERMS = 1e11  # frequencies times points of one set: about ten seconds of one core
+LARGEST_NU = 2.0  # as far as the peak and the pictures need
+MOST_FREQUENCIES = 6_000_000  # of a default cube: 48 MB, F = 3 in d = 8
+MOST_TERMS = 1e11  # frequencies times points of one set: about ten seconds on one core
 MOST_KEPT = 1 << 27  # powers of all sets together, 1 GB
 
 
 def check_fmax(fmax: object, d: int) -> int:
-    """Return fmax as an int whose cube fits in memory, or say which would.
+    """Check that fmax is a positive integer whose cube of powers fits in memory.
+
+    Parameters
+    ----------
+    fmax : object
+        What the user gave.
+    d : int
+        Dimension.
+
+    Returns
+    -------
+    int
+        fmax.
 
     Raises
     ------
     InputError
-        If fmax is not a positive integer or (2*fmax+1)**d doubles do not fit.
+        If fmax is not a positive integer or (2*fmax+1)**d powers do not fit. The text names the largest fmax
+        that fits.
     """
     f = check_harmonic(fmax, d)
     count = (2 * f + 1) ** d
@@ -66,7 +78,19 @@ def cube_fits(fmax: int, d: int) -> bool:
 
 
 def check_harmonic(fmax: object, d: int) -> int:
-    """Return fmax as an int whose frequencies can be counted in 64 bits.
+    """Check that fmax is a positive integer whose frequencies can be counted in 64 bits.
+
+    Parameters
+    ----------
+    fmax : object
+        What the user gave.
+    d : int
+        Dimension.
+
+    Returns
+    -------
+    int
+        fmax.
 
     Raises
     ------
@@ -91,7 +115,17 @@ def check_harmonic(fmax: object, d: int) -> int:
 
 
 def largest_fmax(count: int, d: int) -> int:
-    """Largest F with (2F+1)**d <= count, at least 1."""
+    """Find the largest F, at least 1, with (2F+1)**d <= count.
+
+    Parameters
+    ----------
+    count, d : int
+        Frequencies allowed, and dimension.
+
+    Returns
+    -------
+    int
+    """
     f = max(1, math.floor((math.pow(count, 1 / d) - 1) / 2))
     while (2 * f + 1) ** d > count and f > 1:  # the root may round up
         f -= 1
@@ -101,7 +135,22 @@ def largest_fmax(count: int, d: int) -> int:
 
 
 def default_fmax(n: int, d: int, realizations: int = 1) -> int:
-    """Harmonics beyond nu = 2, so that its ring is whole; fewer where the cube, its time or memory forbid."""
+    """Choose fmax for a cube: just beyond nu = 2, so that the ring there is whole, or less.
+
+    It is less where the cube would be too large, take too long, or not fit in memory for all sets together.
+    The band of the noise floor, nu <= 1/4, is always within it.
+
+    Parameters
+    ----------
+    n, d : int
+        Points of a set, and dimension.
+    realizations : int
+        Number of sets whose powers are kept.
+
+    Returns
+    -------
+    int
+    """
     edge = math.pow(n, 1 / d)
     wanted = math.floor(LARGEST_NU * edge * (1 + EDGE)) + 1
     most = min(MOST_FREQUENCIES, MOST_TERMS / n, MOST_KEPT / realizations)
@@ -110,7 +159,17 @@ def default_fmax(n: int, d: int, realizations: int = 1) -> int:
 
 
 def default_shell_fmax(n: int, d: int) -> int:
-    """Harmonics as far as nu = 2, or to a ball that is affordable: it has fewer than a cube."""
+    """Choose fmax for shells: just beyond nu = 2, or the radius of the largest ball that is affordable.
+
+    Parameters
+    ----------
+    n, d : int
+        Points of a set, and dimension.
+
+    Returns
+    -------
+    int
+    """
     wanted = math.floor(LARGEST_NU * math.pow(n, 1 / d) * (1 + EDGE)) + 1
     most = min(float(MOST_FREQUENCIES), MOST_TERMS / n)
     ball = math.pi ** (d / 2) / math.gamma(d / 2 + 1)  # of radius 1

@@ -173,7 +173,19 @@ def _spectrum(
 
 
 def check_weights(weights: ArrayLike | None, sets: int, n: int) -> FloatArray | None:
-    """Return weights as (sets or 1, n) float64, or say what is wrong with them; None stays None.
+    """Check weights, and divide each set's by its largest, so that their squares cannot overflow.
+
+    Parameters
+    ----------
+    weights : (n,) or (sets, n) array_like, or None
+        What the user gave.
+    sets, n : int
+        Number of sets, and of points in each.
+
+    Returns
+    -------
+    (1 or sets, n) float64, or None
+        None where there are no weights.
 
     Raises
     ------
@@ -202,12 +214,23 @@ def check_weights(weights: ArrayLike | None, sets: int, n: int) -> FloatArray | 
 
 
 def check_frequencies(frequencies: ArrayLike, d: int) -> NDArray[np.int64]:
-    """Return frequencies as (m, d) int64, or say what is wrong with them.
+    """Check listed frequencies.
+
+    Parameters
+    ----------
+    frequencies : (m, d) array_like
+        What the user gave; floats are taken if they are whole.
+    d : int
+        Dimension.
+
+    Returns
+    -------
+    (m, d) int64
 
     Raises
     ------
     InputError
-        If they are not integers of 64 bits, (m, d) with m at least 1.
+        If they are not integers of 64 bits, or not (m, d) with m at least 1.
     """
     f = np.asarray(frequencies)
     if f.ndim != 2 or f.shape[1] != d or len(f) == 0:

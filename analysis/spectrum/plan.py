@@ -1,4 +1,4 @@
-"""The plan of a spectrum: the cheapest evaluator that is exact to what was asked for, and why."""
+"""The plan of a spectrum: the cheapest evaluator that is exact enough for a request, and the reason."""
 
 from __future__ import annotations
 
@@ -9,37 +9,21 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from gbnbench.analysis.precision import PrecisionName, precision_of
+from gbnbench.analysis.spectrum.candidates import (
+    Candidate,
+    candidates,
+    check_precision,
+    no_room,
+    objection,
+    unavailable,
+)
 from gbnbench.analysis.spectrum.error_model import Errors
-from gbnbench.analysis.spectrum.evaluators.protocol import EvaluationCost, Evaluator
+from gbnbench.analysis.spectrum.evaluators.protocol import Evaluator
 from gbnbench.analysis.spectrum.evaluators.registry import EVALUATORS
 from gbnbench.analysis.spectrum.limits import check_fmax
 from gbnbench.analysis.spectrum.request import SpectrumRequest, shell_request
 from gbnbench.core.errors import InputError
 from gbnbench.opencl import devices_present, use_device
-
-PRECISIONS = ("double", "float")
-
-
-@dataclass(frozen=True)
-class Candidate:
-    """An evaluator with its cost and errors, and what speaks against it.
-
-    Attributes
-    ----------
-    evaluator : Evaluator
-        The evaluator, at its precision.
-    cost : EvaluationCost
-        What the request takes with it.
-    errors : Errors
-        Errors of the mean power's square root.
-    against : str
-        Why it is not chosen; empty for the one that is.
-    """
-
-    evaluator: Evaluator
-    cost: EvaluationCost
-    errors: Errors
-    against: str = ""
 
 
 @dataclass(frozen=True)
@@ -71,32 +55,32 @@ class SpectrumPlan:
 
     @property
     def method(self) -> str:
-        """The chosen evaluator's word, such as "product"."""
+        """Word of the chosen evaluator, such as "product"."""
         return self.chosen.evaluator.method
 
     @property
     def precision(self) -> str:
-        """The chosen evaluator's precision, "double" or "float"."""
+        """Precision of the chosen evaluator, "double" or "float"."""
         return self.chosen.evaluator.precision
 
     @property
     def flops(self) -> float:
-        """Number of its arithmetic operations."""
+        """Number of arithmetic operations."""
         return self.chosen.cost.flops
 
     @property
     def bytes(self) -> int:
-        """Memory that it needs."""
+        """Memory that it needs, in bytes."""
         return self.chosen.cost.bytes
 
     @property
     def seconds(self) -> float:
-        """Time that it is expected to take."""
+        """Expected time, in seconds."""
         return self.chosen.cost.seconds
 
     @property
     def errors(self) -> Errors:
-        """Its errors, for points not seen yet."""
+        """Errors of the square root of the mean power, for points that are not known yet."""
         return self.chosen.errors
 
     def explain(self) -> str:
@@ -239,7 +223,7 @@ def choose(
         if not kind.approximate and (evaluator := kind.offer(request, precision)) is not None
     ]
     if not exact:
-        raise InputError(_no_room(request))
+        raise InputError(no_room(request))
     return exact[0] if len(exact) == 1 else min(exact, key=lambda evaluator: evaluator.work(request))
 
 
@@ -250,12 +234,25 @@ def planned(
 
     Parameters
     ----------
-    request, precision, floor, method
-        As in ``choose``, which raises the same errors.
+    request : SpectrumRequest
+        The frequencies, points and sets.
+    precision : {"double", "float"}
+        Precision of the arithmetic; with a floor "double" stands for whichever resolves it.
+    floor : float or None
+        Smallest power that must be known to 1%.
+    method : str, optional
+        The evaluator that the user asked for, by its word.
 
     Returns
     -------
     SpectrumPlan
+
+    Raises
+    ------
+    InputError
+        If precision is unknown, nothing resolves the floor, or there is no such method for the request.
+    DeviceError
+        If the device lacks the precision.
     """
     if floor is not None and not (
         isinstance(floor, (int, float, np.number)) and not isinstance(floor, bool) and 0 < floor < math.inf
@@ -265,15 +262,17 @@ def planned(
     only = None if floor is not None and precision == "double" else precision
     possible = candidates(request, floor, method)
     if method is not None and method not in {c.evaluator.method for c in possible}:
-        raise InputError(_unavailable(request, method, precision))
+        raise InputError(unavailable(request, method, precision))
     averaged = [replace(c, errors=c.errors.averaged(request.realizations, request.n)) for c in possible]
-    weighed = [replace(candidate, against=_against(candidate, only, floor, method)) for candidate in averaged]
+    weighed = [
+        replace(candidate, against=objection(candidate, only, floor, method)) for candidate in averaged
+    ]
     fitting = sorted((c for c in weighed if not c.against), key=lambda c: c.cost.seconds)
     if not fitting:
         if floor is None or only not in {None, *(c.evaluator.precision for c in weighed)}:
             if devices_present():
                 precision_of(precision)  # says what the device lacks
-            raise InputError(_unavailable(request, method, precision))
+            raise InputError(unavailable(request, method, precision))
         best = min(c.errors.resolvable for c in weighed if only in (None, c.evaluator.precision))
         raise InputError(
             f"floor={floor:g} is out of reach: the least power known to 1% here is {best:.1g}"
@@ -293,82 +292,8 @@ def planned(
     return SpectrumPlan(request, chosen, why + chosen.evaluator.remark, tuple(others))
 
 
-def candidates(request: SpectrumRequest, floor: float | None, method: str | None = None) -> list[Candidate]:
-    """Gather every evaluator that this machine has for a request, with its cost and errors.
-
-    Parameters
-    ----------
-    request, floor, method
-        As in ``choose``.
-
-    Returns
-    -------
-    list of Candidate
-        The exact ones first, then the approximate ones.
-
-    Raises
-    ------
-    InputError
-        If none can serve the request.
-    """
-    offered = [
-        kind.offer(request, precision, floor=floor, forced=kind.method == method)
-        for approximate in (False, True)
-        for precision in PRECISIONS
-        for kind in EVALUATORS
-        if kind.approximate == approximate and request.what in kind.serves
-    ]
-    found = [
-        Candidate(evaluator, evaluator.cost(request), evaluator.expected_errors(request))
-        for evaluator in offered
-        if evaluator is not None
-    ]
-    if not found:
-        raise InputError(_no_room(request))
-    return found
-
-
-def check_precision(precision: object) -> None:
-    """Refuse a precision other than "double" and "float" with an InputError."""
-    if precision not in PRECISIONS:
-        raise InputError(f'precision must be "double" or "float"; got {precision!r}')
-
-
-def _no_room(request: SpectrumRequest) -> str:
-    """Say why nothing serves a request: without a device, shells need a whole cube."""
-    return (
-        f"{request} do not fit in memory as a cube, and without an OpenCL device there is no streaming. "
-        "Install one: gbnbench devices tells how"
-    )
-
-
-def _unavailable(request: SpectrumRequest, method: str | None, precision: str) -> str:
-    """Say why a method does not serve a request, and which do."""
-    serving = {kind.method: kind for kind in EVALUATORS if request.what in kind.serves}
-    if method not in serving:
-        return f"method must be one of {', '.join(serving)} for {request.what}; got {method!r}"
-    return serving[method].why_not(request, precision)
-
-
-def _against(candidate: Candidate, only: str | None, floor: float | None, method: str | None) -> str:
-    """Say what speaks against a candidate: another precision, an error too large, or not being exact."""
-    evaluator = candidate.evaluator
-    resolves = f"knows only P = {candidate.errors.resolvable:.1e} to 1%"
-    if method is not None and evaluator.method != method:
-        return f"{method} was asked for"
-    if floor is None:
-        if evaluator.tolerance and method is None:
-            return f"{resolves}; give a floor to allow that"
-        if evaluator.precision != only:
-            return resolves if only == "double" else f"{only} was asked for"
-        return ""
-    if only is not None and evaluator.precision != only:
-        return f"{only} was asked for"
-    return resolves if candidate.errors.resolvable > floor * (1 + 1e-9) else ""
-
-
 def _si(value: float) -> str:
-    """Three digits and an SI prefix: 1.23 G."""
+    """Format a number with three digits and an SI prefix, such as "1.23 G"."""
     for prefix in ("", "k", "M", "G", "T", "P"):
         if value < 999.5:
             return f"{value:.3g} {prefix}"

@@ -1,4 +1,7 @@
-"""The request for a spectrum: which frequencies, of how many points; it is planned before they exist."""
+"""A request for a spectrum: its frequencies, and the size of the point sets.
+
+A request can be made, checked and planned before there are any points.
+"""
 
 from __future__ import annotations
 
@@ -16,18 +19,18 @@ from gbnbench.core.errors import InputError
 from gbnbench.core.memory import physical_memory
 
 Frequencies = Literal["cube", "half cube", "shells", "listed"]
-SHELL_BYTES = 96  # a shell: on the device, twice on the host, and what they are merged in
-GROUP_BYTES = 64  # a frequency of a group of axes while it is listed and sorted
+SHELL_BYTES = 96  # for each shell: on the device, twice on the host, and where they are merged
+GROUP_BYTES = 64  # for each frequency of a group of axes while it is listed and sorted
 
 
 @dataclass(frozen=True)
 class SpectrumRequest:
-    """Which frequencies are wanted, of sets of how many points.
+    """The frequencies that are wanted, and the number and size of the point sets.
 
     Attributes
     ----------
     what : {"cube", "half cube", "shells", "listed"}
-        Which frequencies.
+        Kind of the set of frequencies.
     n, d, fmax, realizations : int
         Points in a set, dimension, largest harmonic on each axis, number of sets.
     frequencies : int
@@ -59,7 +62,7 @@ class SpectrumRequest:
 def shell_request(
     n: int, d: int, fmax: int, realizations: int, band: Sequence[float] | None, corners: bool
 ) -> SpectrumRequest:
-    """Request the shells of a ball, of a band or, with its corners, of a whole cube.
+    """Make the request for the shells of a ball, of a band, or of a whole cube.
 
     Parameters
     ----------
@@ -68,7 +71,7 @@ def shell_request(
     band : (float, float) or None
         Smallest and largest |f|, cycles per unit length.
     corners : bool
-        Every frequency of the cube, where otherwise |f| <= fmax.
+        Take every frequency of the cube; otherwise those with |f| <= fmax.
 
     Returns
     -------
@@ -77,7 +80,8 @@ def shell_request(
     Raises
     ------
     InputError
-        If fmax or band are not what they must be, or no frequency lies in the band.
+        If fmax or band are not what they must be, no frequency lies in the band, or the shells do not fit in
+        memory.
     """
     f = check_harmonic(fmax, d)
     low, high = 1, d * f * f if corners else f * f
@@ -139,10 +143,10 @@ def check_room(d: int, fmax: int, low: int, high: int) -> None:
 
 
 def _count(d: int, fmax: int, low: int, high: int) -> int:
-    """Frequencies with low <= |f|^2 <= high, over the whole space."""
+    """Count the frequencies with low <= |f|^2 <= high, over the whole space."""
     if d == 1:
         return 2 * (math.isqrt(high) - math.isqrt(low - 1))
     a, b = two_sorted_groups(d, fmax, high)
-    # A pair stands for (fa, fb), (fa, -fb) and their mirror images, which are two where either is 0.
+    # A pair stands for (fa, fb), (fa, -fb) and their mirror images: four, or two if fa or fb is 0.
     alone = sum(int(np.count_nonzero((g.square >= low) & (g.square <= high))) for g in (a, b))
     return 4 * count_pairs(a, b, low, high) - 2 * alone

@@ -1,4 +1,4 @@
-"""The settings of a spectrum: which frequencies, and how exactly, for point sets of any size."""
+"""Settings of a spectrum: its frequencies and its accuracy, for point sets of any size."""
 
 from __future__ import annotations
 
@@ -20,18 +20,19 @@ from gbnbench.core.torus import FloatArray
 
 @dataclass(frozen=True)
 class SpectrumSettings:
-    """Which frequencies are wanted and how exactly; planned before there are points, then evaluated.
+    """Frequencies and accuracy of a spectrum, which can be planned before there are points.
 
     Attributes
     ----------
     fmax : int or None
-        Largest harmonic on each axis; None for the end of the band, else the default for shells or cubes.
+        Largest harmonic on each axis. If None, it is the end of the band, or else the default for shells or
+        cubes.
     half, shells, corners : bool
-        Whether half a cube is wanted, or shells instead of one, or shells with the corners of the cube.
+        Evaluate half a cube; shells in place of a cube; shells with the corners of the cube.
     band : (float, float) or None
         Smallest and largest |f|, for shells.
     frequencies : (m, d) int64 or None
-        A list instead of a cube.
+        Frequencies in place of a cube.
     precision : {"double", "float"}
         As in ``gbnbench.periodogram``.
     floor : float or None

@@ -44,7 +44,7 @@ def moments_of_cube(power: FloatArray, fmax: int, request: SpectrumRequest) -> S
     fmax : int
         Its largest harmonic.
     request : SpectrumRequest
-        Which shells are wanted.
+        The shells that are wanted.
 
     Returns
     -------

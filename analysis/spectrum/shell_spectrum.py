@@ -1,4 +1,4 @@
-"""Radial power and anisotropy without the cube: only the shells asked for, whatever the dimension."""
+"""Radial power and anisotropy on exact shells, without the cube, in any dimension."""
 
 from __future__ import annotations
 

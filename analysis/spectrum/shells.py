@@ -1,4 +1,8 @@
-"""Which frequencies of a cube share a radius: exact shells of |f|^2, classes of digits, rings and annuli."""
+"""Groups of a cube's frequencies by radius: exact shells of |f|^2, classes of equal digits, and annuli.
+
+Exact shells and classes of digits are those of Ahmed, Ren & Wonka (2022, App. C); annuli are those of PSA
+(Schlömer & Deussen 2011).
+"""
 
 from __future__ import annotations
 
@@ -35,23 +39,34 @@ class Shells:
         return len(self.radius)
 
     def sum(self, values: FloatArray) -> FloatArray:
-        """Sum over each group of a cube of values (or a flat one): (size,) float64."""
+        """Sum a cube of values, flat or not, over each group: (size,) float64."""
         total = np.bincount(self.label, weights=values.ravel(), minlength=self.size + 1)
         return total[: self.size].astype(np.float64, copy=False)
 
     def mean(self, values: FloatArray) -> FloatArray:
-        """Mean over each group: (size,) float64."""
+        """Average a cube of values over each group: (size,) float64."""
         return self.sum(values) / self.count
 
     def moments(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Mean over each group, and sum of squared departures from it over one half space: two (size,)."""
+        """Give the mean over each group, and the sum of squared departures over a half space: two (size,)."""
         mean = self.mean(values)
         away = values.ravel() - np.append(mean, 0.0)[self.label]
         return mean, self.sum(away * away) / 2  # each pair f, -f stands twice in the cube
 
 
 def squared_radius(fmax: int, d: int) -> NDArray[np.int64]:
-    """|f|^2 of every frequency of the cube, flattened: ((2*fmax+1)**d,) int64."""
+    """|f|^2 of every frequency of a cube.
+
+    Parameters
+    ----------
+    fmax, d : int
+        Largest harmonic on each axis, and dimension.
+
+    Returns
+    -------
+    ((2*fmax+1)**d,) int64
+        In the order of the flattened cube.
+    """
     squares = np.arange(-fmax, fmax + 1, dtype=np.int64) ** 2
     total = np.zeros((1,) * d, np.int64)
     for axis in range(d):
@@ -74,7 +89,17 @@ def _group(key: NDArray[np.int64], r2: NDArray[np.int64], fmax: int) -> Shells:
 
 @lru_cache(maxsize=4)
 def exact_shells(fmax: int, d: int) -> Shells:
-    """Frequencies of the same integer |f|^2 (the paper's App. C: do not average over annuli)."""
+    """Group frequencies of the same integer |f|^2 (App. C: do not average over annuli).
+
+    Parameters
+    ----------
+    fmax, d : int
+        Largest harmonic on each axis, and dimension.
+
+    Returns
+    -------
+    Shells
+    """
     r2 = squared_radius(fmax, d)
     shells = _group(r2, r2, fmax)
     # The exact radius, not a mean of equal square roots.
@@ -84,7 +109,17 @@ def exact_shells(fmax: int, d: int) -> Shells:
 
 @lru_cache(maxsize=2)
 def digit_classes(fmax: int, d: int) -> Shells:
-    """Frequencies whose sorted |digits| agree: the finer classes of the paper's App. C for d > 2."""
+    """Group frequencies whose sorted |digits| agree, which are finer than shells for d > 2 (App. C).
+
+    Parameters
+    ----------
+    fmax, d : int
+        Largest harmonic on each axis, and dimension.
+
+    Returns
+    -------
+    Shells
+    """
     axis = np.abs(np.arange(-fmax, fmax + 1, dtype=np.int64))
     grid = np.stack(np.meshgrid(*[axis] * d, indexing="ij"), axis=-1).reshape(-1, d)
     grid.sort(axis=1)
@@ -94,16 +129,40 @@ def digit_classes(fmax: int, d: int) -> Shells:
 
 @lru_cache(maxsize=4)
 def annuli(fmax: int, d: int, width: float) -> Shells:
-    """Frequencies with floor(|f| / width) equal, as PSA averages (its width is 2)."""
+    """Group frequencies of equal floor(|f| / width), as PSA averages, whose width is 2.
+
+    Parameters
+    ----------
+    fmax, d : int
+        Largest harmonic on each axis, and dimension.
+    width : float
+        Width of an annulus, cycles per unit length.
+
+    Returns
+    -------
+    Shells
+    """
     r2 = squared_radius(fmax, d)
     return _group(np.floor(np.sqrt(r2) / width).astype(np.int64), r2, fmax)
 
 
-EDGE = (
-    1e-12  # relative slack of a band's edges: |f| n^(-1/d) that is exactly an edge may round to either side
-)
+# Relative slack of a band's edges: a nu = |f| n^(-1/d) that is exactly an edge may round to either side.
+EDGE = 1e-12
 
 
 def in_band(nu: FloatArray, low: float, high: float) -> NDArray[np.bool_]:
-    """Whether low <= nu <= high, both edges included whatever nu rounded to."""
+    """Tell which frequencies lie in a band, both edges included, to whichever side nu was rounded there.
+
+    Parameters
+    ----------
+    nu : float64
+        Frequencies over the principal one, of any shape.
+    low, high : float
+        Edges of the band.
+
+    Returns
+    -------
+    bool
+        Of the shape of nu.
+    """
     return (nu >= low * (1 - EDGE)) & (nu <= high * (1 + EDGE))

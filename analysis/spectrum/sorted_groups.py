@@ -1,7 +1,7 @@
-"""Halves of the axes whose frequencies are sorted by |f|^2, so that those of a ball or a band can be counted.
+"""Groups of axes whose frequencies are sorted by |f|^2, so that those of a ball or a band can be counted.
 
-A frequency of the cube is a pair: one frequency of the leading axes and one of the trailing axes. For each
-leading frequency the trailing ones whose squares complete it to the band are a run of the sorted list.
+A frequency of the cube is a pair: one frequency of the leading axes and one of the trailing axes. The
+trailing frequencies that make up a band with a given leading one are consecutive in the sorted list.
 """
 
 from __future__ import annotations

@@ -10,15 +10,15 @@ import numpy as np
 from gbnbench.benchmarks.claims.claim import UNTRIED, Row, holds, reported
 from gbnbench.benchmarks.claims.sets import SEED, Sets
 from gbnbench.benchmarks.timing.interleaved import Call, interleave
-from gbnbench.generators.gbn.energy import field
-from gbnbench.generators.gbn.protocol import Field
+from gbnbench.generators.gbn.energy import energy_evaluation
+from gbnbench.generators.gbn.protocol import EnergyEvaluation
 
 SAME = 0.2  # departure of an exponent from a whole one, and of times from a line, that counts as none
 RUNS = 5  # of the timings by dimension: of each the least, since single runs scatter
 WIDTH = 4.0  # sigmas a side of the kernels timed by dimension: the same polynomial in each
 
 
-def gradient(evaluate: Field, n: int, d: int) -> Call:
+def gradient(evaluate: EnergyEvaluation, n: int, d: int) -> Call:
     """Return a call that finds one gradient of one random set."""
     x = np.random.default_rng(SEED).random((1, n, d))
     return lambda: evaluate(x)
@@ -40,7 +40,7 @@ def by_points(sets: Sets) -> Iterator[Row]:
         ("strips", 2, [4096, 16_384, 65_536, 262_144], "strips", f"2 within {SAME:g} (quadratic)"),
     ):
         sizes = sizes[: sets.few(len(sizes), 3)]
-        calls = {str(n): gradient(field(n, d, 1.0, "double", method=method), n, d) for n in sizes}
+        calls = {str(n): gradient(energy_evaluation(n, d, 1.0, "double", method=method), n, d) for n in sizes}
         timings = interleave(calls, 4.0)
         slope, error = exponent(sizes, [float(timings[str(n)].cpu.min()) for n in sizes])
         yield reported(
@@ -59,7 +59,9 @@ def by_dimension(sets: Sets) -> Iterator[Row]:
     n, dimensions = 1024, [2, 4, 6, 8, 12, 16]
     calls = {}
     for d in dimensions:
-        calls[str(d)] = gradient(field(n, d, n ** (1 / d) / WIDTH, "double", method="theta"), n, d)
+        calls[str(d)] = gradient(
+            energy_evaluation(n, d, n ** (1 / d) / WIDTH, "double", method="theta"), n, d
+        )
     runs = [interleave(calls, 4.0) for _ in range(sets.few(RUNS))]
     seconds = np.array([min(float(run[str(d)].cpu.min()) for run in runs) for d in dimensions])
     slope, error = exponent(dimensions, list(seconds))
@@ -91,7 +93,7 @@ def by_dimension(sets: Sets) -> Iterator[Row]:
 def titan(_: Sets) -> Iterator[Row]:
     """Time 10,000 steps of 4,096 points here, and what gives the same quality."""
     n = 4096
-    calls = {name: gradient(field(n, 2, 1.0, name), n, 2) for name in ("double", "float")}
+    calls = {name: gradient(energy_evaluation(n, 2, 1.0, name), n, 2) for name in ("double", "float")}
     timings = interleave(calls, 2.0)
     for name, timing in timings.items():
         seconds = float(timing.cpu.min())
@@ -120,7 +122,7 @@ def large(_: Sets) -> Iterator[Row]:
     """Hundreds of thousands of points, and millions."""
     hours = 0.0
     for n, steps, title in ((100_000, 10_000, "10,000 steps"), (1_000_000, 10_000, "10,000 steps")):
-        timing = interleave({"one": gradient(field(n, 2, 1.0, "double"), n, 2)}, 1.0)["one"]
+        timing = interleave({"one": gradient(energy_evaluation(n, 2, 1.0, "double"), n, 2)}, 1.0)["one"]
         hours = steps * float(timing.cpu.min()) / 3600
         yield reported(
             f"descent-{n}",

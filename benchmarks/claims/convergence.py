@@ -12,7 +12,7 @@ from gbnbench.benchmarks.claims.claim import BESIDE, Row, holds, reported
 from gbnbench.benchmarks.claims.profile import STEEPNESS
 from gbnbench.benchmarks.claims.sets import FAST, MILLION, PAPER, Drawn, Sets
 from gbnbench.core.torus import FloatArray
-from gbnbench.generators.gbn.energy import field
+from gbnbench.generators.gbn.energy import energy_evaluation
 
 STOPS = (3, 10, 15, 30, 100, 300, 500, 1000, 3000, 10_000)
 LARGER = (100, 300, 500, 1000)  # of them, those that 4,096 points take, too
@@ -170,7 +170,7 @@ def equivalence(sets: Sets) -> Iterator[Row]:
     """Descent of 100,000 steps beside 1,000 gradients of Nesterov's method, on the same starts."""
     slow = sets.draw("gbn[iterations=100000]", n=256, sets=3)
     fast = sets.draw("gbn[gradients=1000]", n=256, sets=3)
-    excess = [field(256, 2, 1.0)(drawn.x).excess for drawn in (slow, fast)]
+    excess = [energy_evaluation(256, 2, 1.0)(drawn.x).excess for drawn in (slow, fast)]
     ratio = float(excess[1].mean() / excess[0].mean())
     yield reported(
         "excess",
@@ -246,7 +246,7 @@ def repeated(_: Sets) -> Iterator[Row]:
 def hessian_of(x: FloatArray, h: float = 1e-4) -> FloatArray:
     """Hessian of the energy at one set (n, d), in spacings, by central differences of the gradient."""
     n, d = x.shape
-    energy = field(n, d, 1.0, "double")
+    energy = energy_evaluation(n, d, 1.0, "double")
     side = n ** (1 / d)
     moves = np.eye(n * d).reshape(n * d, n, d) * h / side
     slope = (energy(x + moves).gradient - energy(x - moves).gradient).reshape(n * d, n * d) / (2 * h)

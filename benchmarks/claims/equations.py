@@ -12,8 +12,8 @@ from gbnbench.benchmarks.claims.claim import BESIDE, Row, holds, reported
 from gbnbench.benchmarks.claims.sets import FAST, SEED, Sets
 from gbnbench.benchmarks.timing.interleaved import interleave
 from gbnbench.core.torus import FloatArray
-from gbnbench.generators.gbn.box import BoxField, domain_pull
-from gbnbench.generators.gbn.energy import field
+from gbnbench.generators.gbn.box import BoxEnergy, domain_pull
+from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.kernel_profile import theta
 
 SIDE, N = 8.0, 64  # a torus of unit density
@@ -65,7 +65,7 @@ def variance(_: Sets) -> Iterator[Row]:
     )
     # Eq. (18) in the library's terms: its gradient is of the sum over pairs, with sigma^2 of Eq. (14).
     wide = math.sqrt(2) * sigma
-    energy = field(N, 2, wide, "double")
+    energy = energy_evaluation(N, 2, wide, "double")
     ours = energy(u[None] / SIDE).gradient[0] * math.pi * wide**2 / N
     h = 1e-4
     step = np.zeros_like(u)
@@ -220,7 +220,7 @@ def border(sets: Sets) -> Iterator[Row]:
 def box_cost(sets: Sets) -> Iterator[Row]:
     """CPU time of a gradient in the box over one on the torus."""
     x = sets.draw(FAST, n=4096, sets=1).x
-    box, torus = BoxField(4096, 2, 1.0, "double"), field(4096, 2, 1.0, "double")
+    box, torus = BoxEnergy(4096, 2, 1.0, "double"), energy_evaluation(4096, 2, 1.0, "double")
     timings = interleave({"box": lambda: box(x), "torus": lambda: torus(x)}, 1.0)
     ratio = timings["box"].over(timings["torus"])
     yield reported(

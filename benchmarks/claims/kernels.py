@@ -12,7 +12,7 @@ from gbnbench.benchmarks.claims.claim import BESIDE, PARTLY, Row, holds, reporte
 from gbnbench.benchmarks.claims.sets import FAST, SEED, Drawn, Sets
 from gbnbench.core.torus import wrap
 from gbnbench.generators.gbn import kernel
-from gbnbench.generators.gbn.energy import field
+from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.kernel_profile import energy_profile, truncated_transform
 from gbnbench.generators.gbn.optimiser import Descent, step_size
 from gbnbench.generators.protocol import realization_rng
@@ -192,9 +192,9 @@ def truncated(sets: Sets) -> Iterator[Row]:
 def support(sets: Sets) -> Iterator[Row]:
     """Measure what pairs beyond 6 and 9 sigma add: to an energy of 1 and to the forces."""
     x = sets.draw(FAST, n=1024).x[:1]
-    whole = field(1024, 2, 1.0, "double", method="images")(x).gradient
+    whole = energy_evaluation(1024, 2, 1.0, "double", method="images")(x).gradient
     loose = np.random.default_rng(SEED).random((1, 1024, 2))
-    scale = np.abs(field(1024, 2, 1.0, "double", method="images")(loose).gradient).max()
+    scale = np.abs(energy_evaluation(1024, 2, 1.0, "double", method="images")(loose).gradient).max()
     for name, reach in (("float", 6.0), ("double", 9.0)):
         eps = kernel.EPS[name]
         energy = math.exp(-(reach**2) / 2)
@@ -205,7 +205,7 @@ def support(sets: Sets) -> Iterator[Row]:
             energy / eps,
             holds=holds(energy < eps),
         )
-        cut = field(1024, 2, 1.0, "double", method="strips", cutoff=reach)(x).gradient
+        cut = energy_evaluation(1024, 2, 1.0, "double", method="strips", cutoff=reach)(x).gradient
         yield reported(
             f"force-{name}",
             f"force of all pairs beyond {reach:g} sigma over the largest at random points",
@@ -269,7 +269,7 @@ def harmonics(_: Sets) -> Iterator[Row]:
     start = realization_rng(SEED, 0).random((1, n, 2))
     ends = []
     for method in ("images", "harmonics"):
-        run = Descent(field(n, 2, 1.0, "double", method=method), start, step_size(n, 2, 1.0))
+        run = Descent(energy_evaluation(n, 2, 1.0, "double", method=method), start, step_size(n, 2, 1.0))
         for _step in range(steps):
             run.advance()
         ends.append(run.x)

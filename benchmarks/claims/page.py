@@ -19,6 +19,7 @@ from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.errors import InputError
 
 HEAD = "head.md"  # how the page begins, a count of verdicts left to be filled in
+PACKAGE = "gbnbench.benchmarks.claims"
 PLACEHOLDER = re.compile(r"\{([A-Za-z0-9.\-]+)\}")
 
 
@@ -90,7 +91,7 @@ def page(table: Table) -> str:
     verdicts = [of_claim(claim.name, table) for claim in CLAIMS]
     words = {"yes": "hold", "partly": "hold in part", "no": "do not", VERDICTS[-1]: "cannot be tried here"}
     counts = f"Of {len(CLAIMS)}, " + ", ".join(f"{verdicts.count(v)} {words[v]}" for v in VERDICTS)
-    head = resources.files(__package__).joinpath(HEAD).read_text(encoding="utf-8").format(counts=counts)
+    head = resources.files(PACKAGE).joinpath(HEAD).read_text(encoding="utf-8").format(counts=counts)
     lines = [head, "| claim | place | the paper states | holds |", "|---|---|---|---|"]
     lines += [
         f"| [`{claim.name}`](#{anchor(claim, found)}) | {claim.place} | {cell(claim.says)} | {found} |"

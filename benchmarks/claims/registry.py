@@ -17,6 +17,8 @@ from gbnbench.benchmarks.claims import (
 )
 from gbnbench.benchmarks.claims.claim import Claim, Measure, untried
 
+PACKAGE = "gbnbench.benchmarks.claims"
+
 MEASURES: dict[str, Measure] = {
     "families": profile.families,
     "fpo-exponent": profile.farthest_points,
@@ -80,7 +82,7 @@ MEASURES: dict[str, Measure] = {
 
 
 def _claims() -> tuple[Claim, ...]:
-    texts = tomllib.loads(resources.files(__package__).joinpath("texts.toml").read_text(encoding="utf-8"))
+    texts = tomllib.loads(resources.files(PACKAGE).joinpath("texts.toml").read_text(encoding="utf-8"))
     return tuple(
         Claim(name, measure=MEASURES[name], **{key: " ".join(text.split()) for key, text in words.items()})
         for name, words in texts.items()

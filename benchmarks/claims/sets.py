@@ -15,7 +15,7 @@ from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.core.errors import GbnbenchError, InputError
 from gbnbench.core.results import Measures, RadialPower, Spectrum, gaussian_response
 from gbnbench.core.torus import FloatArray, as_realizations
-from gbnbench.generators.monitor import Trace, Watch
+from gbnbench.generators.monitor import Monitor, Trace
 from gbnbench.generators.registry import find, generate
 from gbnbench.io.points import load
 
@@ -118,7 +118,7 @@ class Sets:
         if key not in self._traces:
             trace = Trace(keep_at=key[2:])
             generator = f"gbn[iterations={key[-1]}]"
-            x = generate(generator, n=n, seed=SEED, realizations=key[1], watch=Watch(trace=trace))
+            x = generate(generator, n=n, seed=SEED, realizations=key[1], monitor=Monitor(trace=trace))
             self._traces[key] = trace
             self._drawn[generator, n, 2, key[1]] = Drawn(x.reshape(key[1], n, 2))
         return self._traces[key]

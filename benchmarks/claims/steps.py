@@ -12,7 +12,7 @@ from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.benchmarks.claims.claim import BESIDE, UNTRIED, Row, holds, reported
 from gbnbench.benchmarks.claims.sets import FAST, PAPER, Sets
 from gbnbench.core.torus import FloatArray
-from gbnbench.generators.gauss_newton.modes import bound, edge_of
+from gbnbench.generators.gauss_newton.modes import bound_coordinates, edge_binding
 from gbnbench.generators.spectral_control.stealthy import band_power
 
 
@@ -32,7 +32,12 @@ def counted(_: Sets) -> Iterator[Row]:
             holds=holds(abs(share - 1) < 0.1) if reach < side else BESIDE,
         )
     yield reported(
-        "disc-half", "the same in the disc |f| < sqrt(N) / 2", "", bound(n, 2, 0.5) / (2 * n), n=n, d=2
+        "disc-half",
+        "the same in the disc |f| < sqrt(N) / 2",
+        "",
+        bound_coordinates(n, 2, 0.5) / (2 * n),
+        n=n,
+        d=2,
     )
 
 
@@ -76,7 +81,7 @@ def heck(sets: Sets) -> Iterator[Row]:
 def wide(sets: Sets) -> Iterator[Row]:
     """Draw steps of one share of the coordinates in several dimensions."""
     for d, n in ((2, 1024), (3, 1000), (4, 1296)):
-        edge = edge_of(0.6, d)
+        edge = edge_binding(0.6, d)
         drawn = sets.draw("stealthy", n=n, d=d, sets=1)
         yield reported(
             f"power-{d}",

@@ -22,7 +22,7 @@ from gbnbench.analysis.spatial.distances import mean_distance, min_distance
 from gbnbench.analysis.spatial.rdf import rdf
 from gbnbench.analysis.spatial.valence import valence6
 from gbnbench.analysis.spectrum.periodogram import periodogram
-from gbnbench.benchmarks.experiments.depth_order import beyond
+from gbnbench.benchmarks.experiments.depth_order_row import beyond
 from gbnbench.benchmarks.timing.machine import Rows
 from gbnbench.core.torus import FloatArray, as_realizations
 from gbnbench.generators.registry import generate

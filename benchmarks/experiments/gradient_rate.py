@@ -24,9 +24,9 @@ from gbnbench.benchmarks.timing.interleaved import Timing, interleave
 from gbnbench.benchmarks.timing.machine import Rows, describe
 from gbnbench.core.atomic_write import write_whole
 from gbnbench.execution.worker_pool import ONE_THREAD
-from gbnbench.generators.gbn.energy import field
-from gbnbench.generators.gbn.operation_counts import Cost
-from gbnbench.generators.gbn.plan import plan
+from gbnbench.generators.gbn.energy import energy_evaluation
+from gbnbench.generators.gbn.operation_counts import EnergyCost
+from gbnbench.generators.gbn.plan import plan_energy
 from gbnbench.opencl.peak_rate import fma_peak
 
 COLUMNS = (
@@ -77,9 +77,9 @@ CASES = (
 )
 
 
-def candidates(case: Case, precision: str) -> list[Cost]:
+def candidates(case: Case, precision: str) -> list[EnergyCost]:
     """List the evaluations worth timing, the plan's own first."""
-    found = plan(case.n, case.d, case.sigma, precision, sets=case.sets)
+    found = plan_energy(case.n, case.d, case.sigma, precision, sets=case.sets)
     if found.seconds() > LONGEST:
         return []
     return [found.chosen, *(c for c in found.others if c.effort < DEAREST * found.chosen.effort)]
@@ -92,7 +92,7 @@ def measure(case: Case) -> list[dict[str, Any]]:
     peak = {p: fma_peak(p) for p, _ in costs}
     calls = {}
     for p, method in costs:
-        evaluate = field(case.n, case.d, case.sigma, p, method=method)
+        evaluate = energy_evaluation(case.n, case.d, case.sigma, p, method=method)
         calls[f"{p} {method}"] = lambda evaluate=evaluate: evaluate(x)
     timings = interleave(calls, SECONDS)
     peak = {p: max(known, fma_peak(p)) for p, known in peak.items()}

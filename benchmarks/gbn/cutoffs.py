@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from gbnbench.benchmarks.gbn.floor_cases import CUTOFFS, SIGMA
 from gbnbench.benchmarks.timing.interleaved import interleave
 from gbnbench.core.torus import FloatArray
-from gbnbench.generators.gbn.energy import field
+from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.operation_counts import CUTOFF
 from gbnbench.generators.gbn.optimiser import Nesterov, step_size
 from gbnbench.generators.protocol import realization_rng
@@ -66,7 +66,9 @@ def forces(n: int, d: int, seconds: float, probes: int) -> Iterator[dict[str, An
     """
     precisions = ("double", "float") if runtime().device.has_double else ("float",)
     start = realization_rng(0, 0).random((1, n, d))
-    settled = Nesterov(field(n, d, SIGMA, precisions[0]), start, step_size(n, d, SIGMA), sigma=SIGMA)
+    settled = Nesterov(
+        energy_evaluation(n, d, SIGMA, precisions[0]), start, step_size(n, d, SIGMA), sigma=SIGMA
+    )
     while settled.gradients < SETTLE:
         settled.advance()
     x = settled.x
@@ -74,7 +76,7 @@ def forces(n: int, d: int, seconds: float, probes: int) -> Iterator[dict[str, An
     truth = exact_forces(x[0], SIGMA, which)
     wide = [cutoff for cutoff in CUTOFFS if 2 * cutoff * SIGMA <= n ** (1 / d)]
     fields = {
-        (precision, cutoff): field(n, d, SIGMA, precision, cutoff=cutoff)
+        (precision, cutoff): energy_evaluation(n, d, SIGMA, precision, cutoff=cutoff)
         for precision in precisions
         for cutoff in (None, *wide)
     }

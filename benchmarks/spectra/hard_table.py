@@ -17,6 +17,7 @@ import pandas as pd
 from gbnbench.analysis.precision import PrecisionName
 from gbnbench.analysis.spectrum.evaluators.gridded.product import griddable
 from gbnbench.analysis.spectrum.evaluators.nufft import transform as nufft
+from gbnbench.analysis.spectrum.evaluators.nufft.limits import DIMENSIONS
 from gbnbench.analysis.spectrum.evaluators.registry import Method, title_of
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.benchmarks.spectra.hard_cases import Frequencies, HardCase, hard_cases
@@ -102,7 +103,7 @@ def _evaluations(
     if has and griddable(case.d, case.reach, precision):
         methods.append("gridded")
     methods.append("numpy")
-    if precision == "double" and case.d <= nufft.DIMENSIONS and nufft.available():
+    if precision == "double" and case.d <= DIMENSIONS and nufft.available():
         methods.append("nufft")
     for way in methods:
         cube = periodogram(x, case.reach, precision, method=way)

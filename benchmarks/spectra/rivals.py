@@ -18,6 +18,7 @@ from gbnbench.analysis.precision import PrecisionName
 from gbnbench.analysis.spectrum.evaluators.cube_product import CubeProduct
 from gbnbench.analysis.spectrum.evaluators.direct_sum import DirectSum
 from gbnbench.analysis.spectrum.evaluators.nufft import transform as nufft
+from gbnbench.analysis.spectrum.evaluators.nufft.limits import DIMENSIONS
 from gbnbench.analysis.spectrum.evaluators.numpy_product.evaluator import NumpyProduct
 from gbnbench.analysis.spectrum.evaluators.protocol import Evaluator
 from gbnbench.analysis.spectrum.evaluators.registry import title_of
@@ -81,7 +82,7 @@ def rivals(n: int, d: int, fmax: int, sets: int, longest: float) -> Iterator[Riv
     yield Rival("numpy separable", "numpy separable", "double", _set_by_set(separable))
     if d >= ZGEMM_FROM:
         yield Rival("zgemm on ready tables", "zgemm on ready tables", "double", _ready)
-    if d <= nufft.DIMENSIONS and nufft.available():
+    if d <= DIMENSIONS and nufft.available():
         for tolerance in TOLERANCES:
             transform = _set_by_set(partial(finufft, tolerance=tolerance))
             yield Rival(f"FINUFFT {tolerance:.0e}".replace("e-0", "e-"), "FINUFFT", "double", transform)

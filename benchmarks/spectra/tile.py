@@ -8,7 +8,9 @@ import numpy as np
 
 from gbnbench.analysis.precision import precision_of
 from gbnbench.analysis.spectrum.digits import cheapest_division
-from gbnbench.analysis.spectrum.evaluators.two_group_product import Group, TwoGroupProduct, rows_of
+from gbnbench.analysis.spectrum.evaluators.frequency_tables import Group
+from gbnbench.analysis.spectrum.evaluators.point_slots import tile_rows
+from gbnbench.analysis.spectrum.evaluators.two_group_product import TwoGroupProduct
 from gbnbench.opencl.peak_rate import fma_peak
 
 N, D, F, SETS = 1024, 2, 64, 16
@@ -24,7 +26,7 @@ def tile_share(precision: str) -> tuple[float, float]:
         Useful flops a second of one core, by CPU time; the best of each.
     """
     p = precision_of(precision)
-    divided = cheapest_division(D, F, rows_of(p))
+    divided = cheapest_division(D, F, tile_rows(p))
     product = TwoGroupProduct(p, N, D, SETS, Group(divided.leading), Group(divided.trailing))
     x = np.random.default_rng(0).random((SETS, N, D))
     count = 0

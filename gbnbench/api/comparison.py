@@ -260,7 +260,15 @@ def compare(
 
 
 def draw(run: Run, folder: Path) -> None:
-    """Write the figures and report.html of a comparison into its folder."""
+    """Write the figures and report.html of a comparison into its folder.
+
+    Parameters
+    ----------
+    run : Run
+        What was measured.
+    folder : Path
+        Where ``figures`` and report.html are made, or replaced.
+    """
     write_figures(run, folder / FIGURES)
     write_report(run, folder / REPORT)
 

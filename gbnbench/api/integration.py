@@ -214,7 +214,15 @@ def integrate(
 
 
 def draw(study: IntegrationStudy, folder: Path) -> None:
-    """Write the picture of a study into its folder, as PNG and PDF."""
+    """Write the picture of a study into its folder, as PNG and PDF.
+
+    Parameters
+    ----------
+    study : IntegrationStudy
+        What was measured.
+    folder : Path
+        Where integration.png and integration.pdf are made, or replaced.
+    """
     drawn = variance.figure(study)
     write_whole(folder / f"{PICTURE}.png", png(drawn))
     write_whole(folder / f"{PICTURE}.pdf", pdf(drawn))

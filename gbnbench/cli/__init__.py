@@ -34,7 +34,15 @@ class CommandsByTask(click.Group):
     """A group whose help shows its commands by what they are for."""
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002
-        """Write a section for each task."""
+        """Write a section for each task.
+
+        Parameters
+        ----------
+        ctx : click.Context
+            Of the command.
+        formatter : click.HelpFormatter
+            Takes the text.
+        """
         width = max(len(str(command.name)) for commands in TASKS.values() for command in commands)
         for task, commands in TASKS.items():
             with formatter.section(task):
@@ -44,7 +52,15 @@ class CommandsByTask(click.Group):
                 )
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Write only the commands: the epilog names the two options."""
+        """Write only the commands: the epilog names the two options.
+
+        Parameters
+        ----------
+        ctx : click.Context
+            Of the command.
+        formatter : click.HelpFormatter
+            Takes the text.
+        """
         self.format_commands(ctx, formatter)
 
 

@@ -69,7 +69,15 @@ def gbn(out: Path, quick: bool, as_json: bool, quiet: bool) -> None:
 
 
 def draw(outcome: Outcome, out: Path) -> None:
-    """Write the picture as PNG and PDF."""
+    """Write the picture as PNG and PDF.
+
+    Parameters
+    ----------
+    outcome : Outcome
+        What was measured.
+    out : Path
+        Folder of the two files.
+    """
     from gbnbench.core.atomic_write import write_whole
     from gbnbench.reports.benchmarks import floor_time
     from gbnbench.reports.comparison.figure_files import pdf, png
@@ -81,7 +89,8 @@ def draw(outcome: Outcome, out: Path) -> None:
 
 def report(outcome: Outcome) -> Iterator[str]:
     """Write what was measured as text, a table a question."""
-    from gbnbench.benchmarks.gbn.floor_time import AUTHORS_FLOOR, MEASURES
+    from gbnbench.benchmarks.gbn.floor_time import MEASURES
+    from gbnbench.generators.gbn.published_quality import AUTHORS_FLOOR
 
     machine = outcome.machine
     yield f"{machine['processor']}, {machine['cores']} cores; {machine['device']}"

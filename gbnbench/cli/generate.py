@@ -17,7 +17,7 @@ from gbnbench.core.errors import InputError
 if TYPE_CHECKING:
     import pandas as pd
 
-    from gbnbench.generators.monitor import Trace, Watch
+    from gbnbench.generators.monitor import Monitor, Trace
 
 PATIENCE = 1.0  # seconds before progress is shown
 
@@ -78,8 +78,8 @@ def generate(
         click.echo(tell(n, d, realizations) if tell else f"{generator.name}: {generator.summary}")
         return
     kept = None if trace is None else Trace(keep_at=spectra_at)
-    with _watched(kept, checkpoint, quiet) as watch:
-        x = draw(name, n=n, d=d, seed=seed, realizations=realizations, watch=watch)
+    with _monitored(kept, checkpoint, quiet) as monitor:
+        x = draw(name, n=n, d=d, seed=seed, realizations=realizations, monitor=monitor)
     replaced = ", replacing what was there" if out.exists() else ""
     save(out, x)
     sets = "1 set" if realizations == 1 else f"{realizations} sets"
@@ -107,10 +107,10 @@ def _check_folder(path: Path | None) -> None:
 
 
 @contextlib.contextmanager
-def _watched(trace: Trace | None, checkpoint: Path | None, quiet: bool) -> Iterator[Watch]:
+def _monitored(trace: Trace | None, checkpoint: Path | None, quiet: bool) -> Iterator[Monitor]:
     """Progress once a draw has taken a second; on being stopped, say how to go on."""
     from gbnbench.execution import progress
-    from gbnbench.generators.monitor import Watch
+    from gbnbench.generators.monitor import Monitor
 
     began = time.monotonic()
     with contextlib.ExitStack() as stack:
@@ -130,7 +130,7 @@ def _watched(trace: Trace | None, checkpoint: Path | None, quiet: bool) -> Itera
             counted = done
 
         try:
-            yield Watch(tell, trace, checkpoint)
+            yield Monitor(tell, trace, checkpoint)
             if shown is not None:
                 shown.advance("done", most - counted)
         except KeyboardInterrupt:

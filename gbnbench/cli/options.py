@@ -17,8 +17,17 @@ class Command(click.Command):
     """A command whose help shows its own options first, then those that many commands have."""
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Write the two sections."""
-        own, shared = [], []
+        """Write the two sections.
+
+        Parameters
+        ----------
+        ctx : click.Context
+            Of the command.
+        formatter : click.HelpFormatter
+            Takes the text.
+        """
+        own: list[tuple[str, str]] = []
+        shared: list[tuple[str, str]] = []
         for parameter in self.get_params(ctx):
             record = parameter.get_help_record(ctx)
             if isinstance(parameter, click.Option) and record is not None:
@@ -76,6 +85,11 @@ def out_folder(text: str, default: str | None = None) -> Callable[[F], F]:
         Help.
     default : str, optional
         Folder that is taken, and shown, when none is given.
+
+    Returns
+    -------
+    callable
+        The decorator of a command.
     """
     return click.option(
         "-o", "--out", metavar="FOLDER", type=click.Path(path_type=Path),
@@ -92,6 +106,11 @@ def out_file(text: str, *, required: bool = False) -> Callable[[F], F]:
         Help.
     required : bool
         Whether the command does nothing without it.
+
+    Returns
+    -------
+    callable
+        The decorator of a command.
     """
     return click.option(
         "-o", "--out", metavar="FILE", type=click.Path(path_type=Path, dir_okay=False), required=required,
@@ -108,6 +127,11 @@ def quick_or_full(text: str, *, default: str) -> Callable[[F], F]:
         Help: what each of the two means.
     default : {"quick", "full"}
         What is done without the option.
+
+    Returns
+    -------
+    callable
+        The decorator of a command.
     """
     return click.option(
         "--quick/--full", "quick", default=default == "quick", help=f"{text}  [default: {default}]"

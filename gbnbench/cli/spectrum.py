@@ -25,14 +25,32 @@ Examples:
 
 
 class Band(click.ParamType[tuple[float, float]]):
-    """Two numbers parted by a comma."""
+    """The least and largest |f| of a band, separated by a comma."""
 
     name = "low,high"
 
     def convert(
         self, value: Any, param: click.Parameter | None, ctx: click.Context | None
     ) -> tuple[float, float]:
-        """Read the text once; click hands back what is read already."""
+        """Read the text.
+
+        Parameters
+        ----------
+        value : str or tuple of float
+            What the user typed; click may hand back what is read already.
+        param, ctx : click.Parameter and click.Context, optional
+            For the message.
+
+        Returns
+        -------
+        tuple of float
+            Least and largest |f|.
+
+        Raises
+        ------
+        click.BadParameter
+            If the text is anything else, or no integer frequency lies between.
+        """
         if isinstance(value, tuple):
             return value
         try:

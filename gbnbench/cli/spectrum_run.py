@@ -1,4 +1,4 @@
-"""What ``gbnbench spectrum`` does once it knows what is asked: reads, plans, finds, writes and tells."""
+"""Work of ``gbnbench spectrum``: reads the sets, plans the spectra, computes them, writes or prints them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ import numpy as np
 from gbnbench.analysis.spectrum.settings import SpectrumSettings
 from gbnbench.cli.json_text import json_text
 from gbnbench.cli.spectrum_output import check_format, places, write
-from gbnbench.cli.spectrum_text import as_record, told
+from gbnbench.cli.spectrum_text import as_record, as_text
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
 from gbnbench.execution import progress
@@ -167,7 +167,7 @@ def compute(
             elif as_json:
                 printed.append(as_record(result, one.label))
             else:
-                click.echo(("\n" if k else "") + told(result, one.label))
+                click.echo(("\n" if k else "") + as_text(result, one.label))
         if as_json:
             click.echo(json_text(printed))
     except KeyboardInterrupt:

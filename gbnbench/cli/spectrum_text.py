@@ -19,8 +19,21 @@ from gbnbench.runs.spectrum_files import columns
 ROWS = 16  # printed
 
 
-def told(result: Spectrum | ShellSpectrum, label: str) -> str:
-    """Say what a file would hold, the numbers of note and the first rows."""
+def as_text(result: Spectrum | ShellSpectrum, label: str) -> str:
+    """Return the headline, the error, floor, power at 1 and peak, and the first rows.
+
+    Parameters
+    ----------
+    result : Spectrum or ShellSpectrum
+        The spectrum.
+    label : str
+        Name of the sets, for the user.
+
+    Returns
+    -------
+    str
+        Lines for a terminal.
+    """
     lines = [headline(result, label), f"  {exactness(result)}"]
     if isinstance(result, Spectrum) and result.frequencies is not None:
         rows = columns(result)
@@ -41,7 +54,20 @@ def told(result: Spectrum | ShellSpectrum, label: str) -> str:
 
 
 def as_record(result: Spectrum | ShellSpectrum, label: str) -> dict[str, Any]:
-    """Return for JSON the label, how it was found, its errors, and a row a shell or listed frequency."""
+    """Return a spectrum for JSON.
+
+    Parameters
+    ----------
+    result : Spectrum or ShellSpectrum
+        The spectrum.
+    label : str
+        Name of the sets, for the user.
+
+    Returns
+    -------
+    dict
+        The label, how it was found, its errors, and ``rows``: one a shell or listed frequency.
+    """
     import pandas as pd
 
     names = ("n", "d", "realizations", "fmax", "precision", "method", "device", "error_rms", "error_bound")
@@ -67,7 +93,20 @@ def _of_note(shells: ShellSpectrum, result: Spectrum | ShellSpectrum) -> list[st
 
 
 def headline(result: Spectrum | ShellSpectrum, label: str) -> str:
-    """Name what was found, and of what points."""
+    """Name the spectrum and its points in one line.
+
+    Parameters
+    ----------
+    result : Spectrum or ShellSpectrum
+        The spectrum.
+    label : str
+        Name of the sets, for the user.
+
+    Returns
+    -------
+    str
+        Such as ``cube |f_a| <= 64, 16,641 frequencies, of mine.txt (n=1,024, d=2)``.
+    """
     mean = f", mean of {result.realizations:,} sets" if result.realizations > 1 else ""
     return f"{_content(result)} of {label} (n={result.n:,}, d={result.d}{mean})"
 

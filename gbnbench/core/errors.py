@@ -6,7 +6,17 @@ from pathlib import Path
 
 
 class GbnbenchError(Exception):
-    """Base of every error that is meant for the user's eyes."""
+    """Base of every error that gbnbench raises on purpose; its text is meant for the user.
+
+    Examples
+    --------
+    >>> import gbnbench
+    >>> try:
+    ...     gbnbench.generate("jittered", n=1000)
+    ... except gbnbench.GbnbenchError as error:
+    ...     print(error)
+    n must be m**2 for a jittered grid; got n=1000, nearest is 1024
+    """
 
 
 class InputError(GbnbenchError, ValueError):

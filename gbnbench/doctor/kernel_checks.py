@@ -12,9 +12,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from gbnbench.analysis.precision import PrecisionName
+from gbnbench.analysis.spectrum.evaluators.gridded.product import griddable
+from gbnbench.analysis.spectrum.periodogram import periodogram
+from gbnbench.analysis.spectrum.shell_spectrum import shells
 from gbnbench.core.errors import GbnbenchError
 from gbnbench.core.torus import displacement
 from gbnbench.doctor.numpy_references import numpy_box_gradient, numpy_gradient, numpy_power
+from gbnbench.generators.fpo.relocation import Sweeps, move_afresh
+from gbnbench.generators.gbn.box import BoxEnergy
+from gbnbench.generators.gbn.energy import energy_evaluation
+from gbnbench.generators.gbn.plan import plan_energy
 from gbnbench.opencl import Device, choose
 
 # n, d, fmax: none a multiple of a vector, a tile or a chunk.
@@ -95,10 +102,6 @@ class Examination:
 
 
 def _periodogram(n: int, d: int, fmax: int, precision: PrecisionName) -> Iterator[Check]:
-    from gbnbench.analysis.spectrum.evaluators.gridded.product import griddable
-    from gbnbench.analysis.spectrum.periodogram import periodogram
-    from gbnbench.analysis.spectrum.shell_spectrum import shells
-
     x = np.random.default_rng(n).random((n, d))
     base = 2 * fmax + 1
     f = np.stack(np.unravel_index(np.arange(base**d), (base,) * d), axis=1).astype(np.int64) - fmax
@@ -122,14 +125,11 @@ def _periodogram(n: int, d: int, fmax: int, precision: PrecisionName) -> Iterato
 
 
 def _energy(n: int, d: int, sigma: float, precision: str) -> Iterator[Check]:
-    from gbnbench.generators.gbn.energy import field
-    from gbnbench.generators.gbn.plan import plan
-
     x = np.random.default_rng(n).random((2, n, d))
     expected = np.stack([numpy_gradient(one, sigma) for one in x])
-    found = plan(n, d, sigma, precision)
+    found = plan_energy(n, d, sigma, precision)
     for method in sorted(c.method for c in (found.chosen, *found.others)):
-        gradient = field(n, d, sigma, precision, method=method)(x).gradient
+        gradient = energy_evaluation(n, d, sigma, precision, method=method)(x).gradient
         error = float(np.max(np.abs(gradient - expected)) / np.max(np.abs(expected)))
         yield Check(
             f"gbn gradient, {method}", f"n={n} d={d} sigma={sigma}", precision, error, GRADIENT[precision]
@@ -137,20 +137,16 @@ def _energy(n: int, d: int, sigma: float, precision: str) -> Iterator[Check]:
 
 
 def _box(n: int, d: int, sigma: float, precision: str) -> Iterator[Check]:
-    from gbnbench.generators.gbn.box import BoxField
-
     x = np.random.default_rng(n).random((2, n, d))
     expected = np.stack([numpy_box_gradient(one, sigma) for one in x])
-    field = BoxField(n, d, sigma, precision)
-    error = float(np.max(np.abs(field(x).gradient - expected)) / np.max(np.abs(expected)))
+    box = BoxEnergy(n, d, sigma, precision)
+    error = float(np.max(np.abs(box(x).gradient - expected)) / np.max(np.abs(expected)))
     yield Check(
-        f"gbn gradient, {field.method}", f"n={n} d={d} sigma={sigma}", precision, error, GRADIENT[precision]
+        f"gbn gradient, {box.method}", f"n={n} d={d} sigma={sigma}", precision, error, GRADIENT[precision]
     )
 
 
 def _farthest_points(n: int, precision: str) -> Iterator[Check]:
-    from gbnbench.generators.fpo.relocation import Sweeps, move_afresh
-
     x = np.random.default_rng(n).random((n, 2))
     work = Sweeps(x[None])
     work.sweep(np.array([True]))

@@ -7,8 +7,12 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from gbnbench.analysis.measure_definitions import DEFINITIONS
+from gbnbench.analysis.measures import measures
+from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
+from gbnbench.generators.gbn import energy
+from gbnbench.generators.registry import generate
 from gbnbench.regression.cases import Case, Values
 
 LISTED = 4  # points whose gradient a field's case lists
@@ -106,18 +110,13 @@ def lattice(n: int, d: int) -> tuple[FloatArray, int]:
 
 
 def _sets(case: Case, seed: int) -> Mapping[str, Values]:
-    from gbnbench.analysis.measures import measures
-    from gbnbench.generators.registry import generate
-
     x = generate(case.generator, case.n, case.d, seed, case.realizations)
     return {name: (value,) for name, value in measures(x).items()}
 
 
 def _field(case: Case, seed: int) -> Mapping[str, Values]:
-    from gbnbench.generators.gbn import energy
-
     x = fixed_points(case.n, case.d, seed)
-    at = energy.field(case.n, case.d, case.sigma, case.precision)(x[None])
+    at = energy.energy_evaluation(case.n, case.d, case.sigma, case.precision)(x[None])
     return {
         "excess": (float(at.excess[0]),),
         "gradient": tuple(listed(at.gradient[0]).tolist()),
@@ -126,8 +125,6 @@ def _field(case: Case, seed: int) -> Mapping[str, Values]:
 
 
 def _lattice(case: Case, seed: int) -> Mapping[str, Values]:  # noqa: ARG001 - there is nothing random in it
-    from gbnbench.analysis.spectrum.periodogram import periodogram
-
     x, m = lattice(case.n, case.d)
     fmax = PERIODS * m
     power = periodogram(x, fmax, "double" if case.precision == "double" else "float").power

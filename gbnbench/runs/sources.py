@@ -19,6 +19,8 @@ from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.settings import specification
 from gbnbench.core.torus import FloatArray, as_realizations
 from gbnbench.generators.protocol import Generator
+from gbnbench.generators.registry import GENERATORS, find, of_instance
+from gbnbench.io.points import read
 
 SUFFIXES = (".txt", ".dat", ".rps", ".eps", ".csv", ".npy", ".npz")  # what a folder's point sets end in
 DEFAULT_SOURCES = ("random", "jittered", "sobol", "lloyd", "fpo", "gbn")
@@ -58,8 +60,6 @@ class Source:
 
     def identity(self) -> dict[str, Any]:
         """Return what decides its points, JSON-ready: sources of equal identity give equal results."""
-        from gbnbench.generators.registry import GENERATORS
-
         same = {
             "key": self.key, "label": self.label, "n": self.n, "d": self.d, "realizations": self.realizations
         }  # fmt: skip
@@ -133,8 +133,6 @@ def resolve(
     RefusalError
         If nothing remains.
     """
-    from gbnbench.generators.registry import of_instance
-
     for argument, values in (("n", n), ("d", d), ("realizations", (realizations,))):
         if bad := [v for v in values if v < 1]:
             raise InputError(f"{argument} must be at least 1; got {bad[0]}")
@@ -173,8 +171,6 @@ def resolve(
 
 def _generator(name: str) -> Generator | None:
     """Parse a generator's text; None where name is an existing path instead."""
-    from gbnbench.generators.registry import GENERATORS, find
-
     base = name.partition("[")[0].strip()
     if base in GENERATORS:
         return find(name)
@@ -195,8 +191,6 @@ def _title(path: Path) -> str:
 
 def _read(path: Path, title: str) -> list[Source]:
     """Read the sets of a file or folder, a source for each (n, d) among them."""
-    from gbnbench.io.points import read
-
     files = [path]
     if path.is_dir():
         files = sorted(

@@ -35,7 +35,17 @@ class Halton:
     summary: ClassVar[str] = "Halton sequence with randomly permuted digits (Owen 2017)"
 
     def refusal(self, n: int, d: int) -> str | None:  # noqa: ARG002 (the protocol's arguments)
-        """None: any n and d can be made."""
+        """Say that any n and d can be made: there is no refusal.
+
+        Parameters
+        ----------
+        n, d : int
+            Points and dimension.
+
+        Returns
+        -------
+        None
+        """
         return None
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:

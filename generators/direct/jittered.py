@@ -34,7 +34,18 @@ class Jittered:
     summary: ClassVar[str] = "one uniform point in each cell of a grid of m**d (Cook 1986)"
 
     def refusal(self, n: int, d: int) -> str | None:
-        """Why n is not m**d, with the nearest that is."""
+        """Say why n is not m**d, with the nearest number that is.
+
+        Parameters
+        ----------
+        n, d : int
+            Points and dimension.
+
+        Returns
+        -------
+        str or None
+            The reason, with the nearest numbers that can; None where they can.
+        """
         return grid_refusal("a jittered grid", n, d)
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:

@@ -77,7 +77,18 @@ class Sobol:
     )
 
     def refusal(self, n: int, d: int) -> str | None:
-        """Why n or d is beyond the direction numbers at hand, with the most that is not."""
+        """Say why n or d is beyond the direction numbers at hand, with the largest that is not.
+
+        Parameters
+        ----------
+        n, d : int
+            Points and dimension.
+
+        Returns
+        -------
+        str or None
+            The reason, with the nearest numbers that can; None where they can.
+        """
         if d > MOST_DIMENSIONS:
             return f"d must be at most {MOST_DIMENSIONS} for Sobol points; got d={d}"
         if n > 2**MOST_BITS:

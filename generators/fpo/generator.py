@@ -91,7 +91,18 @@ class FarthestPoint:
             raise InputError(f"starts must be at least 1; got {self.starts}")
 
     def refusal(self, n: int, d: int) -> str | None:
-        """Why not: d other than 2, or n < 1."""
+        """Say why not: d is other than 2, or n < 1.
+
+        Parameters
+        ----------
+        n, d : int
+            Points and dimension.
+
+        Returns
+        -------
+        str or None
+            The reason, with the nearest numbers that can; None where they can.
+        """
         if d != 2:
             return f"fpo works on 2D Delaunay triangulations; got d={d}, use d=2"
         if n < 1:
@@ -161,7 +172,7 @@ class FarthestPoint:
         ]
 
     def _settled(self, history: FloatArray) -> bool:
-        """Whether the stop rule holds for minimum distances in densest spacings, start first."""
+        """Tell whether the stop rule holds for minimum distances in densest spacings, start first."""
         if len(history) <= WINDOW:
             return False
         gain = history[-1] - history[-1 - WINDOW]

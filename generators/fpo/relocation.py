@@ -147,7 +147,22 @@ class Sweeps:
 
 
 def move_afresh(x: FloatArray, v: int) -> tuple[bool, float]:
-    """Move point v of x (n, 2) in place; return whether it moved and how wide the largest gap was."""
+    """Move one point of a set to the farthest place from all others, where that is farther than its own.
+
+    Parameters
+    ----------
+    x : (n, 2) float64
+        Points; changed in place.
+    v : int
+        The point that moves.
+
+    Returns
+    -------
+    moved : bool
+        Whether the point was moved.
+    radius : float
+        Distance of the farthest place from the nearest of the other points.
+    """
     rest = np.delete(x, v, axis=0)
     if len(rest) == 0:
         return False, 1.0

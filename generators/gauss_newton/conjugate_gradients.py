@@ -11,14 +11,34 @@ from gbnbench.generators.gauss_newton.wave_sums import ComplexArray
 
 
 def inner(a: ComplexArray, b: ComplexArray) -> float:
-    """Re(conj(a) b) summed, in an order that does not depend on the number of threads."""
+    """Return the real inner product, Re(conj(a) b) summed, in an order that no number of threads changes.
+
+    Parameters
+    ----------
+    a, b : (m,) complex128
+
+    Returns
+    -------
+    float
+    """
     return float(np.sum(a.real * b.real) + np.sum(a.imag * b.imag))
 
 
 def solve(
     product: Callable[[ComplexArray], ComplexArray], b: ComplexArray, tolerance: float, limit: int
 ) -> tuple[ComplexArray, int]:
-    """Solve product(y) = b to |residual| <= tolerance |b|, or as near as limit products come.
+    """Solve product(y) = b until the residual is at most tolerance |b|, or the products are used up.
+
+    Parameters
+    ----------
+    product : callable
+        Linear, symmetric and positive semidefinite in Re(conj(y) z).
+    b : (m,) complex128
+        Right-hand side.
+    tolerance : float
+        Of the residual, relative to b.
+    limit : int
+        Most products.
 
     Returns
     -------
@@ -47,7 +67,20 @@ def solve(
 
 
 def forcing(now: float, before: float, last: float) -> float:
-    """Tolerance of the next step's solution: the second choice of Eisenstat & Walker (1996), 1e-5 to 0.1."""
+    """Choose the tolerance of the next linear solve by the second choice of Eisenstat & Walker (1996).
+
+    Parameters
+    ----------
+    now, before : float
+        Norm of the residual at this step and at the last; before is inf at the first.
+    last : float
+        The last tolerance.
+
+    Returns
+    -------
+    float
+        1e-5 to 0.1.
+    """
     if not math.isfinite(before):
         return 0.1
     choice = 0.9 * (now / before) ** 2

@@ -12,13 +12,14 @@ from typing import Protocol
 import numpy as np
 from scipy import fft
 
+from gbnbench.core.integer_frequencies import IntArray, half_ball
 from gbnbench.core.torus import FloatArray
-from gbnbench.generators.gauss_newton.modes import IntArray, Modes, half_ball
-from gbnbench.generators.gauss_newton.product_cost import by_transforms
-from gbnbench.generators.gauss_newton.wave_sums import ComplexArray, Waves
+from gbnbench.generators.gauss_newton.modes import Modes
+from gbnbench.generators.gauss_newton.product_cost import convolutions_are_cheaper
+from gbnbench.generators.gauss_newton.wave_sums import ComplexArray, WaveSums
 
 
-class Gram(Protocol):
+class GramProduct(Protocol):
     """Multiplies amplitudes below the edge by J J^T at one set of points."""
 
     method: str
@@ -28,11 +29,25 @@ class Gram(Protocol):
         ...
 
 
-def gram(x: FloatArray, modes: Modes, waves: Waves) -> Gram:
-    """Choose the cheaper of the two products: by transforms, or by sums over the points."""
-    if by_transforms(modes.n, modes.d, int(modes.square.max())):
-        return Convolution(x, modes)
-    return Points(modes, waves)
+def gram_product(x: FloatArray, modes: Modes, waves: WaveSums) -> GramProduct:
+    """Choose the cheaper of the two products: by transforms, or by sums over the points.
+
+    Parameters
+    ----------
+    x : (n, d) float64
+        Points, box sides.
+    modes : Modes
+        Frequencies below the edge.
+    waves : WaveSums
+        Their sums at x.
+
+    Returns
+    -------
+    GramProduct
+    """
+    if convolutions_are_cheaper(modes.n, modes.d, int(modes.square.max())):
+        return Convolutions(x, modes)
+    return PointSums(modes, waves)
 
 
 def _side(reach: int) -> int:
@@ -40,24 +55,24 @@ def _side(reach: int) -> int:
     return int(fft.next_fast_len(4 * reach + 1, real=True))
 
 
-class Points:
+class PointSums:
     """J J^T as J times (J^T times a vector), two sums over the points; best for few points of many axes."""
 
     method = "sums over points"
 
-    def __init__(self, modes: Modes, waves: Waves) -> None:
+    def __init__(self, modes: Modes, waves: WaveSums) -> None:
         self._waves = waves
         self._side = math.pow(modes.n, 1 / modes.d)
         self._scale = 1 / (math.sqrt(modes.n) * modes.length)
 
     def __call__(self, y: ComplexArray) -> ComplexArray:
-        """Multiply; see ``Gram``."""
+        """Multiply; see ``GramProduct``."""
         move = self._waves.gradient(self._scale * y, self._side)
         out: ComplexArray = -1j * self._scale * self._waves.divergence(move, self._side)
         return out
 
 
-class Convolution:
+class Convolutions:
     """J J^T by 2 d real Fourier transforms on a grid, from the amplitudes up to twice the edge.
 
     Those amplitudes are summed in single precision, so the product is right to about 1e-6.
@@ -72,16 +87,16 @@ class Convolution:
         self._direction = modes.direction
         self._places = _Places(modes.f, self._shape)
         # Differences of frequencies below the edge
-        doubled = half_ball(4 * int(modes.square.max()), d)
+        doubled = half_ball(d, 4 * int(modes.square.max()))
         doubled = doubled[np.abs(doubled).max(axis=1) <= 2 * reach]
         places = _Places(doubled, self._shape)
-        amplitudes = Waves(x, doubled, single=True).amplitudes()
+        amplitudes = WaveSums(x, doubled, single=True).amplitudes()
         spectrum = places.spread(amplitudes / (2 * n))
         spectrum[(0,) * d] = 0.5
         self._density = fft.irfftn(spectrum, self._shape, norm="forward", overwrite_x=True)
 
     def __call__(self, y: ComplexArray) -> ComplexArray:
-        """Multiply; see ``Gram``."""
+        """Multiply; see ``GramProduct``."""
         out = np.zeros_like(y)
         for along in self._direction.T:
             wave = fft.irfftn(self._places.spread(1j * along * y), self._shape, overwrite_x=True)
@@ -102,8 +117,7 @@ class _Places:
         self._mirror = self._flat(-f[self._plane], shape)
 
     def _flat(self, f: IntArray, shape: tuple[int, ...]) -> IntArray:
-        flat: IntArray = np.ravel_multi_index(tuple(np.mod(f, shape).T), self._half)
-        return flat
+        return np.asarray(np.ravel_multi_index(tuple(np.mod(f, shape).T), self._half), dtype=np.int64)
 
     def spread(self, y: ComplexArray) -> ComplexArray:
         spectrum = np.zeros(math.prod(self._half), np.complex128)

@@ -1,10 +1,10 @@
-"""What reaching amplitudes costs, before anything is listed: multiplications and additions of a product."""
+"""The cost of a Gauss-Newton solution, estimated before anything is listed: multiplications and additions."""
 
 from __future__ import annotations
 
 import math
 
-from gbnbench.generators.gauss_newton.modes import count, squared_reach
+from gbnbench.generators.gauss_newton.modes import ball_count, largest_square
 
 TRANSFORM = 5.0  # a real transform's operations over N log2 N, in the time of a matrix product's; measured
 LARGEST_GRID = 2**28  # 2 GB; two or three are alive at once
@@ -12,44 +12,105 @@ STEPS, PRODUCTS = 8, 300  # of a typical set
 WORK = 5e14  # most operations: some hours; a million points in the plane come to half of it
 
 
-def tables(n: int, d: int, reach: int) -> float:
-    """Operations of one sum over n points of all waves with |f|**2 <= reach."""
+def wave_sum_operations(n: int, d: int, square: int) -> float:
+    """Count the operations of one sum over n points of all waves with |f|**2 <= square.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    square : int
+        Largest |f|**2.
+
+    Returns
+    -------
+    float
+    """
     lead = math.ceil(d / 2)
-    return 2.0 * n * (count(reach, lead) + 2) * (count(reach, d - lead) + 2)
+    return 2.0 * n * (ball_count(lead, square) + 2) * (ball_count(d - lead, square) + 2)
 
 
-def transforms(d: int, reach: int) -> float:
-    """Operations of one product with the Gram matrix by convolutions; inf where the grid is too large."""
-    side = 4.0 * math.isqrt(reach) + 1
+def convolution_operations(d: int, square: int) -> float:
+    """Count the operations of one product with the Gram matrix by convolutions.
+
+    Parameters
+    ----------
+    d : int
+        Dimension.
+    square : int
+        Largest |f|**2.
+
+    Returns
+    -------
+    float
+        inf where the grid is too large.
+    """
+    side = 4.0 * math.isqrt(square) + 1
     if d * math.log(side) > math.log(LARGEST_GRID):
         return math.inf
     return 2 * d * TRANSFORM * side**d * math.log2(side**d)
 
 
-def by_transforms(n: int, d: int, reach: int) -> bool:
-    """Whether convolutions are the cheaper product."""
-    return transforms(d, reach) < 4 * tables(n, d, reach)
+def convolutions_are_cheaper(n: int, d: int, square: int) -> bool:
+    """Tell whether convolutions are the cheaper product.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    square : int
+        Largest |f|**2.
+
+    Returns
+    -------
+    bool
+    """
+    return convolution_operations(d, square) < 4 * wave_sum_operations(n, d, square)
 
 
-def work(n: int, d: int, edge: float) -> float:
-    """Operations of a typical run of ``reach``; 1e10 a second is a slow processor.
+def solver_operations(n: int, d: int, edge: float) -> float:
+    """Count the operations of a typical run of ``solve_for_amplitudes``; a slow processor does 1e10 a second.
 
     Each step sums the amplitudes once and the displacement twice, and for convolutions the amplitudes up to
     twice the edge in single precision.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    edge : float
+        In nu.
+
+    Returns
+    -------
+    float
     """
-    reach = squared_reach(n, d, edge)
-    if reach == 0:
+    square = largest_square(n, d, edge)
+    if square == 0:
         return 0.0
-    product, step = 4 * tables(n, d, reach), 3 * tables(n, d, reach)
-    if transforms(d, reach) < product:
-        product = transforms(d, reach)
-        step += tables(n, d, 4 * reach) / 2
+    product, step = 4 * wave_sum_operations(n, d, square), 3 * wave_sum_operations(n, d, square)
+    if convolution_operations(d, square) < product:
+        product = convolution_operations(d, square)
+        step += wave_sum_operations(n, d, 4 * square) / 2
     return STEPS * step + PRODUCTS * product
 
 
-def too_much(n: int, d: int, edge: float) -> str | None:
-    """Why a run would be too long; None where it is not."""
-    operations = work(n, d, edge)
+def too_long(n: int, d: int, edge: float) -> str | None:
+    """Say why a run would take too long.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    edge : float
+        In nu.
+
+    Returns
+    -------
+    str or None
+        The reason; None where it does not.
+    """
+    operations = solver_operations(n, d, edge)
     if operations <= WORK:
         return None
     return (

@@ -15,18 +15,23 @@ import numpy as np
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.gauss_newton.conjugate_gradients import forcing, inner, solve
-from gbnbench.generators.gauss_newton.gram_matrix import gram
-from gbnbench.generators.gauss_newton.modes import Modes, modes
-from gbnbench.generators.gauss_newton.targets import Target, aims, rounding, target_power
-from gbnbench.generators.gauss_newton.wave_sums import ComplexArray, Waves
+from gbnbench.generators.gauss_newton.gram_matrix import gram_product
+from gbnbench.generators.gauss_newton.modes import Modes, modes_below
+from gbnbench.generators.gauss_newton.targets import (
+    TargetPower,
+    rounding_error,
+    target_amplitudes,
+    target_power,
+)
+from gbnbench.generators.gauss_newton.wave_sums import ComplexArray, WaveSums
 
 LONGEST = 0.5  # spacings: cap of one step's longest displacement
 HALVINGS = 6  # of a step before a start is given up
 
 
 @dataclass(frozen=True)
-class Outcome:
-    """What ``reach`` came to.
+class AmplitudeSolution:
+    """The result of ``solve_for_amplitudes``.
 
     Attributes
     ----------
@@ -52,16 +57,16 @@ class Outcome:
     reason: str = ""
 
 
-def reach(
+def solve_for_amplitudes(
     x: FloatArray,
-    target: Target | float,
+    target: TargetPower | float,
     edge: float,
     *,
     tolerance: float = 1e-3,
     steps: int = 40,
     products: int = 3000,
     progress: Callable[[int, float], None] | None = None,
-) -> Outcome:
+) -> AmplitudeSolution:
     """Move points so that their power below an edge follows a target, by the shortest steps that do.
 
     Parameters
@@ -80,7 +85,7 @@ def reach(
     products : int
         Most products of one step.
     progress : callable, optional
-        Called with the step's number and the residual, as in ``Outcome``.
+        Called with the step's number and the residual, as in ``AmplitudeSolution``.
 
     Returns
     -------
@@ -96,43 +101,45 @@ def reach(
         if not (math.isfinite(value) and value > 0):
             raise InputError(f"{name} must be positive and finite; got {value}")
     n, d = x.shape
-    below = modes(n, d, edge)
+    below = modes_below(n, d, edge)
     if not len(below):
-        return Outcome(wrap(x), 0.0, 0, 0, True)
-    run = _Run(below, target, tolerance, x)
-    return run.to_the_end(steps, products, progress)
+        return AmplitudeSolution(wrap(x), 0.0, 0, 0, True)
+    run = _Iteration(below, target, tolerance, x)
+    return run.run(steps, products, progress)
 
 
-class _State:
+class _Iterate:
     """Points with what is known of them."""
 
-    def __init__(self, run: _Run, x: FloatArray) -> None:
+    def __init__(self, run: _Iteration, x: FloatArray) -> None:
         self.x = x
-        self.waves = Waves(x, run.modes.f)
+        self.waves = WaveSums(x, run.modes.f)
         self.amplitudes = self.waves.amplitudes()
 
-    def measure(self, run: _Run) -> None:
+    def measure(self, run: _Iteration) -> None:
         missing = run.aim - self.amplitudes
         self.residual = float(np.max(np.abs(missing) / run.allowed))
         self.missing: ComplexArray = missing * run.scale
         self.norm = math.sqrt(inner(self.missing, self.missing))
 
 
-class _Run:
+class _Iteration:
     """One descent of the residual."""
 
-    def __init__(self, below: Modes, target: Target | float, tolerance: float, x: FloatArray) -> None:
+    def __init__(self, below: Modes, target: TargetPower | float, tolerance: float, x: FloatArray) -> None:
         self.modes = below
         self.side = math.pow(below.n, 1 / below.d)
         power = target_power(target, below)
         root = math.sqrt(below.n)
-        self.allowed = root * (tolerance * np.sqrt(power) + rounding(below))
+        self.allowed = root * (tolerance * np.sqrt(power) + rounding_error(below))
         self.scale = 1 / (root * below.length)
-        self.state = _State(self, wrap(x))
-        self.aim = aims(self.state.amplitudes, below, power)
+        self.state = _Iterate(self, wrap(x))
+        self.aim = target_amplitudes(self.state.amplitudes, below, power)
         self.state.measure(self)
 
-    def to_the_end(self, steps: int, products: int, progress: Callable[[int, float], None] | None) -> Outcome:
+    def run(
+        self, steps: int, products: int, progress: Callable[[int, float], None] | None
+    ) -> AmplitudeSolution:
         """Step until converged, stalled or out of steps."""
         taken, before, last = 0, math.inf, 0.1
         for step in range(steps + 1):
@@ -140,19 +147,19 @@ class _Run:
             if progress is not None:
                 progress(step, now.residual)
             if now.residual <= 1:
-                return Outcome(now.x, now.residual, step, taken, True)
+                return AmplitudeSolution(now.x, now.residual, step, taken, True)
             if step == steps:
                 break
             last = forcing(now.norm, before, last)
             before = now.norm
-            product = gram(now.x, self.modes, now.waves)
+            product = gram_product(now.x, self.modes, now.waves)
             y, used = solve(product, now.missing, last, products)
             taken += used
             if not self._step(y, last):
                 reason = f"no part of step {step + 1} brings the amplitudes nearer to their targets"
-                return Outcome(now.x, now.residual, step, taken, False, reason)
+                return AmplitudeSolution(now.x, now.residual, step, taken, False, reason)
         reason = f"the amplitudes are not at their targets after {steps} steps"
-        return Outcome(self.state.x, self.state.residual, steps, taken, False, reason)
+        return AmplitudeSolution(self.state.x, self.state.residual, steps, taken, False, reason)
 
     def _step(self, y: ComplexArray, forced: float) -> bool:
         """Take as much of the step as lowers the residual; False where no part does."""
@@ -160,7 +167,7 @@ class _Run:
         longest = math.sqrt(float(np.max(np.sum(move**2, axis=1))))
         share = min(1.0, LONGEST / longest) if longest > 0 else 1.0
         for _ in range(HALVINGS + 1):
-            tried = _State(self, wrap(self.state.x + share * move / self.side))
+            tried = _Iterate(self, wrap(self.state.x + share * move / self.side))
             tried.measure(self)
             if tried.norm <= (1 - 0.1 * share * (1 - forced)) * self.state.norm or tried.residual <= 1:
                 self.state = tried

@@ -1,4 +1,4 @@
-"""Amplitudes to reach: those of the start, scaled ring by ring to a target power, their spread kept."""
+"""Target amplitudes: those of the start, scaled ring by ring to a target power; their spread is kept."""
 
 from __future__ import annotations
 
@@ -12,12 +12,23 @@ from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gauss_newton.modes import Modes
 from gbnbench.generators.gauss_newton.wave_sums import ComplexArray
 
-Target = Callable[[FloatArray], FloatArray]
+TargetPower = Callable[[FloatArray], FloatArray]
 PASSES = 4  # corrections of the start's profile by its rings' means
 
 
-def target_power(target: Target | float, modes: Modes) -> FloatArray:
-    """Power asked for at each mode, (m,).
+def target_power(target: TargetPower | float, modes: Modes) -> FloatArray:
+    """Evaluate a target at each mode.
+
+    Parameters
+    ----------
+    target : callable or float
+        Power as a function of nu, or one power for all.
+    modes : Modes
+        Frequencies below the edge.
+
+    Returns
+    -------
+    (m,) float64
 
     Raises
     ------
@@ -36,12 +47,24 @@ def target_power(target: Target | float, modes: Modes) -> FloatArray:
     return power
 
 
-def profile(amplitudes: ComplexArray, modes: Modes) -> FloatArray:
-    """Smooth radial power of one set at each mode, (m,), all > 0.
+def smooth_radial_power(amplitudes: ComplexArray, modes: Modes) -> FloatArray:
+    """Smooth the radial power of one set, and give it at each mode.
 
     Means over rings one unit of |f| wide, joined by straight lines in ln P over nu, and corrected by the
     rings' means of what they leave: the profile is steep within a ring. Exact shells would be too narrow: the
     mean of two or four amplitudes takes away a good part of their spread.
+
+    Parameters
+    ----------
+    amplitudes : (m,) complex128
+        Of the set.
+    modes : Modes
+        Their frequencies.
+
+    Returns
+    -------
+    (m,) float64
+        All > 0.
     """
     power = np.maximum(np.abs(amplitudes) ** 2 / modes.n, 1e-300)
     ring = np.rint(np.sqrt(modes.square)).astype(np.int64)
@@ -56,7 +79,7 @@ def profile(amplitudes: ComplexArray, modes: Modes) -> FloatArray:
     return smooth_power
 
 
-def aims(amplitudes: ComplexArray, modes: Modes, power: FloatArray) -> ComplexArray:
+def target_amplitudes(amplitudes: ComplexArray, modes: Modes, power: FloatArray) -> ComplexArray:
     """Scale the amplitudes so that their smooth radial power becomes ``power``; phase and spread are kept.
 
     Parameters
@@ -67,12 +90,16 @@ def aims(amplitudes: ComplexArray, modes: Modes, power: FloatArray) -> ComplexAr
         Their frequencies.
     power : (m,) float64
         Target, >= 0.
+
+    Returns
+    -------
+    (m,) complex128
     """
-    scaled: ComplexArray = amplitudes * np.sqrt(power / profile(amplitudes, modes))
+    scaled: ComplexArray = amplitudes * np.sqrt(power / smooth_radial_power(amplitudes, modes))
     return scaled
 
 
-def rounding(modes: Modes) -> FloatArray:
+def rounding_error(modes: Modes) -> FloatArray:
     """Error of each amplitude over sqrt(n) that rounding the coordinates to double can leave, (m,).
 
     A coordinate errs by 2**-53 / sqrt(12) of the box, a wave by 2 pi |f| times that, and so does their sum

@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gbnbench.core.integer_frequencies import IntArray
 from gbnbench.core.torus import FloatArray
-from gbnbench.generators.gauss_newton.modes import IntArray
 
 ComplexArray = NDArray[np.complex128]
 BLOCK = 2**20  # entries of the two tables of one block of points
@@ -23,7 +23,7 @@ TILE = 64  # side of what BLAS multiplies at once
 SPLIT = 2.0**26  # a coordinate's leading bits, whose product with a frequency below 2**27 is exact
 
 
-class Waves:
+class WaveSums:
     """The waves exp(2 pi i f.x) of listed frequencies at the points x.
 
     Parameters
@@ -46,10 +46,10 @@ class Waves:
         self.lead = math.ceil(x.shape[1] / 2)
         self._kind: type[Any] = np.complex64 if single else np.complex128
         self._real: type[Any] = np.float32 if single else np.float64
-        self._first, self._row = _distinct(f[:, : self.lead])
+        self._first, self._row = _distinct_rows(f[:, : self.lead])
         trailing = f[:, self.lead :]
         self._sign = _signs(trailing)
-        self._second, self._column = _distinct(trailing * self._sign[:, None])
+        self._second, self._column = _distinct_rows(trailing * self._sign[:, None])
         self.shape = 2 * len(self._first), 2 * len(self._second)
         width = len(self._first) + len(self._second)
         self._size = max(64, BLOCK // width)
@@ -64,7 +64,20 @@ class Waves:
         return self._gather(sums, self._sign)
 
     def gradient(self, y: ComplexArray, side: float) -> FloatArray:
-        """Return the gradient at each point of sum_f Re(y_f exp(i q.u)), u = x side, (n, d)."""
+        """Return the gradient at each point of sum_f Re(y_f exp(i q.u)), u being x in spacings.
+
+        Parameters
+        ----------
+        y : (m,) complex128
+            Weights of the waves.
+        side : float
+            Of the box, in spacings.
+
+        Returns
+        -------
+        (n, d) float64
+            Per spacing.
+        """
         weights = np.zeros(self.shape)
         for sign in (1, -1):  # within one sign no place comes twice
             some = self._sign == sign
@@ -78,14 +91,26 @@ class Waves:
         turn = 2 * math.pi / side
         for block, first, second in self._blocks():
             beside = _product(second.view(self._real), weights.T).view(self._kind)
-            out[block, : self.lead] = _combine((np.conj(first) * beside).imag, turn * self._first)
+            out[block, : self.lead] = _combine(np.imag(np.conj(first) * beside), turn * self._first)
             if self.lead < self.x.shape[1]:
                 beside = _product(first.view(self._real), weights).view(self._kind)
-                out[block, self.lead :] = _combine((np.conj(second) * beside).imag, turn * self._second)
+                out[block, self.lead :] = _combine(np.imag(np.conj(second) * beside), turn * self._second)
         return out
 
     def divergence(self, move: FloatArray, side: float) -> ComplexArray:
-        """Return sum_k (q.move_k) exp(-i q.u_k), (m,): the transpose of ``gradient``."""
+        """Return sum_k (q.move_k) exp(-i q.u_k), the transpose of ``gradient``.
+
+        Parameters
+        ----------
+        move : (n, d) float64
+            Displacements, in spacings.
+        side : float
+            Of the box, in spacings.
+
+        Returns
+        -------
+        (m,) complex128
+        """
         leading, trailing = np.zeros(self.shape), np.zeros(self.shape)
         turn = 2 * math.pi / side
         for block, first, second in self._blocks():
@@ -127,24 +152,35 @@ class Waves:
         """Multiply the waves of each axis: (points, m)."""
         table = np.ones((len(x), len(f)), np.complex128)
         for a in range(x.shape[1]):
-            axis = harmonics(x[:, a], int(np.abs(f[:, a]).max()))
+            axis = axis_waves(x[:, a], int(np.abs(f[:, a]).max()))
             table *= axis[:, f[:, a]]  # a negative frequency indexes from the end
         return table.astype(self._kind)
 
 
-def harmonics(x: FloatArray, reach: int) -> ComplexArray:
-    """exp(2 pi i f x) for f = 0..reach, then -reach..-1: (points, 2 reach + 1), to a few roundings.
+def axis_waves(x: FloatArray, fmax: int) -> ComplexArray:
+    """Evaluate exp(2 pi i f x) for f = 0..fmax, then -fmax..-1, to a few roundings.
 
-    Two levels, f = coarse j + i, take a sine and a cosine for about 2 sqrt(reach) multiples of x alone.
+    Two levels, f = coarse j + i, take a sine and a cosine for about 2 sqrt(fmax) multiples of x alone.
+
+    Parameters
+    ----------
+    x : (n,) float64
+        Coordinates on one axis, box sides.
+    fmax : int
+        Highest frequency.
+
+    Returns
+    -------
+    (n, 2 fmax + 1) complex128
     """
-    coarse = math.isqrt(reach) + 1
-    fine = _turned(x, np.arange(coarse))
-    steps = _turned(x, np.arange(0, reach + 1, coarse))
-    up = (steps[:, :, None] * fine[:, None, :]).reshape(len(x), -1)[:, : reach + 1]
+    coarse = math.isqrt(fmax) + 1
+    fine = _sines_and_cosines(x, np.arange(coarse))
+    steps = _sines_and_cosines(x, np.arange(0, fmax + 1, coarse))
+    up = (steps[:, :, None] * fine[:, None, :]).reshape(len(x), -1)[:, : fmax + 1]
     return np.concatenate([up, np.conj(up[:, :0:-1])], axis=1)
 
 
-def _turned(x: FloatArray, f: IntArray) -> ComplexArray:
+def _sines_and_cosines(x: FloatArray, f: IntArray) -> ComplexArray:
     head = np.rint(x * SPLIT) / SPLIT
     turns = head[:, None] * f
     turns = turns - np.rint(turns) + (x - head)[:, None] * f
@@ -189,7 +225,7 @@ def _signs(f: IntArray) -> IntArray:
     return np.where(leading < 0, -1, 1)
 
 
-def _distinct(f: IntArray) -> tuple[IntArray, IntArray]:
+def _distinct_rows(f: IntArray) -> tuple[IntArray, IntArray]:
     """Rows that differ, and where each row of f stands among them."""
     if f.shape[1] == 0:
         return np.zeros((1, 0), np.int64), np.zeros(len(f), np.int64)

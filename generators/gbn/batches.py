@@ -1,4 +1,4 @@
-"""A run of the optimiser over many sets: batches that share the device, watched and kept."""
+"""A run of the optimiser over many sets, in batches that share the device, with progress and checkpoints."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.gbn.checkpoint import Checkpoint
-from gbnbench.generators.monitor import Watch, Watched
+from gbnbench.generators.monitor import Monitor, OptimiserState
 
 BATCH = 1 << 16  # points optimised together, so that even small sets fill every core
 
 
-class Method(Watched, Protocol):
+class Optimiser(OptimiserState, Protocol):
     """An optimiser; see ``optimiser.Descent``."""
 
     finished: NDArray[np.bool_]
@@ -34,11 +34,11 @@ class Method(Watched, Protocol):
         ...
 
 
-def optimise(
+def optimise_in_batches(
     starts: FloatArray,
-    method: Callable[[FloatArray], Method],
+    method: Callable[[FloatArray], Optimiser],
     gradients: int,
-    watch: Watch,
+    monitor: Monitor,
     name: str,
     inside: Callable[[FloatArray], FloatArray] = wrap,
 ) -> FloatArray:
@@ -52,10 +52,10 @@ def optimise(
         Makes the optimiser of a batch of starts.
     gradients : int
         Evaluations a set at most.
-    watch : Watch
-        What is to be said, traced and kept.
+    monitor : Monitor
+        Progress, trace and checkpoint.
     name : str
-        What the run is, for progress and for its checkpoint.
+        Name of the run, for progress and for its checkpoint.
     inside : callable
         Brings points into their domain for the trace.
 
@@ -72,12 +72,12 @@ def optimise(
     sets, n, _ = starts.shape
     size = max(1, BATCH // n)
     ends = starts.copy()
-    kept, first, state = _checkpoint(starts, gradients, watch, name), 0, None
+    kept, first, state = _checkpoint(starts, gradients, monitor, name), 0, None
     if kept is not None and (found := kept.load()) is not None:
         first = int(found.pop("first"))
         ends[:first] = found.pop("done")
-        if watch.trace is not None and "rows" in found:
-            watch.trace.restore(found)
+        if monitor.trace is not None and "rows" in found:
+            monitor.trace.restore(found)
         state = found if "x" in found else None
     batches = [slice(k, min(k + size, sets)) for k in range(first, sets, size)]
     total = gradients * -(-sets // size)
@@ -93,34 +93,34 @@ def optimise(
                 optimiser.advance()
             except KeyboardInterrupt:
                 if kept is not None and latest is not None:
-                    kept.save(_state(ends[: batch.start], watch) | latest)
+                    kept.save(_state(ends[: batch.start], monitor) | latest)
                 raise
-            if watch.trace is not None:
-                watch.trace.record(optimiser, batch.start, inside)
-            if watch.progress is not None:
+            if monitor.trace is not None:
+                monitor.trace.record(optimiser, batch.start, inside)
+            if monitor.progress is not None:
                 excess = float(np.nanmax(optimiser.excess))
-                watch.progress(before + optimiser.gradients, total, f"{name}, excess {excess:.1e}")
+                monitor.progress(before + optimiser.gradients, total, f"{name}, excess {excess:.1e}")
             if kept is not None:
                 latest = optimiser.state()
                 if kept.due:
-                    kept.save(_state(ends[: batch.start], watch) | latest)
+                    kept.save(_state(ends[: batch.start], monitor) | latest)
         ends[batch] = optimiser.x
         if kept is not None and batch.stop < sets:
-            kept.save(_state(ends[: batch.stop], watch))
+            kept.save(_state(ends[: batch.stop], monitor))
     if kept is not None:
-        kept.save(_state(ends, watch))
+        kept.save(_state(ends, monitor))
     return ends
 
 
-def _state(done: FloatArray, watch: Watch) -> dict[str, NDArray[Any]]:
-    traced = {} if watch.trace is None else watch.trace.state()
+def _state(done: FloatArray, monitor: Monitor) -> dict[str, NDArray[Any]]:
+    traced = {} if monitor.trace is None else monitor.trace.state()
     return {"first": np.array(len(done)), "done": done, **traced}
 
 
-def _checkpoint(starts: FloatArray, gradients: int, watch: Watch, name: str) -> Checkpoint | None:
-    if watch.checkpoint is None:
+def _checkpoint(starts: FloatArray, gradients: int, monitor: Monitor, name: str) -> Checkpoint | None:
+    if monitor.checkpoint is None:
         return None
     sets, n, d = starts.shape
     digest = hashlib.sha256(starts.tobytes()).hexdigest()[:16]
     key = f"{name} to {gradients} gradients of {sets} x {n} points, d={d}, start {digest}"
-    return Checkpoint(watch.checkpoint, key, watch.seconds)
+    return Checkpoint(monitor.checkpoint, key, monitor.seconds)

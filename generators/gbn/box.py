@@ -20,7 +20,7 @@ from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn import operation_counts
 from gbnbench.generators.gbn.images import Images
 from gbnbench.generators.gbn.optimiser import largest_curvature
-from gbnbench.generators.gbn.protocol import Gradient
+from gbnbench.generators.gbn.protocol import EnergyGradient
 from gbnbench.generators.gbn.strips import Strips
 from gbnbench.opencl import runtime
 
@@ -76,7 +76,22 @@ def domain_pull(u: FloatArray, side: float, sigma: float) -> tuple[FloatArray, F
 
 
 def domain_energy(side: float, d: int, sigma: float) -> float:
-    """W = (sqrt(2 pi) sigma L erf(t) - 2 sigma^2 (1 - exp(-t^2)))^d, t = L / sqrt(2) sigma."""
+    """Energy W of the uniform domain with itself.
+
+    Parameters
+    ----------
+    side : float
+        Of the box, in spacings.
+    d : int
+        Dimension.
+    sigma : float
+        Kernel width, in spacings.
+
+    Returns
+    -------
+    float
+        (sqrt(2 pi) sigma L erf(t) - 2 sigma^2 (1 - exp(-t^2)))^d, t = L / sqrt(2) sigma.
+    """
     reach = side / (math.sqrt(2) * sigma)
     axis = math.sqrt(2 * math.pi) * sigma * side * math.erf(reach) + 2 * sigma**2 * math.expm1(-(reach**2))
     return axis**d
@@ -84,6 +99,17 @@ def domain_energy(side: float, d: int, sigma: float) -> float:
 
 def box_curvature(n: int, d: int, sigma: float) -> float:
     """Largest curvature of the energy at a uniform density, as ``largest_curvature`` is on the torus.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    sigma : float
+        Kernel width, in spacings.
+
+    Returns
+    -------
+    float
 
     Notes
     -----
@@ -109,7 +135,7 @@ def box_curvature(n: int, d: int, sigma: float) -> float:
     return float(np.nanmax(curvature))
 
 
-class BoxField:
+class BoxEnergy:
     """The box's energy for any x: a coordinate beyond a face stands for its mirror image inside.
 
     So the energy is defined wherever an optimiser's step may lead, as on the torus it is by periods, and
@@ -152,16 +178,17 @@ class BoxField:
 
     @property
     def anchor(self) -> FloatArray | None:
-        """What strips keep between calls; see ``Strips``."""
+        """Points as the strips were last sorted; see ``Strips``."""
         return self._torus.anchor if isinstance(self._torus, Strips) else None
 
     @anchor.setter
     def anchor(self, x: FloatArray) -> None:
+        """Go on as if the points had last been sorted at x."""
         if isinstance(self._torus, Strips):
             self._torus.anchor = x
 
-    def __call__(self, x: FloatArray) -> Gradient:
-        """Gradient and excess energy at x, (sets, n, d) float64 in box sides; see ``Field``."""
+    def __call__(self, x: FloatArray) -> EnergyGradient:
+        """Gradient and excess energy at x, (sets, n, d) float64 in box sides; see ``EnergyEvaluation``."""
         mirrored = np.mod(x, 2.0) >= 1
         self.mirrored = int(np.count_nonzero((x < 0) | (x >= 1)))
         inside = fold(x)
@@ -171,4 +198,4 @@ class BoxField:
         gradient[mirrored] *= -1
         domain = potential.sum(axis=1) - self._least / 2
         excess = pairs.excess - domain / self.n
-        return Gradient(gradient, excess)
+        return EnergyGradient(gradient, excess)

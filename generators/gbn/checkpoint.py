@@ -62,7 +62,7 @@ class Checkpoint:
 
     @property
     def due(self) -> bool:
-        """Whether the last writing is old enough."""
+        """True once the last writing is old enough for another."""
         return time.monotonic() - self._written >= self._seconds
 
     def save(self, state: Mapping[str, NDArray[Any]]) -> None:

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from gbnbench.generators.gbn.harmonics import Harmonics
 from gbnbench.generators.gbn.images import Images
-from gbnbench.generators.gbn.plan import plan
-from gbnbench.generators.gbn.protocol import Field
+from gbnbench.generators.gbn.plan import plan_energy
+from gbnbench.generators.gbn.protocol import EnergyEvaluation
 from gbnbench.generators.gbn.strips import Strips
 from gbnbench.generators.gbn.theta import Theta
 from gbnbench.opencl import runtime
@@ -20,7 +20,7 @@ def default_precision() -> str:
     return "double" if runtime().device.has_double else "float"
 
 
-def field(
+def energy_evaluation(
     n: int,
     d: int,
     sigma: float,
@@ -29,26 +29,30 @@ def field(
     method: str | None = None,
     cutoff: float | None = None,
     edge: float | None = None,
-) -> Field:
+) -> EnergyEvaluation:
     """Open the evaluation that the plan chooses, on the chosen device.
 
     Parameters
     ----------
     n, d, sigma, method, cutoff, edge
-        As for ``plan``.
+        As for ``plan_energy``.
     precision : {"double", "float"}, optional
         Double where the device has it.
+
+    Returns
+    -------
+    EnergyEvaluation
 
     Raises
     ------
     InputError, RefusalError
-        As ``plan``.
+        As ``plan_energy``.
     DeviceError
         If there is no device, or it has no such precision.
     """
     chosen = runtime()
     name = precision or default_precision()
-    found = plan(n, d, sigma, name, method=method, cutoff=cutoff, edge=edge)
+    found = plan_energy(n, d, sigma, name, method=method, cutoff=cutoff, edge=edge)
     if found.method == "strips":
         return Strips(chosen, n, d, sigma, name, cutoff)
     if found.method == "harmonics":

@@ -1,4 +1,4 @@
-"""What evaluations share: points sent as exact fractions of a turn, buffers kept between calls."""
+"""The device side that evaluations of the energy share: exact fractions of a turn, buffers that are kept."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from numpy.typing import NDArray
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn import kernel, operation_counts
-from gbnbench.generators.gbn.protocol import Gradient
+from gbnbench.generators.gbn.protocol import EnergyGradient
 from gbnbench.opencl import Program, Runtime
 
 PACKAGE = "gbnbench.generators"
 CHUNK = 256  # points summed before their sum is added to the rest, so that float keeps its digits
 
 
-class Evaluation(ABC):
+class DeviceEvaluation(ABC):
     """Sets of n points in d dimensions on a device, at one sigma and precision.
 
     Attributes
@@ -49,7 +49,19 @@ class Evaluation(ABC):
         self._buffers: dict[str, tuple[int, Any]] = {}
 
     def program(self, *files: str, **defines: object) -> Program:
-        """Build kernel files for the precision, the lanes and the dimension."""
+        """Build kernel files for the precision, the lanes and the dimension.
+
+        Parameters
+        ----------
+        *files : str
+            Names of kernel files, joined in this order.
+        **defines
+            Macros beside DOUBLE, LANES and DIM.
+
+        Returns
+        -------
+        Program
+        """
         base = {"DOUBLE": int(self.double), "LANES": self.lanes, "DIM": self.d}
         return self.runtime.program(PACKAGE, ("/vector.cl", *files), {**base, **defines})
 
@@ -57,6 +69,17 @@ class Evaluation(ABC):
         """Return the buffer of a name with room for count numbers, made or grown if need be.
 
         Kernels read whole vectors of points: behind the last point are zeros, never what is not there.
+
+        Parameters
+        ----------
+        name : str
+            One buffer is kept for each name.
+        count : int
+            Numbers of the precision's size.
+
+        Returns
+        -------
+        pyopencl.Buffer
         """
         nbytes = (count + 4 * self.lanes * self.d) * self.bytes
         held = self._buffers.get(name)
@@ -67,7 +90,19 @@ class Evaluation(ABC):
         return held[1]
 
     def launch(self, program: Program, name: str, items: int, *arguments: Any) -> None:
-        """Run a kernel over at least so many work-items."""
+        """Run a kernel over at least so many work-items.
+
+        Parameters
+        ----------
+        program : Program
+            What holds the kernel.
+        name : str
+            The kernel.
+        items : int
+            Work-items, rounded up to whole groups.
+        *arguments
+            Buffers and numbers that it takes.
+        """
         group = self.runtime.group
         program.run(name, (-(-items // group) * group,), (group,), *arguments)
 
@@ -87,7 +122,19 @@ class Evaluation(ABC):
         return self.send("turns", turns)
 
     def send(self, name: str, array: NDArray[Any]) -> Any:
-        """Copy numbers of the precision's size into the buffer of a name."""
+        """Copy numbers of the precision's size into the buffer of a name.
+
+        Parameters
+        ----------
+        name : str
+            The buffer.
+        array : ndarray
+            Of a type as wide as the precision's.
+
+        Returns
+        -------
+        pyopencl.Buffer
+        """
         buffer = self.buffer(name, array.size)
         self.runtime.update(buffer, array)
         return buffer
@@ -96,28 +143,40 @@ class Evaluation(ABC):
         """Size of a set's buffers."""
         return 4 * self.stride * self.d * self.bytes
 
-    def __call__(self, x: FloatArray) -> Gradient:
-        """Evaluate; see ``Field``."""
+    def __call__(self, x: FloatArray) -> EnergyGradient:
+        """Evaluate; see ``EnergyEvaluation``."""
         if x.ndim != 3 or x.shape[1:] != (self.n, self.d):
             raise InputError(f"x must be (sets, {self.n}, {self.d}); got shape {x.shape}")
         step = max(1, operation_counts.LARGEST // self.bytes_a_set())
         parts = [self._sums(x[k : k + step]) for k in range(0, len(x), step)]
         if len(parts) == 1:
             return parts[0]
-        return Gradient(
+        return EnergyGradient(
             np.concatenate([p.gradient for p in parts]), np.concatenate([p.excess for p in parts])
         )
 
     @abstractmethod
-    def _sums(self, x: FloatArray) -> Gradient:
+    def _sums(self, x: FloatArray) -> EnergyGradient:
         """Evaluate as many sets as buffers hold."""
 
 
-class AllPairs(Evaluation):
+class AllPairs(DeviceEvaluation):
     """Sums of each point over all points of its set, a work-item for each vector of points."""
 
     def program(self, *files: str, **defines: object) -> Program:
-        """Build kernel files, which sum in chunks."""
+        """Build kernel files, which sum in chunks.
+
+        Parameters
+        ----------
+        *files : str
+            Names of kernel files.
+        **defines
+            Macros beside those of every evaluation and CHUNK.
+
+        Returns
+        -------
+        Program
+        """
         return super().program(*files, CHUNK=CHUNK, **defines)
 
     def sum_pairs(

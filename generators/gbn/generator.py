@@ -13,18 +13,18 @@ from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.memory import too_large
 from gbnbench.core.settings import specification
 from gbnbench.core.torus import FloatArray, wrap
-from gbnbench.generators.gauss_newton.modes import bound
-from gbnbench.generators.gbn.batches import optimise
-from gbnbench.generators.gbn.box import BoxField, box_curvature, fold
-from gbnbench.generators.gbn.energy import default_precision, field
+from gbnbench.generators.gauss_newton.modes import bound_coordinates
+from gbnbench.generators.gbn.batches import optimise_in_batches
+from gbnbench.generators.gbn.box import BoxEnergy, box_curvature, fold
+from gbnbench.generators.gbn.energy import default_precision, energy_evaluation
 from gbnbench.generators.gbn.kernel import energy_error, uniform_energy
 from gbnbench.generators.gbn.operation_counts import theta_at_0
 from gbnbench.generators.gbn.optimiser import Descent, Nesterov, authors_step, stable_step, step_size
-from gbnbench.generators.gbn.plan import plan
-from gbnbench.generators.gbn.polish import polished
-from gbnbench.generators.gbn.projective import ProjectiveField, subsets
-from gbnbench.generators.gbn.protocol import Field
-from gbnbench.generators.monitor import Watch
+from gbnbench.generators.gbn.plan import plan_energy
+from gbnbench.generators.gbn.polish import empty_band
+from gbnbench.generators.gbn.projective import ProjectiveEnergy, subsets
+from gbnbench.generators.gbn.protocol import EnergyEvaluation
+from gbnbench.generators.monitor import Monitor
 
 PAPER_ITERATIONS = 10_000  # what the paper recommends
 LEAST_CUTOFF = 0.5  # sigmas
@@ -142,13 +142,24 @@ class GaussianBlueNoise:
         self._step(2, 2)
 
     def refusal(self, n: int, d: int) -> str | None:
-        """Why this energy cannot be had for n points in d dimensions; None for the whole kernel."""
+        """Say why this energy cannot be had for n points in d dimensions; the whole kernel always can.
+
+        Parameters
+        ----------
+        n, d : int
+            Points and dimension.
+
+        Returns
+        -------
+        str or None
+            The reason, with the nearest numbers that can; None where they can.
+        """
         if reason := too_large(NUMBERS * 8 * n * d):
             return f"n={n} points in d={d} {reason}; take fewer points"
         side = n ** (1 / d)
-        if self.polish and bound(n, d, self.polish) > MOST_BOUND * n * d:
+        if self.polish and (bound := bound_coordinates(n, d, self.polish)) > MOST_BOUND * n * d:
             return (
-                f"polish={self.polish:g} binds {bound(n, d, self.polish):.6g} of the {n * d} coordinates of "
+                f"polish={self.polish:g} binds {bound:.6g} of the {n * d} coordinates of "
                 f"n={n} points in d={d}; take 0.25 or so"
             )
         if self.projections != "none":
@@ -173,11 +184,25 @@ class GaussianBlueNoise:
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization; see ``Generator``."""
-        one: FloatArray = self.draw(n, d, [rng], Watch())[0]
+        one: FloatArray = self.draw(n, d, [rng], Monitor())[0]
         return one
 
-    def draw(self, n: int, d: int, rngs: Sequence[np.random.Generator], watch: Watch) -> FloatArray:
-        """Draw one set from each stream; see ``Watchable``.
+    def draw(self, n: int, d: int, rngs: Sequence[np.random.Generator], monitor: Monitor) -> FloatArray:
+        """Draw one set from each stream.
+
+        Parameters
+        ----------
+        n, d : int
+            Points and dimension.
+        rngs : sequence of numpy.random.Generator
+            One for each set.
+        monitor : Monitor
+            What the caller wants to be told and kept.
+
+        Returns
+        -------
+        (len(rngs), n, d) float64
+            Each set bit by bit as if it were drawn alone.
 
         Raises
         ------
@@ -190,8 +215,10 @@ class GaussianBlueNoise:
         if n == 1:
             return starts
         inside = fold if self.domain == "box" else wrap
-        x = inside(optimise(starts, self._optimiser, self.steps, watch, specification(self), inside))
-        return np.stack([polished(points, self.polish) for points in x]) if self.polish else x
+        x = inside(
+            optimise_in_batches(starts, self._optimiser, self.steps, monitor, specification(self), inside)
+        )
+        return np.stack([empty_band(points, self.polish) for points in x]) if self.polish else x
 
     @property
     def steps(self) -> int:
@@ -199,11 +226,23 @@ class GaussianBlueNoise:
         return self.iterations or (PAPER_ITERATIONS if self.method == "descent" else self.gradients)
 
     def explain(self, n: int, d: int, sets: int = 1) -> str:
-        """Say how the energy of n points in d dimensions is found, and what the others would cost."""
+        """Say how the energy of n points in d dimensions is evaluated, and what other evaluations would cost.
+
+        Parameters
+        ----------
+        n, d : int
+            Points and dimension.
+        sets : int
+            Sets of a call.
+
+        Returns
+        -------
+        str
+        """
         if self.domain == "box" or self.projections != "none":
             energy = self._energy(n, d)
             return f"{self.name}: {energy.method}, error {energy.error:.1e}"
-        found = plan(
+        found = plan_energy(
             n, d, self.sigma, self._precision(), sets=sets, cutoff=self.cutoff or None, edge=self.edge or None
         )
         whose = "a set" if sets == 1 else f"{sets} sets"
@@ -234,12 +273,12 @@ class GaussianBlueNoise:
     def _precision(self) -> str:
         return default_precision() if self.precision == "auto" else self.precision
 
-    def _energy(self, n: int, d: int) -> Field:
+    def _energy(self, n: int, d: int) -> EnergyEvaluation:
         precision = self._precision()
         if self.domain == "box":
-            return BoxField(n, d, self.sigma, precision)
+            return BoxEnergy(n, d, self.sigma, precision)
         if self.projections != "none":
-            return ProjectiveField(
+            return ProjectiveEnergy(
                 n,
                 d,
                 self.sigma,
@@ -247,7 +286,9 @@ class GaussianBlueNoise:
                 edge=self.projection_edge or None,
                 precision=precision,
             )
-        return field(n, d, self.sigma, precision, cutoff=self.cutoff or None, edge=self.edge or None)
+        return energy_evaluation(
+            n, d, self.sigma, precision, cutoff=self.cutoff or None, edge=self.edge or None
+        )
 
     def _step(self, n: int, d: int) -> float:
         if self.step == "auto":

@@ -9,17 +9,17 @@ import numpy as np
 
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn import kernel, operation_counts
-from gbnbench.generators.gbn.evaluation import CHUNK, Evaluation
-from gbnbench.generators.gbn.protocol import Gradient
-from gbnbench.generators.gbn.wave_tables import TILE, ball, ball_square
+from gbnbench.generators.gbn.evaluation import CHUNK, DeviceEvaluation
+from gbnbench.generators.gbn.protocol import EnergyGradient
+from gbnbench.generators.gbn.wave_tables import TILE, ball_square, ball_waves
 from gbnbench.opencl import Runtime
 
 FILES = ("/turns.cl", "gbn_harmonics.cl")
 LINE = 64  # bytes
 
 
-class Harmonics(Evaluation):
-    """The weighted power of every frequency that matters; see ``Field`` and kernels/gbn_harmonics.cl.
+class Harmonics(DeviceEvaluation):
+    """The weighted power of every frequency that matters; see kernels/gbn_harmonics.cl.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ class Harmonics(Evaluation):
         # An odd number of cache lines: rows a power of two apart would drive each other out of the cache.
         line = 2 * self.lanes if self.lanes > 1 else LINE // self.bytes
         self.stride = (-(-n // line) | 1) * line
-        modes = self.modes = ball(d, ball_square(n, d, self.sigma, precision, edge))
+        modes = self.modes = ball_waves(d, ball_square(n, d, self.sigma, precision, edge))
         self._groups = (modes.leading, modes.trailing)
         fmax = math.isqrt(modes.square)
         self._waves = max(2 * fmax + 1, max(g.rows for g in self._groups if g.axes == 1) if d < 4 else 0)
@@ -60,7 +60,7 @@ class Harmonics(Evaluation):
         derivatives = [g.derivative() for g in self._groups]
         self._partner = [runtime.upload(partner) for partner, _ in derivatives]
         self._factor = [runtime.upload(factor.astype(self.real)) for _, factor in derivatives]
-        self._reach = [runtime.upload(modes.reach(side)) for side in (0, 1)]
+        self._column_ends = [runtime.upload(modes.column_ends(side)) for side in (0, 1)]
         defines = {"FMAX": fmax, "WAVES": self._waves, "CHUNK": CHUNK, "TILE_A": TILE[0], "TILE_B": TILE[1]}
         self._program = self.program(*FILES, **defines)
         self._slopes = [
@@ -75,7 +75,7 @@ class Harmonics(Evaluation):
         products = 2 * self._groups[0].rows * self._groups[1].rows
         return self.bytes * (self.stride * (rows + self.d * (self._waves + 3)) + products)
 
-    def _sums(self, x: FloatArray) -> Gradient:
+    def _sums(self, x: FloatArray) -> EnergyGradient:
         sets = len(x)
         n, stride, many = np.uint32(self.n), np.uint32(self.stride), np.uint32(sets)
         vectors, count = self.stride // self.lanes, len(self.modes.tiles)
@@ -95,13 +95,13 @@ class Harmonics(Evaluation):
         for side, program in enumerate(self._slopes):
             self.launch(
                 program, "gbn_slopes", sets * vectors // 2, *tables[side], *tables[1 - side], many, stride,
-                rows[side], rows[1 - side], self._reach[side], weighted[side], self._partner[side],
+                rows[side], rows[1 - side], self._column_ends[side], weighted[side], self._partner[side],
                 self._factor[side], np.uint32(self._groups[side].first), gradient,
             )  # fmt: skip
         slopes = self.runtime.download(gradient, np.empty((sets, self.stride, self.d), self.real))
         sums = self.runtime.download(energy, np.empty((sets, count), self.real))
         # E = (1/2n) sum w |F|^2 = n Ex; the kernel's weights are over n and over the lowest frequency's.
-        return Gradient(
+        return EnergyGradient(
             slopes[:, : self.n].astype(np.float64) * (self._scale / self.side),
             sums.sum(axis=1, dtype=np.float64) * (self._scale / (2 * self.n)),
         )

@@ -7,12 +7,12 @@ import numpy as np
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn import kernel, operation_counts
 from gbnbench.generators.gbn.evaluation import AllPairs, means
-from gbnbench.generators.gbn.protocol import Gradient
+from gbnbench.generators.gbn.protocol import EnergyGradient
 from gbnbench.opencl import Runtime
 
 
 class Images(AllPairs):
-    """All pairs by the nearest images in each dimension; see ``Field`` and kernels/gbn_images.cl.
+    """All pairs by the nearest images in each dimension; see ``EnergyEvaluation`` and kernels/gbn_images.cl.
 
     Notes
     -----
@@ -36,10 +36,10 @@ class Images(AllPairs):
         self._program = self.program("/exp2.cl", "gbn_images.cl", IMAGES=self.images)
         self._turn = 1.0 if self.double else 2.0**-32  # box sides that a unit of a position stands for
 
-    def _sums(self, x: FloatArray) -> Gradient:
+    def _sums(self, x: FloatArray) -> EnergyGradient:
         ratio = self.side / self.sigma
         at = self.send("at", x - np.rint(x)) if self.double else self.send_turns(x)
         slopes, sums = self.sum_pairs(
             self._program, "gbn_images", len(x), at, self.real(ratio), self.real(ratio * self._turn)
         )
-        return Gradient(slopes / self.sigma, (means(sums) - self._uniform) / 2)
+        return EnergyGradient(slopes / self.sigma, (means(sums) - self._uniform) / 2)

@@ -20,32 +20,110 @@ PI = Decimal("3.1415926535897932384626433832795028841971693993751058209749445923
 
 
 def side_of(n: int, d: int) -> float:
-    """Return the box's side in spacings."""
+    """Return the box's side in spacings.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+
+    Returns
+    -------
+    float
+    """
     return math.pow(n, 1 / d)
 
 
 def uniform_energy(d: int, sigma: float) -> float:
-    """Twice the energy a point of a constant density, (2 pi)^(d/2) sigma^d."""
+    """Twice the energy a point of a constant density.
+
+    Parameters
+    ----------
+    d : int
+        Dimension.
+    sigma : float
+        Kernel width, in spacings.
+
+    Returns
+    -------
+    float
+        (2 pi)^(d/2) sigma^d.
+    """
     return math.pow(2 * math.pi, d / 2) * math.pow(sigma, d)
 
 
 def energy_error(d: int, sigma: float, precision: str) -> float:
-    """Typical error of an excess energy, the difference of two near-equal sums: of 1e-15 (double) or 1e-7."""
+    """Typical error of an excess energy, the difference of two nearly equal sums.
+
+    Parameters
+    ----------
+    d : int
+        Dimension.
+    sigma : float
+        Kernel width, in spacings.
+    precision : {"double", "float"}
+        Of the arithmetic.
+
+    Returns
+    -------
+    float
+        1e-15 (double) or 1e-7 (float) of the uniform energy.
+    """
     return {"double": 1e-15, "float": 1e-7}[precision] * uniform_energy(d, sigma)
 
 
 def decay(side: float, sigma: float) -> float:
-    """Return b of w_f = exp(-b f^2)."""
+    """Return b of w_f = exp(-b f^2).
+
+    Parameters
+    ----------
+    side : float
+        Of the box, in spacings.
+    sigma : float
+        Kernel width, in spacings.
+
+    Returns
+    -------
+    float
+    """
     return 2 * (math.pi * sigma / side) ** 2
 
 
 def weights(side: float, sigma: float, most: int) -> FloatArray:
-    """w_0 to w_most: (most + 1,) float64."""
+    """Weights of the series, w_0 to w_most.
+
+    Parameters
+    ----------
+    side : float
+        Of the box, in spacings.
+    sigma : float
+        Kernel width, in spacings.
+    most : int
+        Highest harmonic.
+
+    Returns
+    -------
+    (most + 1,) float64
+    """
     return np.exp(-decay(side, sigma) * np.arange(most + 1.0) ** 2)
 
 
 def degree(side: float, sigma: float, precision: str) -> int:
-    """Highest harmonic of theta that its value or its slope can show in the precision, 1 at least.
+    """Highest harmonic of theta that its value or its slope can show in the precision.
+
+    Parameters
+    ----------
+    side : float
+        Of the box, in spacings.
+    sigma : float
+        Kernel width, in spacings.
+    precision : {"double", "float"}
+        Of the arithmetic.
+
+    Returns
+    -------
+    int
+        At least 1.
 
     Notes
     -----
@@ -104,7 +182,18 @@ def polynomial(side: float, sigma: float, order: int, flat: bool) -> FloatArray:
 
 
 def unit(side: float, sigma: float, d: int, precision: str) -> float:
-    """Return what departures of theta / mean from 1 are counted in.
+    """Return the unit in which departures of theta / mean from 1 are counted.
+
+    Parameters
+    ----------
+    side : float
+        Of the box, in spacings.
+    sigma : float
+        Kernel width, in spacings.
+    d : int
+        Dimension.
+    precision : {"double", "float"}
+        Of the arithmetic.
 
     Returns
     -------
@@ -117,6 +206,17 @@ def unit(side: float, sigma: float, d: int, precision: str) -> float:
 
 def largest_force(n: int, d: int, sigma: float) -> float:
     """Largest component of the force of one pair, per spacing: max |theta'| times theta(0)^(d-1).
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    sigma : float
+        Kernel width, in spacings.
+
+    Returns
+    -------
+    float
 
     Notes
     -----

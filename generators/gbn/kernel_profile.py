@@ -50,7 +50,19 @@ def theta(u: FloatArray, side: float, sigma: float) -> FloatArray:
 
 
 def energy_profile(u: FloatArray, side: float, sigma: float) -> FloatArray:
-    """Theta over its largest value, that at u = 0: the curves of Fig. 6."""
+    """Theta over its largest value, that at u = 0: the curves of Fig. 6.
+
+    Parameters
+    ----------
+    u : (...) float64
+        Distances, in the units of side and sigma.
+    side, sigma : float
+        Period and width.
+
+    Returns
+    -------
+    (...) float64
+    """
     return np.asarray(theta(u, side, sigma) / theta(np.zeros(1), side, sigma)[0])
 
 

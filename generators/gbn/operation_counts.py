@@ -1,4 +1,4 @@
-"""What each evaluation of the energy does, counted in instructions, for plans and benchmarks.
+"""Instruction counts of each evaluation of the energy, for plans and benchmarks.
 
 One instruction is a multiplication, an addition or both in one, of one number; comparisons and conversions
 count as one too. Loads and stores do not count. All numbers are of one set.
@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.generators.gbn import kernel
-from gbnbench.generators.gbn.wave_tables import MOST_ROWS, TILE, ball_square, volume
+from gbnbench.generators.gbn.wave_tables import MOST_ROWS, TILE, ball_square, ball_volume
 
 # Sigmas beyond which a pair adds less than the precision: 4e-7 and 7e-16 of one pair's largest force.
 CUTOFF = {"double": 9.0, "float": 6.0}
@@ -35,7 +35,7 @@ STRIP = {"double": (3, 19), "float": (4, 14)}  # a dimension of a pair, and the 
 
 
 @dataclass(frozen=True)
-class Cost:
+class EnergyCost:
     """One evaluation at one size.
 
     Attributes
@@ -49,7 +49,7 @@ class Cost:
     instructions : float
         A set, by count; nothing on memory or launches.
     error : float
-        Bound as ``Field.error``.
+        Bound as ``EnergyEvaluation.error``.
     """
 
     method: str
@@ -65,7 +65,19 @@ class Cost:
 
 
 def images_needed(ratio: float, precision: str) -> int:
-    """Count the images of a point within the cut-off of another, a dimension, in a box of so many sigmas.
+    """Count the images of a point, a dimension, that lie within the cut-off of another.
+
+    Parameters
+    ----------
+    ratio : float
+        Side of the box, in sigmas.
+    precision : {"double", "float"}
+        Of the arithmetic.
+
+    Returns
+    -------
+    int
+        At least 1.
 
     Notes
     -----
@@ -74,8 +86,21 @@ def images_needed(ratio: float, precision: str) -> int:
     return max(1, math.ceil(2 * CUTOFF[precision] / (ratio * MARGIN)))
 
 
-def theta(n: int, d: int, sigma: float, precision: str) -> Cost:
+def theta(n: int, d: int, sigma: float, precision: str) -> EnergyCost:
     """All pairs by polynomials: 2 degree + 9 instructions a pair and dimension.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    sigma : float
+        Kernel width, in spacings.
+    precision : {"double", "float"}
+        Of the arithmetic.
+
+    Returns
+    -------
+    EnergyCost
 
     Raises
     ------
@@ -91,11 +116,26 @@ def theta(n: int, d: int, sigma: float, precision: str) -> Cost:
     degree = kernel.degree(side, sigma, precision)
     # Each pair rounds twice a degree and twice a dimension; n pairs may round alike where points coincide.
     error = kernel.EPS[precision] * (4 + 2 * degree + 2 * d) * n
-    return Cost("theta", f"all pairs, degree {degree}", n * n, n * n * d * (2.0 * degree + 9), error)
+    return EnergyCost("theta", f"all pairs, degree {degree}", n * n, n * n * d * (2.0 * degree + 9), error)
 
 
-def images(n: int, d: int, sigma: float, precision: str, side: float | None = None) -> Cost:
+def images(n: int, d: int, sigma: float, precision: str, side: float | None = None) -> EnergyCost:
     """All pairs by exponentials: one a pair, and one for each image of each dimension beyond the nearest.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    sigma : float
+        Kernel width, in spacings.
+    precision : {"double", "float"}
+        Of the arithmetic.
+    side : float, optional
+        Of the torus, in spacings, where it is not n^(1/d).
+
+    Returns
+    -------
+    EnergyCost
 
     Raises
     ------
@@ -116,18 +156,45 @@ def images(n: int, d: int, sigma: float, precision: str, side: float | None = No
     overlap = math.exp(-0.5) / sigma * theta_at_0(n, d, sigma) ** (d - 1) / kernel.largest_force(n, d, sigma)
     terms = 12 + 4 * count + d + _border(ratio, precision)
     error = kernel.EPS[precision] * terms * max(1.0, overlap) * n
-    return Cost("images", f"all pairs, {count} images a dimension", n * n, float(n * n) * pair, error)
+    return EnergyCost("images", f"all pairs, {count} images a dimension", n * n, float(n * n) * pair, error)
 
 
 def theta_at_0(n: int, d: int, sigma: float) -> float:
-    """Value of theta where two points coincide."""
+    """Value of theta where two points coincide.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    sigma : float
+        Kernel width, in spacings.
+
+    Returns
+    -------
+    float
+    """
     ratio = kernel.side_of(n, d) / sigma
     reach = math.ceil(9 / ratio)
     return 1 + 2 * sum(math.exp(-0.5 * (j * ratio) ** 2) for j in range(1, reach + 1))
 
 
-def harmonics(n: int, d: int, sigma: float, precision: str, edge: float | None = None) -> Cost:
+def harmonics(n: int, d: int, sigma: float, precision: str, edge: float | None = None) -> EnergyCost:
     """Frequencies of a ball: three products a point and frequency, over tables of waves.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    sigma : float
+        Kernel width, in spacings.
+    precision : {"double", "float"}
+        Of the arithmetic.
+    edge : float or None
+        Highest nu that is summed.
+
+    Returns
+    -------
+    EnergyCost
 
     Raises
     ------
@@ -138,7 +205,7 @@ def harmonics(n: int, d: int, sigma: float, precision: str, edge: float | None =
     """
     square = ball_square(n, d, sigma, precision, edge)
     lead = (d + 1) // 2
-    rows = [volume(axes, square) for axes in (lead, d - lead)]
+    rows = [ball_volume(axes, square) for axes in (lead, d - lead)]
     if max(rows) > MOST_ROWS:
         raise RefusalError(
             f"frequencies up to |f| = {math.sqrt(square):.4g} are {max(rows):.3g} waves of {lead} axes; "
@@ -154,17 +221,36 @@ def harmonics(n: int, d: int, sigma: float, precision: str, edge: float | None =
             f"harmonics takes {LARGEST:.3g}: strips or theta serve such sets, or a smaller edge"
         )
     # Tiles straddle the ball's surface: about half a tile more along each side.
-    products = volume(d, square) * 1.1 + sum(padded)
+    products = ball_volume(d, square) * 1.1 + sum(padded)
     waves = sum(count * axes for count, axes in zip(rows, (lead, d - lead), strict=True))
     instructions = n * (3.0 * products + waves * 4 + WAVE * d * (2 * math.isqrt(square) + 1))
     error = kernel.EPS[precision] * (12 + 4 * d) * 1.4 * n
-    return Cost("harmonics", f"{volume(d, square):.4g} frequencies", n * products, instructions, error)
+    return EnergyCost(
+        "harmonics", f"{ball_volume(d, square):.4g} frequencies", n * products, instructions, error
+    )
 
 
 def strips(
     n: int, d: int, sigma: float, precision: str, cutoff: float | None = None, side: float | None = None
-) -> Cost:
+) -> EnergyCost:
     """Pairs within the cut-off only: in double every image of them, in float the nearest.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    sigma : float
+        Kernel width, in spacings.
+    precision : {"double", "float"}
+        Of the arithmetic.
+    cutoff : float, optional
+        Where the kernel itself ends, in sigmas.
+    side : float, optional
+        Of the torus, in spacings, where it is not n^(1/d).
+
+    Returns
+    -------
+    EnergyCost
 
     Raises
     ------
@@ -192,7 +278,7 @@ def strips(
     looked_at = n * ball * SPARE[precision][d - 1]
     error = kernel.EPS[precision] * (16 + d + _border(ratio, precision)) * n
     work = looked_at * (dimension * d + rest)
-    return Cost("strips", f"pairs within {reach:g} sigmas", looked_at, work, error)
+    return EnergyCost("strips", f"pairs within {reach:g} sigmas", looked_at, work, error)
 
 
 def _border(ratio: float, precision: str) -> float:

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.core.torus import FloatArray
-from gbnbench.generators.gbn.lowband import LowBand
-from gbnbench.generators.gbn.protocol import Field
+from gbnbench.generators.gbn.lowest_band import LowestBandPreconditioner
+from gbnbench.generators.gbn.protocol import EnergyEvaluation
 
 PATIENCE = 20  # steps over which a rise of the excess energy halves the step
 PRECONDITION_ABOVE = 45  # spacings a side; below, 300 gradients bring the lowest modes down by themselves
@@ -19,6 +19,17 @@ PRECONDITION_ABOVE = 45  # spacings a side; below, 300 gradients bring the lowes
 
 def largest_curvature(n: int, d: int, sigma: float) -> float:
     """Largest eigenvalue of the energy's Hessian at a uniform density, in spacings.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    sigma : float
+        Kernel width, in spacings.
+
+    Returns
+    -------
+    float
 
     Notes
     -----
@@ -35,6 +46,17 @@ def largest_curvature(n: int, d: int, sigma: float) -> float:
 def step_size(n: int, d: int, sigma: float) -> float:
     """First step of both methods, in squared spacings.
 
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    sigma : float
+        Kernel width, in spacings.
+
+    Returns
+    -------
+    float
+
     Notes
     -----
     Nesterov's method is stable up to 4/3 over the largest curvature. In boxes of a few spacings a side, those
@@ -44,12 +66,38 @@ def step_size(n: int, d: int, sigma: float) -> float:
 
 
 def stable_step(curvature: float, d: int, sigma: float) -> float:
-    """Step for a largest curvature at a uniform density."""
+    """Return the step for a largest curvature at a uniform density.
+
+    Parameters
+    ----------
+    curvature : float
+        Per squared spacing.
+    d : int
+        Dimension.
+    sigma : float
+        Kernel width, in spacings.
+
+    Returns
+    -------
+    float
+        In squared spacings.
+    """
     return (1.2 if d <= 3 else 1.0) / max(curvature, 2 / sigma**2)
 
 
 def authors_step(n: int, d: int) -> float:
-    """Step of the authors' programs, 0.25 / n for box sides, in squared spacings: fit for d = 2 only."""
+    """Return the step of the authors' programs, 0.25 / n for box sides; right in scale for d = 2 only.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+
+    Returns
+    -------
+    float
+        In squared spacings.
+    """
     return 0.25 * float(n ** (2 / d)) / n
 
 
@@ -58,16 +106,14 @@ class Descent:
 
     Parameters
     ----------
-    field : Field
-        Energy.
+    energy : EnergyEvaluation
+        The energy and its gradient.
     x : (sets, n, d) float64
         Start, box sides.
     step : float
         In squared spacings: a displacement in spacings over a gradient.
     excess : float
         A set is finished once its excess energy is at most this; 0 never finishes.
-    confine : callable, optional
-        Takes points (sets, n, d) and returns them inside their domain.
 
     Attributes
     ----------
@@ -87,11 +133,10 @@ class Descent:
 
     def __init__(
         self,
-        field: Field,
+        energy: EnergyEvaluation,
         x: FloatArray,
         step: float,
         excess: float = 0.0,
-        confine: Callable[[FloatArray], FloatArray] | None = None,
     ) -> None:
         sets, n, d = x.shape
         self.x = np.array(x)
@@ -102,13 +147,12 @@ class Descent:
         self.finished = np.zeros(sets, bool)
         self.constant = math.nan
         self._side = n ** (1 / d)
-        self._field, self._enough = field, excess
-        self._confine = confine or (lambda points: points)
+        self._energy, self._enough = energy, excess
 
     def advance(self) -> None:
         """Evaluate once and move every set that is not finished."""
         slope = self._evaluate(self.x)
-        moved = self._confine(self.x - self._capped(self.size[:, None, None] * slope) / self._side)
+        moved = self.x - self._capped(self.size[:, None, None] * slope) / self._side
         self.x = np.where(self.finished[:, None, None], self.x, moved)
 
     def state(self) -> dict[str, NDArray[Any]]:
@@ -121,7 +165,7 @@ class Descent:
             "size": self.size,
             "finished": self.finished,
         }
-        if (anchor := getattr(self._field, "anchor", None)) is not None:
+        if (anchor := getattr(self._energy, "anchor", None)) is not None:
             state["anchor"] = np.array(anchor)  # fields sort in place
         return state
 
@@ -132,10 +176,10 @@ class Descent:
         self.excess, self.largest = np.array(state["excess"]), np.array(state["largest"])
         self.size, self.finished = np.array(state["size"]), np.array(state["finished"])
         if "anchor" in state:
-            self._field.anchor = np.array(state["anchor"])  # type: ignore[attr-defined]
+            self._energy.anchor = np.array(state["anchor"])  # type: ignore[attr-defined]
 
     def _evaluate(self, x: FloatArray) -> FloatArray:
-        at = self._field(x)
+        at = self._energy(x)
         self.gradients += 1
         self.excess = at.excess
         self.largest = np.sqrt(_longest(at.gradient))
@@ -151,14 +195,16 @@ class Descent:
 class Nesterov(Descent):
     """Nesterov's method with adaptive restart: 300 gradients do the work of 10,000 steps of descent.
 
-    Parameters are those of ``Descent`` and
-
+    Parameters
+    ----------
+    energy, x, step, excess
+        As for ``Descent``.
     noise : float
-        Error of the excess energy: rises within it are none.
+        Error of the excess energy; a smaller rise does not count as one.
     sigma : float, optional
-        Kernel width in spacings: where given, boxes of more than 45 spacings a side, 2,048 points in the
-        plane, have their lowest band preconditioned, whose modes are too slow for any step that the middle
-        band allows.
+        Kernel width in spacings. Where it is given, boxes of more than 45 spacings a side (2,048 points in
+        the plane) have their lowest band preconditioned, whose modes are too slow for any step that the
+        middle band allows.
 
     Notes
     -----
@@ -168,22 +214,25 @@ class Nesterov(Descent):
 
     def __init__(
         self,
-        field: Field,
+        energy: EnergyEvaluation,
         x: FloatArray,
         step: float,
         excess: float = 0.0,
-        confine: Callable[[FloatArray], FloatArray] | None = None,
         noise: float = 0.0,
         sigma: float | None = None,
     ) -> None:
-        super().__init__(field, x, step, excess, confine)
+        super().__init__(energy, x, step, excess)
         sets, n, d = x.shape
         self._noise = noise
         self._y = np.array(x)  # where the next gradient is taken
         self._momentum = np.ones(sets)
         self._recent = np.full((sets, PATIENCE + 1), np.nan)  # excess energies, the last one last
         treated = sigma is not None and d <= 3 and self._side > PRECONDITION_ABOVE
-        self._bands = [LowBand(n, d, sigma) for _ in range(sets)] if sigma is not None and treated else []
+        self._bands = (
+            [LowestBandPreconditioner(n, d, sigma) for _ in range(sets)]
+            if sigma is not None and treated
+            else []
+        )
 
     def advance(self) -> None:
         """Evaluate once and move every set that is not finished."""
@@ -195,7 +244,7 @@ class Nesterov(Descent):
         for k, band in enumerate(self._bands):
             if not self.finished[k]:
                 step[k] += band.correction(self._y[k], slope[k], float(self.size[k]))
-        moved = self._confine(self._y - self._capped(step) / self._side)
+        moved = self._y - self._capped(step) / self._side
         ahead = moved - self.x
         uphill = np.array([np.multiply(g, a).sum() > 0 for g, a in zip(slope, ahead, strict=True)])
         following = (1 + np.sqrt(1 + 4 * self._momentum**2)) / 2
@@ -203,7 +252,7 @@ class Nesterov(Descent):
         self._momentum = np.where(uphill, 1.0, following)
         live = ~self.finished[:, None, None]
         self.x = np.where(live, moved, np.where(reached, self._y, self.x))
-        self._y = np.where(live, self._confine(moved + inertia[:, None, None] * ahead), self._y)
+        self._y = np.where(live, moved + inertia[:, None, None] * ahead, self._y)
 
     def state(self) -> dict[str, NDArray[Any]]:
         """Everything that the next steps depend on."""

@@ -1,4 +1,4 @@
-"""Which evaluation of the energy is used, and why: the cheapest of those that are exact to the precision."""
+"""The choice between evaluations of the energy: the cheapest of those that are exact to the precision."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from dataclasses import dataclass
 
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.generators.gbn import kernel, operation_counts
-from gbnbench.generators.gbn.operation_counts import Cost
+from gbnbench.generators.gbn.operation_counts import EnergyCost
 
 TOLERATED = 5.0  # times the least error: image sums lose digits where images overlap
 METHODS = ("strips", "images", "theta", "harmonics")
 
 
 @dataclass(frozen=True)
-class Plan:
+class EnergyPlan:
     """A choice between evaluations, with what the others would have cost.
 
     Attributes
@@ -28,11 +28,11 @@ class Plan:
         Of the arithmetic.
     cutoff, edge : float or None
         Kernel truncated in space (sigmas) or in frequency (nu).
-    chosen : Cost
+    chosen : EnergyCost
         The evaluation.
     why : str
         In words.
-    others : tuple of Cost
+    others : tuple of EnergyCost
         What would do as well, cheapest first, then what would lose digits.
     refused : tuple of (str, str)
         Methods that cannot, and why.
@@ -45,9 +45,9 @@ class Plan:
     precision: str
     cutoff: float | None
     edge: float | None
-    chosen: Cost
+    chosen: EnergyCost
     why: str
-    others: tuple[Cost, ...]
+    others: tuple[EnergyCost, ...]
     refused: tuple[tuple[str, str], ...]
 
     @property
@@ -57,7 +57,7 @@ class Plan:
 
     @property
     def error(self) -> float:
-        """Bound on a component's error, as ``Field.error``."""
+        """Bound on a component's error, as ``EnergyEvaluation.error``."""
         return self.chosen.error
 
     @property
@@ -65,7 +65,7 @@ class Plan:
         """Floating-point operations of all sets, two an instruction."""
         return 2 * self.sets * self.chosen.instructions
 
-    def seconds(self, which: Cost | None = None) -> float:
+    def seconds(self, which: EnergyCost | None = None) -> float:
         """Estimate the CPU seconds of one gradient of all sets on the chosen device, by its measured peak.
 
         Raises
@@ -91,7 +91,7 @@ class Plan:
         return "\n".join(lines)
 
 
-def plan(
+def plan_energy(
     n: int,
     d: int,
     sigma: float,
@@ -101,7 +101,7 @@ def plan(
     cutoff: float | None = None,
     edge: float | None = None,
     method: str | None = None,
-) -> Plan:
+) -> EnergyPlan:
     """Choose how the energy of sets of n points is evaluated.
 
     Parameters
@@ -121,6 +121,10 @@ def plan(
     method : {"strips", "images", "theta", "harmonics"}, optional
         Instead of the cheapest.
 
+    Returns
+    -------
+    EnergyPlan
+
     Raises
     ------
     InputError
@@ -129,7 +133,7 @@ def plan(
         If the method asked for cannot serve this size.
     """
     _check(n, d, sigma, precision, sets, cutoff, edge, method)
-    makers: dict[str, Callable[[], Cost]] = {
+    makers: dict[str, Callable[[], EnergyCost]] = {
         "strips": lambda: operation_counts.strips(n, d, sigma, precision, cutoff),
         "images": lambda: operation_counts.images(n, d, sigma, precision),
         "theta": lambda: operation_counts.theta(n, d, sigma, precision),
@@ -141,7 +145,7 @@ def plan(
             "the only one that cuts the kernel off" if cutoff is not None else "the only one with an edge"
         )
         chosen = makers[only]()
-        return Plan(n, d, sets, sigma, precision, cutoff, edge, chosen, reason, (), ())
+        return EnergyPlan(n, d, sets, sigma, precision, cutoff, edge, chosen, reason, (), ())
     found, refused = [], []
     for name, make in makers.items():
         try:
@@ -157,7 +161,7 @@ def plan(
     chosen = next((c for c in found if c.method == method), found[0])
     why = "asked for" if method else "the cheapest that is exact to the precision"
     others = tuple(c for c in found if c is not chosen)
-    return Plan(n, d, sets, sigma, precision, None, None, chosen, why, others, tuple(refused))
+    return EnergyPlan(n, d, sets, sigma, precision, None, None, chosen, why, others, tuple(refused))
 
 
 def _check(

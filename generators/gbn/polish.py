@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray
-from gbnbench.generators.gauss_newton.solver import reach
+from gbnbench.generators.gauss_newton.solver import solve_for_amplitudes
 
 WITH_ITS_END = 1e-9  # of the edge: shells that lie on it belong to the band
 
 
-def polished(x: FloatArray, edge: float) -> FloatArray:
+def empty_band(x: FloatArray, edge: float) -> FloatArray:
     """Empty the band 0 < nu <= edge of one set.
 
     Parameters
@@ -20,12 +20,16 @@ def polished(x: FloatArray, edge: float) -> FloatArray:
     edge : float
         In nu.
 
+    Returns
+    -------
+    (n, d) float64
+
     Raises
     ------
     RefusalError
         If the band cannot be emptied.
     """
-    outcome = reach(x, 0.0, edge * (1 + WITH_ITS_END))
+    outcome = solve_for_amplitudes(x, 0.0, edge * (1 + WITH_ITS_END))
     if not outcome.converged:
         raise RefusalError(f"polish={edge:g} cannot empty its band: {outcome.reason}; take a lower edge")
     return outcome.x

@@ -16,10 +16,10 @@ import numpy as np
 
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
-from gbnbench.generators.gauss_newton.modes import bound
-from gbnbench.generators.gbn.energy import field
+from gbnbench.generators.gauss_newton.modes import bound_coordinates
+from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.optimiser import step_size
-from gbnbench.generators.gbn.protocol import Gradient
+from gbnbench.generators.gbn.protocol import EnergyGradient
 
 Subset = tuple[int, ...]
 EVACUATED = 0.72  # nu below which a set of the whole energy has next to no power
@@ -93,6 +93,11 @@ def shares(n: int, d: int, chosen: Sequence[Subset], edge: float | None = None) 
     edge : float, optional
         nu, in the projections' own spacings, up to which their energies see; by default 0.72 counts.
 
+    Returns
+    -------
+    dict
+        Subset -> share; the whole set stands under all its coordinates.
+
     Notes
     -----
     2 chi m / d, chi = V_m edge^m / 2 m and m = |S|, counted over actual frequencies. Frequencies of a
@@ -101,12 +106,12 @@ def shares(n: int, d: int, chosen: Sequence[Subset], edge: float | None = None) 
     """
     whole = tuple(range(d))
     return {
-        axes: bound(n, len(axes), EVACUATED if axes == whole or edge is None else edge) / (n * d)
+        axes: bound_coordinates(n, len(axes), EVACUATED if axes == whole or edge is None else edge) / (n * d)
         for axes in (whole, *chosen)
     }
 
 
-class ProjectiveField:
+class ProjectiveEnergy:
     """The whole energy and that of every chosen projection, balanced so that no term sets the step alone.
 
     Parameters
@@ -126,7 +131,7 @@ class ProjectiveField:
     Attributes
     ----------
     method, error
-        As ``Field``; the error is that of the worst term.
+        As ``EnergyEvaluation``; the error is that of the worst term.
     scale : dict
         Subset -> c_S.
 
@@ -156,8 +161,8 @@ class ProjectiveField:
         wrong = [axes for axes in terms if not (math.isfinite(weight[axes]) and weight[axes] > 0)]
         if wrong:
             raise InputError(f"weights must be positive; got {weight[wrong[0]]} for {wrong[0]}")
-        self._fields = {
-            axes: field(n, len(axes), sigma, precision, edge=None if axes == whole else edge)
+        self._terms = {
+            axes: energy_evaluation(n, len(axes), sigma, precision, edge=None if axes == whole else edge)
             for axes in terms
         }
         largest = max(sum(weight[axes] for axes in terms if a in axes) for a in whole)
@@ -165,28 +170,29 @@ class ProjectiveField:
         self._unit = {axes: n ** (1 / len(axes) - 1 / d) for axes in terms}
         step = {axes: step_size(n, len(axes), sigma) / self._unit[axes] ** 2 for axes in terms}
         self.scale = {axes: weight[axes] / largest * step[axes] / step[whole] for axes in terms}
-        self.method = "; ".join(f"{axes}: {term.method}" for axes, term in self._fields.items())
-        self.error = max(term.error for term in self._fields.values())
+        self.method = "; ".join(f"{axes}: {term.method}" for axes, term in self._terms.items())
+        self.error = max(term.error for term in self._terms.values())
 
     @property
     def anchor(self) -> FloatArray | None:
-        """What the terms keep between calls, side by side; see ``Strips``."""
-        kept = [at for term in self._fields.values() if (at := getattr(term, "anchor", None)) is not None]
+        """Points as each term's strips were last sorted, side by side; see ``Strips``."""
+        kept = [at for term in self._terms.values() if (at := getattr(term, "anchor", None)) is not None]
         return np.concatenate(kept, axis=2) if kept else None
 
     @anchor.setter
     def anchor(self, x: FloatArray) -> None:
+        """Go on as if the points had last been sorted at x."""
         begin = 0
-        for axes, term in self._fields.items():
+        for axes, term in self._terms.items():
             if hasattr(term, "anchor"):
                 term.anchor = np.ascontiguousarray(x[:, :, begin : begin + len(axes)])
                 begin += len(axes)
 
-    def __call__(self, x: FloatArray) -> Gradient:
-        """Gradient and energy sum of c_S Ex_S at x, (sets, n, d) float64 in box sides; see ``Field``."""
+    def __call__(self, x: FloatArray) -> EnergyGradient:
+        """Gradient and energy, the sum of c_S Ex_S, at x, (sets, n, d) float64 in box sides."""
         gradient, excess = np.zeros(x.shape), np.zeros(len(x))
-        for axes, term in self._fields.items():
+        for axes, term in self._terms.items():
             at = term(np.ascontiguousarray(x[:, :, axes]))
             gradient[:, :, axes] += self.scale[axes] * self._unit[axes] * at.gradient
             excess += self.scale[axes] * at.excess
-        return Gradient(gradient, excess)
+        return EnergyGradient(gradient, excess)

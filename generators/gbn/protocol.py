@@ -1,4 +1,4 @@
-"""What evaluates the energy of Gaussian Blue Noise: many sets at once, gradient and excess energy of each."""
+"""The protocol of evaluations of the Gaussian Blue Noise energy: many sets at once, gradient and excess."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from gbnbench.core.torus import FloatArray
 
 
 @dataclass(frozen=True)
-class Gradient:
-    """What one evaluation of several sets gives.
+class EnergyGradient:
+    """Gradients and excess energies of several sets.
 
     Attributes
     ----------
@@ -25,7 +25,7 @@ class Gradient:
     excess: FloatArray
 
 
-class Field(Protocol):
+class EnergyEvaluation(Protocol):
     """Evaluates the energy of sets of n points in d dimensions at one sigma, in one precision.
 
     Attributes
@@ -40,7 +40,7 @@ class Field(Protocol):
     method: str
     error: float
 
-    def __call__(self, x: FloatArray) -> Gradient:
+    def __call__(self, x: FloatArray) -> EnergyGradient:
         """Gradient and excess energy at x, (sets, n, d) float64 in box sides, in or out of [0, 1).
 
         A set's numbers are bitwise the same whatever the other sets of the call, and however many.

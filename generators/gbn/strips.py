@@ -11,7 +11,7 @@ from scipy.stats import chi2
 
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn import operation_counts
-from gbnbench.generators.gbn.protocol import Gradient
+from gbnbench.generators.gbn.protocol import EnergyGradient
 from gbnbench.opencl import Runtime
 
 WIDTH = {"double": 1.8, "float": 2.5}  # of a strip, in spacings
@@ -98,12 +98,13 @@ class Strips:
 
     @anchor.setter
     def anchor(self, x: FloatArray) -> None:
+        """Go on as if the points had last been sorted at x."""
         self._allocate(len(x))
         for k, points in enumerate(x):
             self._sort(k, points)
 
-    def __call__(self, x: FloatArray) -> Gradient:
-        """Evaluate; see ``Field``."""
+    def __call__(self, x: FloatArray) -> EnergyGradient:
+        """Evaluate; see ``EnergyEvaluation``."""
         if len(x) != len(self._anchor):
             self.anchor = x
         moved = x - self._anchor
@@ -147,7 +148,7 @@ class Strips:
                 np.take(at[:, a], self._slots[k], out=places[k, a])
         return places
 
-    def _results(self, sets: int) -> Gradient:
+    def _results(self, sets: int) -> EnergyGradient:
         found = self._runtime.download(
             self._found, np.empty(sets * (self.n * self.d + self._groups), self._real)
         )
@@ -158,7 +159,7 @@ class Strips:
             row[:groups].sum(dtype=np.float64)
             for row, groups in zip(energy.reshape(sets, -1), self._used, strict=True)
         ]
-        return Gradient(gradient, (np.array(sums) / self.n - self._uniform) / 2)
+        return EnergyGradient(gradient, (np.array(sums) / self.n - self._uniform) / 2)
 
     def _allocate(self, sets: int) -> None:
         if sets == len(self._anchor):

@@ -9,12 +9,12 @@ import numpy as np
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn import kernel, operation_counts
 from gbnbench.generators.gbn.evaluation import AllPairs, means
-from gbnbench.generators.gbn.protocol import Gradient
+from gbnbench.generators.gbn.protocol import EnergyGradient
 from gbnbench.opencl import Runtime
 
 
 class Theta(AllPairs):
-    """All pairs by polynomials in cos 2 pi (x_k - x_l); see ``Field`` and kernels/gbn_theta.cl.
+    """All pairs by polynomials in cos 2 pi (x_k - x_l); see ``EnergyEvaluation`` and kernels/gbn_theta.cl.
 
     Notes
     -----
@@ -36,7 +36,7 @@ class Theta(AllPairs):
             "/turns.cl", "gbn_circle.cl", "gbn_theta.cl", DEGREE=self.degree, FLAT=int(flat)
         )
 
-    def _sums(self, x: FloatArray) -> Gradient:
+    def _sums(self, x: FloatArray) -> EnergyGradient:
         circle = self.buffer("circle", 2 * x.size)
         turns = self.send_turns(x)
         self.launch(self._program, "gbn_circle", -(-x.size // self.lanes), turns, np.uint32(x.size), circle)
@@ -44,4 +44,4 @@ class Theta(AllPairs):
         # The kernel's theta has mean 1 over the box, and its slope is by y over -2 pi, per box side.
         mean = self._unit * (math.sqrt(2 * math.pi) * self.sigma / self.side) ** self.d
         slopes *= -2 * math.pi * mean / self.side
-        return Gradient(slopes, means(sums) * (mean / 2))
+        return EnergyGradient(slopes, means(sums) * (mean / 2))

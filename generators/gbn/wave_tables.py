@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.integer_frequencies import shell_counts
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn import kernel
 
@@ -16,21 +17,21 @@ TILE = (4, 3)  # rows of the leading and the trailing table that are multiplied 
 MOST_ROWS = 20_000  # of a table
 
 
-def shell_counts(d: int, square: int) -> FloatArray:
-    """Count the integer vectors of d dimensions with |f|^2 = 0, 1, ..., square: (square + 1,) float64."""
-    one = np.zeros(square + 1)
-    one[0] = 1
-    one[np.arange(1, math.isqrt(square) + 1) ** 2] = 2
-    counts = np.zeros(square + 1)
-    counts[0] = 1
-    for _ in range(d):  # one axis more: only squares are not 0
-        counts = sum((one[f * f] * np.r_[np.zeros(f * f), counts[: square + 1 - f * f]]
-                      for f in range(math.isqrt(square) + 1)), np.zeros(square + 1))  # fmt: skip
-    return counts
-
-
-def needed(n: int, d: int, sigma: float, precision: str) -> int:
+def square_needed(n: int, d: int, sigma: float, precision: str) -> int:
     """Return |f|^2 beyond which no frequency shows in a gradient of the precision.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    sigma : float
+        Kernel width, in spacings.
+    precision : {"double", "float"}
+        Of the arithmetic.
+
+    Returns
+    -------
+    int
 
     Notes
     -----
@@ -57,17 +58,44 @@ def _log_strength(n: int, d: int, sigma: float) -> float:
     return math.log(kernel.largest_force(n, d, sigma)) - mean - math.log(2 * math.pi / side)
 
 
-def volume(d: int, square: int) -> float:
-    """Count the frequencies with |f|^2 <= square, exactly where that is quick."""
+def ball_volume(d: int, square: int) -> float:
+    """Count the frequencies with |f|^2 <= square, exactly where that is quick.
+
+    Parameters
+    ----------
+    d : int
+        Dimension.
+    square : int
+        Largest |f|^2.
+
+    Returns
+    -------
+    float
+    """
     if d < 2:
         return 1.0 + 2 * d * math.isqrt(square)
     if square * math.sqrt(square) * d <= 3e5:
-        return float(shell_counts(d, square).sum())
+        return float(shell_counts(d, square)[1].sum())
     return math.pow(math.pi, d / 2) / math.gamma(d / 2 + 1) * math.pow(math.sqrt(square) + 0.5, d)
 
 
 def ball_square(n: int, d: int, sigma: float, precision: str, edge: float | None) -> int:
     """Return the largest |f|^2 that is summed.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    sigma : float
+        Kernel width, in spacings.
+    precision : {"double", "float"}
+        Of the arithmetic.
+    edge : float or None
+        Highest nu that is summed.
+
+    Returns
+    -------
+    int
 
     Raises
     ------
@@ -75,7 +103,7 @@ def ball_square(n: int, d: int, sigma: float, precision: str, edge: float | None
         If edge is not positive, or so small that no frequency is left.
     """
     if edge is None:
-        return needed(n, d, sigma, precision)
+        return square_needed(n, d, sigma, precision)
     if not edge > 0:
         raise InputError(f"edge must be positive, in nu = |f| n^(-1/d); got {edge}")
     side = kernel.side_of(n, d)
@@ -84,11 +112,11 @@ def ball_square(n: int, d: int, sigma: float, precision: str, edge: float | None
             f"edge={edge} leaves no frequency of {n} points in {d}D: the lowest is {1 / side:.4g}"
         )
     within = math.floor((edge * side) ** 2 * (1 + 1e-12)) if math.isfinite(edge) else 1 << 60
-    return min(within, needed(n, d, sigma, precision))
+    return min(within, square_needed(n, d, sigma, precision))
 
 
 @dataclass(frozen=True)
-class Group:
+class AxisGroup:
     """The waves of some axes, in ascending |f|^2, padded to whole tiles by rows of no weight.
 
     Attributes
@@ -137,15 +165,30 @@ class Group:
 PADDING = 1 << 40
 
 
-def group(first: int, axes: int, square: int, tile: int) -> Group:
+def axis_group(first: int, axes: int, square: int, tile: int) -> AxisGroup:
     """List the waves of some axes with |f|^2 <= square.
+
+    Parameters
+    ----------
+    first : int
+        Axis of the points at which the group begins.
+    axes : int
+        How many axes it has.
+    square : int
+        Largest |f|^2.
+    tile : int
+        Rows are padded to a multiple of this.
+
+    Returns
+    -------
+    AxisGroup
 
     Raises
     ------
     RefusalError
         If they are too many.
     """
-    count = volume(axes, square)
+    count = ball_volume(axes, square)
     if count > MOST_ROWS:
         raise RefusalError(
             f"{count:.3g} waves of {axes} axes are within reach; method harmonics takes {MOST_ROWS}: a "
@@ -161,11 +204,11 @@ def group(first: int, axes: int, square: int, tile: int) -> Group:
     index, squares = index[order], squares[order]
     pad = -len(index) % tile
     index = np.concatenate([index, np.zeros((pad, index.shape[1]), np.int64)])
-    return Group(first, index.astype(np.uint32), np.concatenate([squares, np.full(pad, PADDING)]))
+    return AxisGroup(first, index.astype(np.uint32), np.concatenate([squares, np.full(pad, PADDING)]))
 
 
 @dataclass(frozen=True)
-class Modes:
+class WaveTables:
     """All frequencies of a ball.
 
     Attributes
@@ -179,8 +222,8 @@ class Modes:
     """
 
     square: int
-    leading: Group
-    trailing: Group
+    leading: AxisGroup
+    trailing: AxisGroup
     tiles: NDArray[np.uint32]
 
     @property
@@ -197,7 +240,7 @@ class Modes:
         inside = (square > 0) & (square <= self.square)
         return np.where(inside, np.exp2(axes) * np.exp(-b * (np.where(inside, square, 1) - 1.0)), 0.0)
 
-    def reach(self, side: int) -> NDArray[np.uint32]:
+    def column_ends(self, side: int) -> NDArray[np.uint32]:
         """Columns beyond which a tile of rows of the leading (0) or trailing (1) group has no weight."""
         rows = (self.leading, self.trailing)[side].rows // TILE[side]
         tile, end = self.tiles[:, side] // TILE[side], self.tiles[:, 1 - side] + TILE[1 - side]
@@ -206,12 +249,24 @@ class Modes:
         return out
 
 
-def ball(d: int, square: int) -> Modes:
-    """Frequencies with 0 < |f|^2 <= square, in d dimensions."""
+def ball_waves(d: int, square: int) -> WaveTables:
+    """Build the tables for the frequencies with 0 < |f|^2 <= square.
+
+    Parameters
+    ----------
+    d : int
+        Dimension.
+    square : int
+        Largest |f|^2.
+
+    Returns
+    -------
+    WaveTables
+    """
     lead = (d + 1) // 2
-    leading = group(0, lead, square, TILE[0])
+    leading = axis_group(0, lead, square, TILE[0])
     # The one-dimensional case has the wave 1 of its own axis for a trailing row.
-    trailing = group(lead, d - lead, square, TILE[1]) if d > 1 else group(0, 1, 0, TILE[1])
+    trailing = axis_group(lead, d - lead, square, TILE[1]) if d > 1 else axis_group(0, 1, 0, TILE[1])
     least = leading.square[:: TILE[0], None] + trailing.square[:: TILE[1]]
     tiles = np.argwhere(least <= square) * np.array(TILE)
-    return Modes(square, leading, trailing, tiles.astype(np.uint32))
+    return WaveTables(square, leading, trailing, tiles.astype(np.uint32))

@@ -1,19 +1,22 @@
-/* Energy and gradient of Gaussian Blue Noise in frequency space: E = (1/2n) sum_f w_f |F_f|^2, 0 < |f| <= reach
- * (Ahmed, Ren & Wonka 2022, Eq. 20).
+/* Energy and gradient of Gaussian Blue Noise in frequency space: E = (1/2n) sum_f w_f |F_f|^2, 0 < |f| <=
+ * reach (Ahmed, Ren & Wonka 2022, Eq. 20).
  *
- * With the real waves of an axis 1, cos 2 pi x, sin 2 pi x, cos 4 pi x, ..., products of one wave an axis have the
- * sums R over the points, and sum_f w_f |F_f|^2 = sum W R^2, W being w_f times 2 for each axis where f_a is not 0:
- * diagonal, since w depends on |f_a| only. Dimensions stand in a leading and a trailing group, whose waves are rows
- * of two tables; a pair of rows is a frequency, and those beyond reach have W = 0 and, where a whole tile of TILE_A
- * by TILE_B rows lies there, are not in the list of tiles. The slopes are gbn_slopes.cl's.
+ * With the real waves of an axis 1, cos 2 pi x, sin 2 pi x, cos 4 pi x, ..., products of one wave an axis
+ * have the sums R over the points, and sum_f w_f |F_f|^2 = sum W R^2, W being w_f times 2 for each axis
+ * where f_a is not 0: diagonal, since w depends on |f_a| only. Dimensions stand in a leading and a trailing
+ * group, whose waves are rows of two tables; a pair of rows is a frequency, and those beyond reach have W =
+ * 0 and, where a whole tile of TILE_A by TILE_B rows lies there, are not in the list of tiles. The slopes
+ * are gbn_slopes.cl's.
  *
- * Points of a set are padded to stride, a multiple of 2 LANES, by points whose waves are 0. Needs vector.cl, turns.cl.
+ * Points of a set are padded to stride, a multiple of 2 LANES, by points whose waves are 0. Needs vector.cl,
+ * turns.cl.
  */
 #define SUM REAL
 #define STEP 8
 
-/* Waves of each axis: wave (sets, DIM, WAVES, stride), WAVES >= 2 FMAX + 1. Phases of each multiple of STEP, and of the frequencies
- * below it, are exact; the rest is one complex product of these. One work-item does LANES points of one axis. */
+/* Waves of each axis: wave (sets, DIM, WAVES, stride), WAVES >= 2 FMAX + 1. Phases of each multiple of STEP,
+ * and of the frequencies below it, are exact; the rest is one complex product of these. One work-item does
+ * LANES points of one axis. */
 __kernel void gbn_waves(__global const TURN *turns, const uint sets, const uint n, const uint stride,
                         __global REAL *wave)
 {
@@ -48,9 +51,10 @@ __kernel void gbn_waves(__global const TURN *turns, const uint sets, const uint 
             out[row * stride + pad] = 0;
 }
 
-/* Rows of a group of several axes: table (sets, rows, stride), row i being the product over the axes of the waves that
- * index (rows, axes) names. One work-item a row. */
-__kernel void gbn_rows(__global const REAL *wave, const uint sets, const uint stride, const uint first, const uint axes,
+/* Rows of a group of several axes: table (sets, rows, stride), row i being the product over the axes of the
+ * waves that index (rows, axes) names. One work-item a row. */
+__kernel void gbn_rows(__global const REAL *wave, const uint sets, const uint stride, const uint first,
+                       const uint axes,
                        __global const uint *index, const uint rows, __global REAL *table)
 {
     const uint row = get_global_id(0); /* of all sets */
@@ -66,13 +70,16 @@ __kernel void gbn_rows(__global const REAL *wave, const uint sets, const uint st
     }
 }
 
-/* Sums R of a tile of rows over the points of a set, times their weights (rows_a, rows_b): both ways round, and the
- * tile's energy sum W R^2. A set's rows begin at start + set * pitch, pitch and start being in rows. One work-item a
- * tile. */
+/* Sums R of a tile of rows over the points of a set, times their weights (rows_a, rows_b): both ways round,
+ * and the tile's energy sum W R^2. A set's rows begin at start + set * pitch, pitch and start being in rows.
+ * One work-item a tile. */
 __kernel void gbn_amplitudes(__global const REAL *restrict a, const uint start_a, const uint pitch_a,
-                             __global const REAL *restrict b, const uint start_b, const uint pitch_b, const uint sets,
-                             const uint stride, const uint rows_a, const uint rows_b, __global const uint *tiles,
-                             const uint count, __global const REAL *restrict weight, __global REAL *restrict forward,
+                             __global const REAL *restrict b, const uint start_b, const uint pitch_b,
+                             const uint sets,
+                             const uint stride, const uint rows_a, const uint rows_b,
+                             __global const uint *tiles,
+                             const uint count, __global const REAL *restrict weight,
+                             __global REAL *restrict forward,
                              __global REAL *restrict backward, __global REAL *restrict energy)
 {
     const uint set = get_global_id(0) / count;

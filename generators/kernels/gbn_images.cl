@@ -1,13 +1,15 @@
-/* Energy and gradient of Gaussian Blue Noise over all pairs, each dimension's theta function as a sum over images:
- * theta(u) = sum_j exp(-(u + j L)^2 / 2) in sigmas (Ahmed, Ren & Wonka 2022, Eq. 22), the IMAGES nearest of them.
+/* Energy and gradient of Gaussian Blue Noise over all pairs, each dimension's theta function as a sum over
+ * images: theta(u) = sum_j exp(-(u + j L)^2 / 2) in sigmas (Ahmed, Ren & Wonka 2022, Eq. 22), the IMAGES
+ * nearest of them.
  *
  * With u brought to [-L/2, L/2], the nearest image is exp(-u^2/2) and the others, in order of distance, are
- * exp(-m L (m L / 2 -+ |u|)) of it, m = 1, 1, 2, 2, ...: one exp for the nearest of all dimensions together and one for
- * each further image, none of which can overflow. e_k = sum_l prod_a theta_a with the pair k = l.
+ * exp(-m L (m L / 2 -+ |u|)) of it, m = 1, 1, 2, 2, ...: one exp for the nearest of all dimensions together
+ * and one for each further image, none of which can overflow. e_k = sum_l prod_a theta_a with the pair k =
+ * l.
  *
- * at (sets * n, DIM): turns in float, so that displacements are exact and nearest by integer wrap; in double, sides
- * from the nearest integer. One work-item sums LANES points of one set over all points of the set, in chunks of CHUNK.
- * Needs vector.cl and exp2.cl; rows and items as in gbn_theta.cl.
+ * at (sets * n, DIM): turns in float, so that displacements are exact and nearest by integer wrap; in
+ * double, sides from the nearest integer. One work-item sums LANES points of one set over all points of the
+ * set, in chunks of CHUNK. Needs vector.cl and exp2.cl; rows and items as in gbn_theta.cl.
  */
 #if DOUBLE
 #define PLACE REAL
@@ -31,7 +33,8 @@ static REALV displacement(TURNV k, TURN l)
 
 /* side is L in sigmas, scale what brings a displacement to sigmas. */
 __kernel void gbn_images(__global const PLACE *restrict at, const uint sets, const uint n, const uint stride,
-                         const uint items, const REAL side, const REAL scale, __global REAL *restrict gradient,
+                         const uint items, const REAL side, const REAL scale,
+                         __global REAL *restrict gradient,
                          __global REAL *restrict energy)
 {
     const uint set = get_global_id(0) / items;
@@ -78,7 +81,8 @@ __kernel void gbn_images(__global const PLACE *restrict at, const uint sets, con
                     value[a] += y;
                     pull += (image % 2 ? shift : -shift) * y;
                 }
-                slope[a] = ((u[a] < (REAL)0 ? -pull : pull) - u[a] * value[a]) * g; /* g: all dimensions before */
+                /* g: all dimensions before */
+                slope[a] = ((u[a] < (REAL)0 ? -pull : pull) - u[a] * value[a]) * g;
                 g *= value[a];
             }
             REALV after = (REALV)1;

@@ -1,10 +1,13 @@
-/* Slopes of gbn_harmonics.cl along the AXES axes of one group: with T_i = sum_j C_ij other_j at each point, sum_i T_i (own_i)' where the wave's
- * derivative along an axis is factor times the row partner, (rows, axes) both. C's columns end at reach[i / TILE_A].
- * Gradient (sets, stride, DIM), axes from first on. One work-item does 2 LANES points. Needs vector.cl. */
+/* Slopes of gbn_harmonics.cl along the AXES axes of one group: with T_i = sum_j C_ij other_j at each point,
+ * sum_i T_i (own_i)' where the wave's derivative along an axis is factor times the row partner, (rows, axes)
+ * both. C's columns end at reach[i / TILE_A]. Gradient (sets, stride, DIM), axes from first on. One
+ * work-item does 2 LANES points. Needs vector.cl. */
 __kernel void gbn_slopes(__global const REAL *restrict own, const uint start, const uint pitch,
                          __global const REAL *restrict other, const uint other_start, const uint other_pitch,
-                         const uint sets, const uint stride, const uint rows, const uint others, __global const uint *reach,
-                         __global const REAL *restrict c, __global const uint *partner, __global const REAL *factor,
+                         const uint sets, const uint stride, const uint rows, const uint others,
+                         __global const uint *reach,
+                         __global const REAL *restrict c, __global const uint *partner,
+                         __global const REAL *factor,
                          const uint first, __global REAL *restrict gradient)
 {
     const uint pairs = stride / (2 * LANES);

@@ -1,15 +1,17 @@
-/* Energy and gradient of Gaussian Blue Noise within a cut-off: e_k = sum_l sum over images exp(-r^2 / 2 sigma^2), and
- * its slope with respect to x_k (Ahmed, Ren & Wonka 2022, Eq. 18). The pair k = l at no shift adds 1 to the energy.
+/* Energy and gradient of Gaussian Blue Noise within a cut-off: e_k = sum_l sum over images exp(-r^2 / 2
+ * sigma^2), and its slope with respect to x_k (Ahmed, Ren & Wonka 2022, Eq. 18). The pair k = l at no shift
+ * adds 1 to the energy.
  *
- * The box is cut along its first axis into pencils (strips in two dimensions), each into CELLS cells; points lie
- * sorted by cell, each pencil from a multiple of LANES on, its last places filled with copies of its last point. So
- * the points of a pencil that may come within the cut-off are one contiguous run, or two across the border, and no
- * pair needs a test. One work-item sums LANES neighbours of one pencil; the second index is the set.
+ * The box is cut along its first axis into pencils (strips in two dimensions), each into CELLS cells; points
+ * lie sorted by cell, each pencil from a multiple of LANES on, its last places filled with copies of its
+ * last point. So the points of a pencil that may come within the cut-off are one contiguous run, or two
+ * across the border, and no pair needs a test. One work-item sums LANES neighbours of one pencil; the second
+ * index is the set.
  *
- * Double: positions in box sides, each image of a run is a run of its own with its shift. Float: positions are 32-bit
- * fractions of a side, whose differences wrap to the nearest image by themselves and are exact, so boxes must be
- * twice the cut-off wide and each run is visited once.
- * exp(-r^2 / 2 sigma^2) is 2^(-scale r^2), by exp2.cl.
+ * Double: positions in box sides, each image of a run is a run of its own with its shift. Float: positions
+ * are 32-bit fractions of a side, whose differences wrap to the nearest image by themselves and are exact,
+ * so boxes must be twice the cut-off wide and each run is visited once. exp(-r^2 / 2 sigma^2) is 2^(-scale
+ * r^2), by exp2.cl.
  */
 #if DOUBLE
 #define PLACE double
@@ -61,12 +63,14 @@ static REAL squared_gap(REAL low, REAL high, int pencil, REAL width)
     return gap * gap;
 }
 
-/* rows and columns count the pencils along the second and third axes; table holds, for each set and pencil, the first
- * slot of each cell and the slot after the last; scale is for places in their own units, reach in
+/* rows and columns count the pencils along the second and third axes; table holds, for each set and pencil,
+ * the first slot of each cell and the slot after the last; scale is for places in their own units, reach in
  * sides. found holds the slopes of all sets' points and then the energies of all sets' groups. */
 __kernel void gbn_strips(__global const PLACE *places, __global const uint *order, __global const uint *table,
-                         __global const uint *group_pencil, __global const uint *group_count, const uint groups,
-                         const uint n, const uint capacity, const int cells, const int rows, const int columns,
+                         __global const uint *group_pencil, __global const uint *group_count,
+                         const uint groups,
+                         const uint n, const uint capacity, const int cells, const int rows,
+                         const int columns,
                          const REAL scale, __global const REAL *reaches, __global REAL *found)
 {
     const uint group = get_global_id(0), set = get_global_id(1);
@@ -98,7 +102,8 @@ __kernel void gbn_strips(__global const PLACE *places, __global const uint *orde
     extent(x2 + slot, &low2, &high2);
     const PLACEV at2 = LOADV_PLACE(x2, slot);
     REALV force2 = (REALV)0;
-    int column0 = below((low2 - reach) * columns - MARGIN), column1 = below((high2 + reach) * columns + MARGIN);
+    int column0 = below((low2 - reach) * columns - MARGIN),
+        column1 = below((high2 + reach) * columns + MARGIN);
 #else
     int column0 = 0, column1 = 0;
 #endif

@@ -1,19 +1,23 @@
-/* Energy and gradient of Gaussian Blue Noise over all pairs, by a polynomial for each dimension's theta function.
+/* Energy and gradient of Gaussian Blue Noise over all pairs, by a polynomial for each dimension's theta
+ * function.
  *
- * theta(u) = 1 + 2 sum_{f >= 1} w_f cos 2 pi f u (Ahmed, Ren & Wonka 2022, Eq. 23; printed there over all f, the
- * identity needs twice the sum over f >= 1) is 1 + q(c), c = cos 2 pi u, q of degree DEGREE, and
- * u = x_k - x_l: c and sin 2 pi u come from the cosines and sines of the points, so a pair needs no exp and no cos.
+ * theta(u) = 1 + 2 sum_{f >= 1} w_f cos 2 pi f u (Ahmed, Ren & Wonka 2022, Eq. 23; printed there over all f,
+ * the identity needs twice the sum over f >= 1) is 1 + q(c), c = cos 2 pi u, q of degree DEGREE, and u = x_k
+ * - x_l: c and sin 2 pi u come from the cosines and sines of the points, so a pair needs no exp and no cos.
  *
  * e_k = sum_l (prod_a theta_a - 1): the product is kept without its mean, p <- p + q (1 + p), since in high
- * dimension the mean would swallow the digits. The slope by x_a leaves dimension a out of the product, by those
- * before it and those after it. Where FLAT, products are 1 to the precision, and only sums are left; q is then in
- * units of its first weight, which may be too small for REAL.
+ * dimension the mean would swallow the digits. The slope by x_a leaves dimension a out of the product, by
+ * those before it and those after it. Where FLAT, products are 1 to the precision, and only sums are left; q
+ * is then in units of its first weight, which may be too small for REAL.
  *
- * One work-item sums LANES points of one set over all points of the set, in chunks of CHUNK, so that sums of many
- * float terms keep their digits. Work-items of a set: items. Point k's row of gradient is k + set * stride.
+ * One work-item sums LANES points of one set over all points of the set, in chunks of CHUNK, so that sums of
+ * many float terms keep their digits. Work-items of a set: items. Point k's row of gradient is k + set *
+ * stride.
  */
-__kernel void gbn_theta(__global const REAL *restrict circle, const uint sets, const uint n, const uint stride,
-                        const uint items, __global const REAL *restrict weight, __global REAL *restrict gradient,
+__kernel void gbn_theta(__global const REAL *restrict circle, const uint sets, const uint n,
+                        const uint stride,
+                        const uint items, __global const REAL *restrict weight,
+                        __global REAL *restrict gradient,
                         __global REAL *restrict energy)
 {
     const uint set = get_global_id(0) / items;

@@ -18,7 +18,7 @@ MOST_POINTS = 1_000_000  # there are more than n lattices to choose from
 
 @lru_cache(maxsize=1024)
 def best_lattice(n: int) -> tuple[int, int, int, float]:
-    """Of all lattices of n points with the unit torus's periods, the one nearest to hexagonal.
+    """Find the lattice of n points nearest to hexagonal, of all with the unit torus's periods.
 
     Returns
     -------
@@ -78,7 +78,18 @@ class Hexagonal:
     shift: bool = True
 
     def refusal(self, n: int, d: int) -> str | None:
-        """Why no lattice of n points is hexagonal enough, with the nearest n that has one."""
+        """Say why no lattice of n points is hexagonal enough, with the nearest n that has one.
+
+        Parameters
+        ----------
+        n, d : int
+            Points and dimension.
+
+        Returns
+        -------
+        str or None
+            The reason, with the nearest numbers that can; None where they can.
+        """
         if d != 2:
             return f"d must be 2 for the hexagonal lattice; got d={d}"
         if n > MOST_POINTS:

@@ -14,6 +14,16 @@ from gbnbench.core.torus import FloatArray, wrap
 def grid_side(n: int, d: int) -> int | None:
     """Return the whole m with m**d = n, None where there is none.
 
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+
+    Returns
+    -------
+    int
+        m, the points on an axis.
+
     Examples
     --------
     >>> grid_side(1024, 2), grid_side(1000, 2)
@@ -25,6 +35,18 @@ def grid_side(n: int, d: int) -> int | None:
 
 def grid_refusal(what: str, n: int, d: int) -> str | None:
     """Why n is not m**d, with the nearest that is; None where it is.
+
+    Parameters
+    ----------
+    what : str
+        The grid, for the message.
+    n, d : int
+        Points and dimension.
+
+    Returns
+    -------
+    str or None
+        The reason, with the nearest numbers that can; None where they can.
 
     Examples
     --------
@@ -39,7 +61,20 @@ def grid_refusal(what: str, n: int, d: int) -> str | None:
 
 
 def grid_corners(m: int, d: int) -> FloatArray:
-    """Lower corners of the m**d cells, in units of a cell: (m**d, d) float64 whole numbers."""
+    """List the lower corners of the cells of a grid, in units of a cell.
+
+    Parameters
+    ----------
+    m : int
+        Cells on an axis.
+    d : int
+        Dimension.
+
+    Returns
+    -------
+    (m**d, d) float64
+        Whole numbers.
+    """
     return np.ascontiguousarray(np.indices((m,) * d, dtype=np.float64).reshape(d, -1).T)
 
 
@@ -68,7 +103,18 @@ class Grid:
     shift: bool = True
 
     def refusal(self, n: int, d: int) -> str | None:
-        """Why n is not m**d, with the nearest that is."""
+        """Say why n is not m**d, with the nearest number that is.
+
+        Parameters
+        ----------
+        n, d : int
+            Points and dimension.
+
+        Returns
+        -------
+        str or None
+            The reason, with the nearest numbers that can; None where they can.
+        """
         return grid_refusal("a regular grid", n, d)
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:

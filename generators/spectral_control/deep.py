@@ -12,16 +12,15 @@ import numpy as np
 
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray
-from gbnbench.generators.gauss_newton.modes import bound, edge_of
-from gbnbench.generators.gauss_newton.product_cost import too_much
-from gbnbench.generators.gauss_newton.solver import reach
+from gbnbench.generators.gauss_newton.modes import edge_binding
+from gbnbench.generators.gauss_newton.solver import solve_for_amplitudes
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
-from gbnbench.generators.monitor import Watch
+from gbnbench.generators.monitor import Monitor
+from gbnbench.generators.spectral_control.band import BandGenerator, check_edge
 from gbnbench.generators.spectral_control.target_profiles import Exponential, Table
 
 BOUND = math.pi * 0.72**2 / 2  # share of the coordinates that the default edge binds, in any dimension
 DEPTH = 10 * math.pi**2 * 0.72**2  # c edge**2 by default: a power of 6e-23 at nu = 0, in any dimension
-MOST_BOUND = 0.995  # up to .992 sets were seen to converge, slowly
 STEPS = 60  # five to ten are usual, forty where nearly every coordinate is bound
 LONGER = ((3, 100), (10, 1000))  # further starts: times ``gradients``, and at least so many
 USUAL = 10  # steps that progress expects of a set
@@ -37,7 +36,7 @@ def _as_target(value: object) -> Target:
 
 
 @dataclass(frozen=True)
-class Deep:
+class Deep(BandGenerator):
     """Random points, a few steps of Gaussian Blue Noise, then the least move to a target radial profile.
 
     Attributes
@@ -68,6 +67,7 @@ class Deep:
 
     name: ClassVar[str] = "deep"
     summary: ClassVar[str] = "deep blue noise: Gaussian Blue Noise moved least to a steeper profile"
+    most_bound: ClassVar[float] = 0.995  # up to .992 sets were seen to converge, slowly
 
     c: float | None = None
     edge: float | None = None
@@ -78,8 +78,7 @@ class Deep:
         object.__setattr__(self, "target", _as_target(self.target))
         if self.c is not None and not (math.isfinite(self.c) and self.c > 0):
             raise InputError(f"c must be positive and finite; got {self.c}")
-        if self.edge is not None and not (math.isfinite(self.edge) and self.edge > 0):
-            raise InputError(f"edge must be positive and finite, in nu; got {self.edge}")
+        check_edge(self.edge)
         if self.gradients < 0:
             raise InputError(f"gradients must be 0 or more; got {self.gradients}")
         table = self._table()
@@ -96,30 +95,50 @@ class Deep:
         table = self._table()
         if table is not None:
             return table, table.edge if self.edge is None else self.edge
-        edge = edge_of(BOUND, d) if self.edge is None else self.edge
+        edge = edge_binding(BOUND, d) if self.edge is None else self.edge
         if callable(self.target):
             return self.target, edge
         return Exponential(DEPTH / edge**2 if self.c is None else self.c, edge), edge
 
-    def refusal(self, n: int, d: int) -> str | None:
-        """Why n points in d dimensions cannot follow the profile."""
-        edge = self.profile(d)[1]
-        numbers = bound(n, d, edge)
-        if numbers > MOST_BOUND * n * d:
-            return (
-                f"a profile up to nu={edge:.4g} binds {numbers:.6g} of the {n * d} coordinates of n={n} "
-                f"points in d={d}, and no disordered set can meet more than {MOST_BOUND:.0%}; lower the edge "
-                "or take another n"
-            )
-        return too_much(n, d, edge)
+    def band_edge(self, d: int) -> float:
+        """Edge of the profile in d dimensions, in nu."""
+        return self.profile(d)[1]
 
-    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
-        """Draw one realization; see ``Generator`` and ``draw``."""
-        one: FloatArray = self.draw(n, d, [rng], Watch())[0]
-        return one
+    def too_bound(self, n: int, d: int, bound: float) -> str:
+        """Say that a profile binds too many coordinates, and what would do.
 
-    def draw(self, n: int, d: int, rngs: Sequence[np.random.Generator], watch: Watch) -> FloatArray:
-        """Draw one set from each stream; see ``Watchable``. Trace and checkpoint are the starts' own.
+        Parameters
+        ----------
+        n, d : int
+            Points and dimension.
+        bound : float
+            Coordinates that it binds.
+
+        Returns
+        -------
+        str
+        """
+        return (
+            f"a profile up to nu={self.band_edge(d):.4g} binds {bound:.6g} of the {n * d} coordinates of "
+            f"n={n} points in d={d}, and no disordered set can meet more than {self.most_bound:.0%}; lower "
+            "the edge or take another n"
+        )
+
+    def draw(self, n: int, d: int, rngs: Sequence[np.random.Generator], monitor: Monitor) -> FloatArray:
+        """Draw one set from each stream. Trace and checkpoint are those of the starts' descent.
+
+        Parameters
+        ----------
+        n, d : int
+            Points and dimension.
+        rngs : sequence of numpy.random.Generator
+            One for each set.
+        monitor : Monitor
+            Progress, a trace, a checkpoint.
+
+        Returns
+        -------
+        (len(rngs), n, d) float64
 
         Raises
         ------
@@ -133,17 +152,17 @@ class Deep:
         def started(done: int, total: int, doing: str) -> None:
             nonlocal counted
             counted = total
-            if watch.progress is not None:
-                watch.progress(done, total + ahead, f"deep, its start: {doing}")
+            if monitor.progress is not None:
+                monitor.progress(done, total + ahead, f"deep, its start: {doing}")
 
         def stepped(k: int, step: int, residual: float) -> None:
-            if watch.progress is not None:
+            if monitor.progress is not None:
                 done = counted + k * USUAL + min(step, USUAL - 1)
                 told = f"deep, set {k + 1}, {residual:.1e} times what is allowed"
-                watch.progress(done, counted + ahead, told)
+                monitor.progress(done, counted + ahead, told)
 
         short = GaussianBlueNoise(gradients=self.gradients)
-        starts = short.draw(n, d, rngs, replace(watch, progress=started))
+        starts = short.draw(n, d, rngs, replace(monitor, progress=started))
         ends = [
             self._deepened(x, rng, partial(stepped, k))
             for k, (x, rng) in enumerate(zip(starts, rngs, strict=True))
@@ -156,12 +175,12 @@ class Deep:
         """Bring one start to the profile, or others drawn from its stream."""
         n, d = x.shape
         target, edge = self.profile(d)
-        outcome = reach(x, target, edge, steps=STEPS, progress=progress)
+        outcome = solve_for_amplitudes(x, target, edge, steps=STEPS, progress=progress)
         for times, least in LONGER:
             if outcome.converged:
                 break
             longer = GaussianBlueNoise(gradients=max(times * self.gradients, least))
-            outcome = reach(longer(n, d, rng), target, edge, steps=STEPS, progress=progress)
+            outcome = solve_for_amplitudes(longer(n, d, rng), target, edge, steps=STEPS, progress=progress)
         if not outcome.converged:
             raise RefusalError(
                 f"n={n} points in d={d} do not reach this profile from {1 + len(LONGER)} starts: "

@@ -12,17 +12,16 @@ import numpy as np
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.gauss_newton.conjugate_gradients import solve
-from gbnbench.generators.gauss_newton.gram_matrix import gram
-from gbnbench.generators.gauss_newton.modes import bound, edge_of, modes
-from gbnbench.generators.gauss_newton.product_cost import too_much
-from gbnbench.generators.gauss_newton.solver import reach
-from gbnbench.generators.gauss_newton.wave_sums import Waves
-from gbnbench.generators.gbn.energy import field
+from gbnbench.generators.gauss_newton.gram_matrix import gram_product
+from gbnbench.generators.gauss_newton.modes import edge_binding, modes_below
+from gbnbench.generators.gauss_newton.solver import solve_for_amplitudes
+from gbnbench.generators.gauss_newton.wave_sums import WaveSums
+from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.optimiser import Nesterov, step_size
-from gbnbench.generators.monitor import Watch, only_progress
+from gbnbench.generators.monitor import Monitor, refuse_all_but_progress
+from gbnbench.generators.spectral_control.band import BandGenerator, check_edge
 
 SHARE = 0.6  # of the coordinates that the default edge binds, in any dimension
-MOST_BOUND = 0.96  # beyond, there are no disordered sets: in 1D they collapse to the grid
 LONGER = (1, 3, 10)  # starts for newton, in times of its gradients
 SIGMA = 1.0  # of the truncated energy
 FORCING = 1e-4  # residual of the last step's linear solve
@@ -32,14 +31,26 @@ USUAL = 10  # Gauss-Newton steps that progress expects
 
 
 def band_power(x: FloatArray, edge: float) -> FloatArray:
-    """Power of one set, (n, d) in box sides, at one of each pair f, -f with 0 < nu < edge: (m,) float64."""
+    """Power of one set at one of each pair f, -f with 0 < nu < edge.
+
+    Parameters
+    ----------
+    x : (n, d) float64
+        Points, box sides.
+    edge : float
+        In nu.
+
+    Returns
+    -------
+    (m,) float64
+    """
     n, d = x.shape
-    amplitudes = Waves(wrap(x), modes(n, d, edge).f).amplitudes()
+    amplitudes = WaveSums(wrap(x), modes_below(n, d, edge).f).amplitudes()
     return np.asarray(np.abs(amplitudes) ** 2 / n)
 
 
 @dataclass(frozen=True)
-class Stealthy:
+class Stealthy(BandGenerator):
     """Random points moved until no power is left at the frequencies 0 < nu < edge.
 
     Attributes
@@ -83,6 +94,9 @@ class Stealthy:
 
     name: ClassVar[str] = "stealthy"
     summary: ClassVar[str] = "stealthy (step) blue noise: no power below an edge (Uche et al. 2006)"
+    most_bound: ClassVar[float] = (
+        0.96  # beyond, there are no disordered sets: in 1D they collapse to the grid
+    )
 
     edge: float | None = None
     method: Literal["newton", "harmonics"] = "newton"
@@ -91,36 +105,53 @@ class Stealthy:
     power: float = 1e-8
 
     def __post_init__(self) -> None:
-        if self.edge is not None and not (math.isfinite(self.edge) and self.edge > 0):
-            raise InputError(f"edge must be positive and finite, in nu; got {self.edge}")
+        check_edge(self.edge)
         for name in ("gradients", "most"):
             if (getattr(self, name) or 0) < 0:
                 raise InputError(f"{name} must be 0 or more; got {getattr(self, name)}")
         if not (math.isfinite(self.power) and self.power > 0):
             raise InputError(f"power must be positive; got {self.power}")
 
-    def _edge(self, d: int) -> float:
-        return edge_of(SHARE, d) if self.edge is None else self.edge
+    def band_edge(self, d: int) -> float:
+        """Edge of the empty band in d dimensions, in nu."""
+        return edge_binding(SHARE, d) if self.edge is None else self.edge
 
-    def refusal(self, n: int, d: int) -> str | None:
-        """Why n points in d dimensions cannot have that band empty."""
-        edge = self._edge(d)
-        numbers = bound(n, d, edge)
-        if numbers > MOST_BOUND * n * d:
-            return (
-                f"an empty band below nu={edge:.4g} binds {numbers:.6g} of the {n * d} coordinates of n={n} "
-                f"points in d={d}: only lattices, if any, have it; lower the edge, {edge_of(0.8, d):.3g} "
-                "still leaves disorder"
-            )
-        return too_much(n, d, edge)
+    def too_bound(self, n: int, d: int, bound: float) -> str:
+        """Say that an empty band binds too many coordinates, and what would do.
 
-    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
-        """Draw one realization; see ``Generator`` and ``draw``."""
-        one: FloatArray = self.draw(n, d, [rng], Watch())[0]
-        return one
+        Parameters
+        ----------
+        n, d : int
+            Points and dimension.
+        bound : float
+            Coordinates that it binds.
 
-    def draw(self, n: int, d: int, rngs: Sequence[np.random.Generator], watch: Watch) -> FloatArray:
-        """Draw one set from each stream; see ``Watchable``. There is progress alone.
+        Returns
+        -------
+        str
+        """
+        lower = edge_binding(0.8, d)
+        return (
+            f"an empty band below nu={self.band_edge(d):.4g} binds {bound:.6g} of the {n * d} coordinates of "
+            f"n={n} points in d={d}: only lattices, if any, have it; lower the edge, {lower:.3g} still "
+            "leaves disorder"
+        )
+
+    def draw(self, n: int, d: int, rngs: Sequence[np.random.Generator], monitor: Monitor) -> FloatArray:
+        """Draw one set from each stream. There is progress, but neither trace nor checkpoint.
+
+        Parameters
+        ----------
+        n, d : int
+            Points and dimension.
+        rngs : sequence of numpy.random.Generator
+            One for each set.
+        monitor : Monitor
+            Progress.
+
+        Returns
+        -------
+        (len(rngs), n, d) float64
 
         Raises
         ------
@@ -129,21 +160,23 @@ class Stealthy:
         RefusalError
             Where ``refusal`` has a reason, or the band was not reached.
         """
-        only_progress(watch, self.name)
+        refuse_all_but_progress(monitor, self.name)
         if reason := self.refusal(n, d):
             raise RefusalError(reason)
-        return np.stack([self._one(n, d, rng, _Told(watch, k, len(rngs))) for k, rng in enumerate(rngs)])
+        return np.stack(
+            [self._one(n, d, rng, _SetProgress(monitor, k, len(rngs))) for k, rng in enumerate(rngs)]
+        )
 
-    def _one(self, n: int, d: int, rng: np.random.Generator, told: _Told) -> FloatArray:
-        x, edge = rng.random((n, d)), self._edge(d)
-        if not len(modes(n, d, edge)):  # a box of few points has no frequency so low
+    def _one(self, n: int, d: int, rng: np.random.Generator, progress: _SetProgress) -> FloatArray:
+        x, edge = rng.random((n, d)), self.band_edge(d)
+        if not len(modes_below(n, d, edge)):  # a box of few points has no frequency so low
             return x
         if self.method == "harmonics":
-            return self._descended(x, edge, told)
+            return self._descended(x, edge, progress)
         gradients = (300 if d == 1 else 30) if self.gradients is None else self.gradients
         for times in LONGER:
-            start = wrap(_settled(x, edge, times * gradients, told).x[0])
-            outcome = reach(start, 0.0, edge, progress=told.step)
+            start = wrap(_descend(x, edge, times * gradients, progress).x[0])
+            outcome = solve_for_amplitudes(start, 0.0, edge, progress=progress.step)
             if outcome.converged:
                 return _once_more(outcome.x, edge)
             x = rng.random((n, d))
@@ -152,12 +185,12 @@ class Stealthy:
             f"{len(LONGER)} starts: {outcome.reason}; lower the edge, or raise gradients, now {gradients}"
         )
 
-    def _descended(self, x: FloatArray, edge: float, told: _Told) -> FloatArray:
-        run = _settled(x, edge, 0, told)
+    def _descended(self, x: FloatArray, edge: float, progress: _SetProgress) -> FloatArray:
+        run = _descend(x, edge, 0, progress)
         while True:
             left = float(band_power(run.x[0], edge).max())
             doing = f"{run.gradients} gradients, largest power {left:.1e}"
-            told.share(run.gradients / max(self.most, 1), doing)
+            progress.share(run.gradients / max(self.most, 1), doing)
             if left <= self.power:
                 return wrap(run.x[0])
             if run.gradients >= self.most:
@@ -170,11 +203,11 @@ class Stealthy:
                 run.advance()
 
 
-class _Told:
+class _SetProgress:
     """Progress of one set of several, in hundredths of a set: half for the descent, half for newton."""
 
-    def __init__(self, watch: Watch, k: int, sets: int) -> None:
-        self._progress, self._k, self._sets = watch.progress, k, sets
+    def __init__(self, monitor: Monitor, k: int, sets: int) -> None:
+        self._progress, self._k, self._sets = monitor.progress, k, sets
 
     def share(self, share: float, doing: str) -> None:
         """Say which share of this set is done."""
@@ -187,22 +220,22 @@ class _Told:
         self.share(0.5 + step / (2 * USUAL), f"{residual:.1e} times what is allowed")
 
 
-def _settled(x: FloatArray, edge: float, gradients: int, told: _Told) -> Nesterov:
+def _descend(x: FloatArray, edge: float, gradients: int, progress: _SetProgress) -> Nesterov:
     """Run the descent of the energy below the edge from one set, (n, d)."""
     n, d = x.shape
-    run = Nesterov(field(n, d, SIGMA, "double", edge=edge), x[None], step_size(n, d, SIGMA))
+    run = Nesterov(energy_evaluation(n, d, SIGMA, "double", edge=edge), x[None], step_size(n, d, SIGMA))
     for k in range(gradients):
         run.advance()
-        told.share(k / gradients / 2, f"gradient {k + 1}")
+        progress.share(k / gradients / 2, f"gradient {k + 1}")
     return run
 
 
 def _once_more(x: FloatArray, edge: float) -> FloatArray:
     """One more Gauss-Newton step: quadratic convergence leaves rounding alone, 1e-29 for 1,024 points."""
     n, d = x.shape
-    below = modes(n, d, edge)
-    waves = Waves(x, below.f)
+    below = modes_below(n, d, edge)
+    waves = WaveSums(x, below.f)
     scale, side = 1 / (math.sqrt(n) * below.length), math.pow(n, 1 / d)
-    y, _ = solve(gram(x, below, waves), -waves.amplitudes() * scale, FORCING, PRODUCTS)
+    y, _ = solve(gram_product(x, below, waves), -waves.amplitudes() * scale, FORCING, PRODUCTS)
     moved = wrap(x + waves.gradient(scale * y, side) / side)
     return moved if band_power(moved, edge).max() < band_power(x, edge).max() else x

@@ -94,7 +94,7 @@ class Table:
         try:
             array = np.asarray(rows, dtype=np.float64)
         except (TypeError, ValueError):
-            array = np.empty(0)
+            array = np.empty((0, 0))
         if array.ndim != 2 or array.shape[1] != 2:
             raise InputError(f"a target must be (k, 2) numbers, nu and power; got shape {array.shape}")
         return cls(tuple(array[:, 0].tolist()), tuple(array[:, 1].tolist()))

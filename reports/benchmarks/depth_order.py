@@ -9,10 +9,10 @@ import sys
 from typing import Any
 
 import matplotlib as mpl
-import matplotlib.colors
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
+from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter, NullLocator
@@ -70,7 +70,7 @@ def figure(table: pd.DataFrame, n: int = 1024, d: int = 2, start: int = 100) -> 
     Parameters
     ----------
     table : DataFrame
-        Columns of ``gbnbench.benchmarks.experiments.depth_order.COLUMNS``.
+        Columns of ``gbnbench.benchmarks.experiments.depth_order_row.COLUMNS``.
     n, d : int
         Number of points and dimension of the rows that are drawn.
     start : int
@@ -135,7 +135,7 @@ def figure(table: pd.DataFrame, n: int = 1024, d: int = 2, start: int = 100) -> 
 def _colours(count: int) -> list[str]:
     """From light to dark, in order of steepness."""
     ramp = mpl.colormaps["viridis_r"](np.linspace(0.12, 1.0, count))
-    return [matplotlib.colors.to_hex(colour) for colour in ramp]
+    return [to_hex(colour) for colour in ramp]
 
 
 def _reference(ax: Axes, gbn: pd.DataFrame, name: str) -> None:

@@ -7,17 +7,17 @@ from collections.abc import Mapping
 from typing import Any
 
 import matplotlib as mpl
-import matplotlib.colors
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
+from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from gbnbench.benchmarks.gbn.floor_time import AUTHORS_FLOOR
 from gbnbench.generators.gbn.operation_counts import CUTOFF
+from gbnbench.generators.gbn.published_quality import AUTHORS_FLOOR
 from gbnbench.reports import style
 from gbnbench.reports.benchmarks.speed_error import machine_line
 
@@ -123,7 +123,7 @@ def _cutoffs(ax: Axes, rows: pd.DataFrame) -> None:
     marks = "vsD^oP"
     handles = []
     for k, (cutoff, shade) in enumerate(zip(cutoffs, shades, strict=True)):
-        colour = matplotlib.colors.to_hex(shade)
+        colour = to_hex(shade)
         _curve(ax, rows[rows.cutoff == cutoff], colour, marks[k % len(marks)], "double", numbered=False)
         handles.append(
             Line2D([], [], color=colour, marker=marks[k % len(marks)], markersize=3, label=f"{cutoff:g}")

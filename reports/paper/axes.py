@@ -6,9 +6,9 @@ import math
 from typing import Any
 
 import matplotlib as mpl
-import matplotlib.colors
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import to_hex
 from numpy.typing import ArrayLike
 
 from gbnbench.core.torus import FloatArray
@@ -20,8 +20,7 @@ DOTTED: dict[str, Any] = {"color": style.FAINT, "linestyle": (0, (1, 1.6)), "lin
 
 def family(count: int) -> list[str]:
     """Return colours of an ordered family from dark to light, all dark enough for a white page."""
-    shades = mpl.colormaps["viridis"](np.linspace(0.0, 0.9, max(count, 1)))
-    return [matplotlib.colors.to_hex(shade) for shade in shades]
+    return [to_hex(c) for c in mpl.colormaps["viridis"](np.linspace(0.0, 0.9, max(count, 1)))]
 
 
 def loglog(ax: Axes, low: float, nu: tuple[float, float], high: float = 30.0) -> None:

@@ -9,18 +9,18 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 from numpy.typing import NDArray
 
 from gbnbench import __version__
+from gbnbench.execution.progress import Progress
+from gbnbench.runs.comparison_result import Run
 from gbnbench.runs.resumable import Task, run_tasks
+from gbnbench.runs.sources import resolve
 from gbnbench.runs.task_folder import Arrays, TaskFolder
-
-if TYPE_CHECKING:
-    from gbnbench.execution.progress import Progress
-    from gbnbench.runs.comparison_result import Run
-    from gbnbench.studies.integration.study import IntegrationStudy
+from gbnbench.studies.comparison import run_comparison
+from gbnbench.studies.integration.study import IntegrationStudy, run_integration_study
 
 
 @dataclass(frozen=True)
@@ -90,7 +90,7 @@ class TableRequest:
 
 DataRequest: TypeAlias = ComparisonRequest | IntegrationRequest | TableRequest
 KINDS = {ComparisonRequest: "Comparison", IntegrationRequest: "Study"}  # words of the settings on disk
-FigureData: TypeAlias = "Run | IntegrationStudy | dict[str, dict[str, NDArray[Any]]]"
+FigureData: TypeAlias = Run | IntegrationStudy | dict[str, dict[str, NDArray[Any]]]
 
 
 def folder_name(request: DataRequest, seed: int) -> str:
@@ -142,17 +142,12 @@ def obtain(request: DataRequest, folder: Path, seed: int, jobs: int, progress: P
         As ``compare``, ``integrate`` and ``run_tasks`` do.
     """
     if isinstance(request, ComparisonRequest):
-        from gbnbench.runs.sources import resolve
-        from gbnbench.studies.comparison import run_comparison
-
         sources, skipped = resolve(request.sources, request.n, request.d, request.realizations)
         return run_comparison(
             sources, folder, seed=seed, jobs=jobs, command="gbnbench figures", skipped=skipped,
             progress=progress,
         ).run  # fmt: skip
     if isinstance(request, IntegrationRequest):
-        from gbnbench.studies.integration.study import run_integration_study
-
         return run_integration_study(
             request.sources, folder, n=request.n, d=request.d, realizations=request.realizations,
             integrands=request.integrands, instances=request.instances, shifts=request.shifts, seed=seed,

@@ -60,12 +60,12 @@ def needs(ask: Ask) -> Mapping[str, DataRequest]:
     }  # fmt: skip
 
 
-def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
+def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
     """Draw spectra and variances of integration above measures of order against the noise floor.
 
     Parameters
     ----------
-    material : mapping
+    data : mapping
         Data under the names that ``needs`` gives them.
     ask : Ask
         Scale, sets of the user and seed.
@@ -77,12 +77,12 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
     """
     n, gradients = shared.size(ask), _gradients(ask)
     gbn = [
-        shared.made(material["long" if k == gradients[-1] else "sets"], _gbn(k), n, f"GBN, {k:,}")
+        shared.made(data["long" if k == gradients[-1] else "sets"], _gbn(k), n, f"GBN, {k:,}")
         for k in gradients
     ]
-    deep = [shared.made(material["sets"], text, n) for text in _deep(ask)]
-    theirs = shared.yours(material, ask.sets, n)
-    table = material["study"].variance
+    deep = [shared.made(data["sets"], text, n) for text in _deep(ask)]
+    theirs = shared.yours(data, ask.sets, n)
+    table = data["study"].variance
 
     def paint(panel: SubFigure) -> None:
         top, bottom = panel.subfigures(2, 1, squeeze=False, height_ratios=(1.28, 1))[:, 0]

@@ -58,12 +58,12 @@ def needs(ask: Ask) -> Mapping[str, DataRequest]:
     }
 
 
-def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
+def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
     """Draw points, spectrum and the middle of the spectrum for each method, and the radial power of all.
 
     Parameters
     ----------
-    material : mapping
+    data : mapping
         Data under the names that ``needs`` gives them.
     ask : Ask
         Scale, sets of the user and seed.
@@ -76,21 +76,20 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
     n, text, long_n = shared.size(ask), _long(ask)[0], _long_n(ask)
     methods = shared.shown_methods(ask, PAPER)
     early, late = (
-        shared.yours(material, [m for m in methods if (m in BEFORE_FPO) is first], n)
-        for first in (True, False)
+        shared.yours(data, [m for m in methods if (m in BEFORE_FPO) is first], n) for first in (True, False)
     )
-    long = shared.made(material["long"], text, n, "GBN, 1M")
+    long = shared.made(data["long"], text, n, "GBN, 1M")
     gallery = [
         *early,
-        shared.made(material["classic"], "fpo", n),
+        shared.made(data["classic"], "fpo", n),
         *late,
-        shared.made(material["classic"], "gbn", n),
+        shared.made(data["classic"], "gbn", n),
         long,
     ]
     strata, sobol, fpo, gbn = (
-        shared.made(material["large"], name, _large(ask)) for name in ("jittered", "sobol", "fpo", "gbn")
+        shared.made(data["large"], name, _large(ask)) for name in ("jittered", "sobol", "fpo", "gbn")
     )
-    longest = shared.made(material.get("large-long", material["long"]), text, long_n, "GBN, 1M")
+    longest = shared.made(data.get("large-long", data["long"]), text, long_n, "GBN, 1M")
     lines = [sobol, strata, *early, fpo, *late, gbn, longest]
     beside = len(gallery) <= NARROW
     wide = 1.12 if beside else min(1.5, (PAGE - 0.5) / len(gallery) - 0.04)

@@ -27,12 +27,12 @@ def needs(ask: Ask) -> Mapping[str, DataRequest]:
     return {"sets": ComparisonRequest((NARROW, _wide(ask)[0]), (shared.size(ask),), (2,), count)}
 
 
-def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
+def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
     """Draw points and spectra of two settings, and their radial powers in one plot.
 
     Parameters
     ----------
-    material : mapping
+    data : mapping
         Data under the names that ``needs`` gives them.
     ask : Ask
         Scale, sets of the user and seed.
@@ -43,7 +43,7 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
         The figure, as wide as a column, with its caption.
     """
     text, gradients = _wide(ask)
-    run, n = material["sets"], shared.size(ask)
+    run, n = data["sets"], shared.size(ask)
     narrow = shared.made(run, NARROW, n, "σ = 0.5, 30 steps")
     wide = shared.made(run, text, n, f"σ = 1.1, {gradients:,} gradients")
     both = (narrow, wide)

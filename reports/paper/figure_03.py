@@ -66,12 +66,12 @@ def needs(ask: Ask) -> Mapping[str, DataRequest]:
     }
 
 
-def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
+def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
     """Draw the radial power for each sigma with its ideal profile, and for each dimension.
 
     Parameters
     ----------
-    material : mapping
+    data : mapping
         Data under the names that ``needs`` gives them.
     ask : Ask
         Scale, sets of the user and seed.
@@ -81,9 +81,9 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
     Drawing
         The figure, as wide as the page, with its caption.
     """
-    run: Run = material["sigmas"]
+    run: Run = data["sigmas"]
     by_sigma = dict(zip(SIGMAS, run.sources, strict=True))
-    by_dimension = _means(material["dimensions"])
+    by_dimension = _means(data["dimensions"])
 
     def paint(panel: SubFigure) -> None:
         left, right = panel.subplots(1, 2)
@@ -92,7 +92,7 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
 
     first = run.sources[0]
     n = ask.pick(64, 1024, 4096)
-    sets = len(material["dimensions"]) // len(DIMENSIONS)
+    sets = len(data["dimensions"]) // len(DIMENSIONS)
     floors = {d: radial.power[0] for d, radial in by_dimension.items()}
     tops = {d: peak(radial)[0] for d, radial in by_dimension.items()}
     best = max(by_sigma, key=lambda sigma: by_sigma[sigma].measures.measured["evacuated_energy"])

@@ -64,12 +64,12 @@ def needs(ask: Ask) -> Mapping[str, DataRequest]:
     return {"kernels": TableRequest(transforms, {key: (key, count) for key in CUTOFFS})}
 
 
-def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:  # noqa: ARG001 - as every figure's
+def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:  # noqa: ARG001 - as every figure's
     """Draw the kernels, their transforms, and the absolute values of these in log scale.
 
     Parameters
     ----------
-    material : mapping
+    data : mapping
         Data under the names that ``needs`` gives them.
     ask : Ask
         Scale, sets of the user and seed.
@@ -79,7 +79,7 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:  # noqa: ARG001 - as
     Drawing
         The figure, as wide as the page, with its caption.
     """
-    kernels: dict[str, dict[str, FloatArray]] = material["kernels"]
+    kernels: dict[str, dict[str, FloatArray]] = data["kernels"]
 
     def paint(panel: SubFigure) -> None:
         axes = panel.subplots(1, 3)

@@ -35,12 +35,12 @@ def needs(ask: Ask) -> Mapping[str, DataRequest]:
     }
 
 
-def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
+def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
     """Draw points, spectrum and radial power for each cut-off.
 
     Parameters
     ----------
-    material : mapping
+    data : mapping
         Data under the names that ``needs`` gives them.
     ask : Ask
         Scale, sets of the user and seed.
@@ -52,12 +52,9 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
     """
     n = shared.size(ask)
     columns = [
-        shared.made(material["cvt"], "lloyd", n, "CVT"),
-        *(
-            shared.made(material["cut"], f"gbn[cutoff={cutoff}]", n, f"cut at {cutoff}σ")
-            for cutoff in CUTOFFS
-        ),
-        shared.made(material["whole"], "gbn", n, "whole"),
+        shared.made(data["cvt"], "lloyd", n, "CVT"),
+        *(shared.made(data["cut"], f"gbn[cutoff={cutoff}]", n, f"cut at {cutoff}σ") for cutoff in CUTOFFS),
+        shared.made(data["whole"], "gbn", n, "whole"),
     ]
     strokes = [columns[0].stroke, *STROKES]
     low = shared.lowest(one.source.radial for one in columns)

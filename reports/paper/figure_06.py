@@ -44,12 +44,12 @@ def needs(ask: Ask) -> Mapping[str, DataRequest]:
     return {"profiles": TableRequest(profile, {str(points): (points, count) for points in POINTS})}
 
 
-def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:  # noqa: ARG001 - as every figure's
+def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:  # noqa: ARG001 - as every figure's
     """Draw all energy profiles in one plot.
 
     Parameters
     ----------
-    material : mapping
+    data : mapping
         Data under the names that ``needs`` gives them.
     ask : Ask
         Scale, sets of the user and seed.
@@ -59,7 +59,7 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:  # noqa: ARG001 - as
     Drawing
         The figure, as wide as a column, with its caption.
     """
-    profiles: dict[str, dict[str, FloatArray]] = material["profiles"]
+    profiles: dict[str, dict[str, FloatArray]] = data["profiles"]
     colours = family(len(profiles))[::-1]
 
     def paint(panel: SubFigure) -> None:

@@ -18,7 +18,7 @@ from gbnbench.core.number_text import number
 from gbnbench.core.results import RadialPower
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
-from gbnbench.generators.monitor import Trace, Watch
+from gbnbench.generators.monitor import Monitor, Trace
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.reports import style
 from gbnbench.reports.paper import axes, shared
@@ -37,7 +37,7 @@ LOOKS: dict[str, dict[str, Any]] = {
 
 def gradients(steps: int) -> int:
     """Return how many gradients of Nesterov's method do the work of these steps of descent."""
-    return max(1, round(3 * math.sqrt(steps)))  # k gradients do the work of k^2 / 9 steps
+    return max(1, round(3 * math.sqrt(steps)))
 
 
 def evolution(
@@ -70,7 +70,7 @@ def evolution(
     trace, most = Trace(keep_at=counts), max(counts)
     descent = GaussianBlueNoise(iterations=most)
     generator = descent if method == "descent" else GaussianBlueNoise(gradients=most)
-    generator.draw(n, 2, [realization_rng(seed, first + k) for k in range(sets)], Watch(trace=trace))
+    generator.draw(n, 2, [realization_rng(seed, first + k) for k in range(sets)], Monitor(trace=trace))
     found = [shells(trace.points(count)).radial() for count in counts]
     return {
         "nu": found[0].nu,
@@ -100,12 +100,12 @@ def needs(ask: Ask) -> Mapping[str, DataRequest]:
     return {"evolution": TableRequest(evolution, calls)}
 
 
-def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
+def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
     """Draw raw and filtered spectra of descent above those of Nesterov's method, and their progress beside.
 
     Parameters
     ----------
-    material : mapping
+    data : mapping
         Data under the names that ``needs`` gives them.
     ask : Ask
         Scale, sets of the user and seed.
@@ -116,7 +116,7 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
         The figure, as wide as the page, with its caption.
     """
     counts = _counts(ask)
-    found = {method: _mean(material["evolution"], method) for method in METHODS}
+    found = {method: _mean(data["evolution"], method) for method in METHODS}
     colours = axes.family(len(counts["descent"]))[::-1]
 
     def paint(panel: SubFigure) -> None:

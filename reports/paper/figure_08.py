@@ -28,12 +28,12 @@ def needs(ask: Ask) -> Mapping[str, DataRequest]:
     }  # fmt: skip
 
 
-def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
+def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
     """Draw points, spectrum, radial power, zone plate and valence for each method.
 
     Parameters
     ----------
-    material : mapping
+    data : mapping
         Data under the names that ``needs`` gives them.
     ask : Ask
         Scale, sets of the user and seed.
@@ -45,11 +45,11 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
     """
     n = shared.size(ask)
     columns = [
-        shared.made(material["strata"], "jittered", n),
-        shared.made(material["relaxed"], "lloyd", n),
-        *shared.yours(material, shared.shown_methods(ask, PAPER), n),
-        shared.made(material["classic"], "fpo", n),
-        shared.made(material["classic"], "gbn", n),
+        shared.made(data["strata"], "jittered", n),
+        shared.made(data["relaxed"], "lloyd", n),
+        *shared.yours(data, shared.shown_methods(ask, PAPER), n),
+        shared.made(data["classic"], "fpo", n),
+        shared.made(data["classic"], "gbn", n),
     ]
     top = 0.5 + max(float(one.source.radial.power.max()) for one in columns)
     wide = (PAGE - 0.35) / len(columns) - 0.06

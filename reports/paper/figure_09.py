@@ -72,12 +72,12 @@ def needs(ask: Ask) -> Mapping[str, DataRequest]:
     return requests
 
 
-def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
+def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
     """Draw the variance against n, with a row for each family of integrands and a column for each dimension.
 
     Parameters
     ----------
-    material : mapping
+    data : mapping
         Data under the names that ``needs`` gives them.
     ask : Ask
         Scale, sets of the user and seed.
@@ -87,7 +87,7 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
     Drawing
         The figure, as wide as the page, with its caption.
     """
-    tables = {d: _table(material, ask, d) for d in DIMENSIONS}
+    tables = {d: _table(data, ask, d) for d in DIMENSIONS}
     labels = list(dict.fromkeys(label for table in tables.values() for label in table["source"]))
     given = {label: stroke(label) for label in labels}
 
@@ -103,7 +103,7 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
                     ax.set_xlabel("points n")
                 if column == 0:
                     ax.set_ylabel("variance")
-                    _inset(ax, material["integrands"]["plane"][family])
+                    _inset(ax, data["integrands"]["plane"][family])
         for column, d in enumerate(DIMENSIONS):
             if min(SIZES[ask.scale][d]) < MARK < max(SIZES[ask.scale][d]):
                 axes[0, column].axvline(MARK, color="#9aa3af", linewidth=0.6, linestyle=(0, (2, 2)), zorder=0)
@@ -116,7 +116,7 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
         names.append("1/n")
         panel.legend(handles, names, loc="outside lower center", ncols=len(names), columnspacing=1.2)
 
-    return Drawing(PAGE, 4.4, paint, _caption(material, ask))
+    return Drawing(PAGE, 4.4, paint, _caption(data, ask))
 
 
 def _given(name: str) -> str:
@@ -124,11 +124,11 @@ def _given(name: str) -> str:
     return f"sets of {name}"
 
 
-def _table(material: Mapping[str, Any], ask: Ask, d: int) -> pd.DataFrame:
+def _table(data: Mapping[str, Any], ask: Ask, d: int) -> pd.DataFrame:
     """All variances in one dimension, the user's sets under their method's name."""
-    parts = [material[f"d{d}"].variance]
+    parts = [data[f"d{d}"].variance]
     for name in ask.sets:
-        theirs = material[_given(name)].variance
+        theirs = data[_given(name)].variance
         parts.append(theirs[theirs["d"] == d].assign(source=name))
     table: pd.DataFrame = pd.concat(parts, ignore_index=True)
     return table
@@ -144,13 +144,13 @@ def _inset(ax: Axes, picture: Any) -> None:
         spine.set_visible(True)
 
 
-def _caption(material: Mapping[str, Any], ask: Ask) -> str:
+def _caption(data: Mapping[str, Any], ask: Ask) -> str:
     counts = []
     for d in DIMENSIONS:
-        table = material[f"d{d}"].variance
+        table = data[f"d{d}"].variance
         generated = table[table["source"].isin((*SOURCES, "fpo"))]
         counts.append(f"{int(generated['realizations'].max()):,} sets in {d}D")
-    plane = material["d2"].slopes
+    plane = data["d2"].slopes
     slopes = []
     for family in FAMILIES:
         found = plane[(plane["integrand"] == family) & plane["source"].isin(["random", "gbn"])]
@@ -162,7 +162,7 @@ def _caption(material: Mapping[str, Any], ask: Ask) -> str:
     return (
         "Variance of the integral estimated by the mean over n points: (a) toroidal sums of 64 Gaussians of "
         "width 512^(-1/d), (b) half spaces by a random point and direction; insets: one of each. "
-        f"{int(material['d2'].variance['instances'].max())} integrands of each family, {', '.join(counts)}, "
+        f"{int(data['d2'].variance['instances'].max())} integrands of each family, {', '.join(counts)}, "
         "all estimated with all. Bands: 95%. Crosses: what the sets' power spectra foretell. Grey: 1/n; "
         "dashed upright: n = 512, the nominal grid that the Gaussians' width is of. jittered is made at "
         f"n = m^d alone. Slopes over all n in 2D: {'; '.join(slopes)}.{left}"

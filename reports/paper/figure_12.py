@@ -47,12 +47,12 @@ def band(radial: RadialPower, edge: float) -> float:
     return float(radial.power[radial.nu < edge * (1 - 1e-9)].max())
 
 
-def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
+def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
     """Draw points, spectrum and radial power in log scale for each way to step blue noise.
 
     Parameters
     ----------
-    material : mapping
+    data : mapping
         Data under the names that ``needs`` gives them.
     ask : Ask
         Scale, sets of the user and seed.
@@ -63,9 +63,9 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
         The figure, as wide as the page, with its caption.
     """
     n = shared.size(ask)
-    cut = [shared.made(material["sets"], f"gbn[edge={e}]", n, f"harmonics to {e}") for e in EDGES]
-    newton = shared.made(material["sets"], f"stealthy[edge={EDGES[-1]}]", n, f"stealthy to {EDGES[-1]}")
-    theirs = [replace(one, title="Step") for one in shared.yours(material, PAPER, n)]
+    cut = [shared.made(data["sets"], f"gbn[edge={e}]", n, f"harmonics to {e}") for e in EDGES]
+    newton = shared.made(data["sets"], f"stealthy[edge={EDGES[-1]}]", n, f"stealthy to {EDGES[-1]}")
+    theirs = [replace(one, title="Step") for one in shared.yours(data, PAPER, n)]
     columns, edges = [*cut, newton, *theirs], [*EDGES, EDGES[-1], None]
     wide = (PAGE - 0.4) / len(columns) - 0.1
 

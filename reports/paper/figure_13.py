@@ -15,7 +15,7 @@ from gbnbench.analysis.spectrum.shell_spectrum import shells
 from gbnbench.core.number_text import number
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
-from gbnbench.generators.monitor import Watch
+from gbnbench.generators.monitor import Monitor
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.reports import style
 from gbnbench.reports.paper import axes, shared
@@ -48,7 +48,7 @@ def line_sets(gradients: int, n: int, seed: int, first: int, sets: int) -> dict[
         ``points``, (sets, n), and the arrays (shells,) ``nu`` and ``power``.
     """
     rngs = [realization_rng(seed, first + k) for k in range(sets)]
-    points = GaussianBlueNoise(edge=EDGE, gradients=gradients).draw(n, 1, rngs, Watch())
+    points = GaussianBlueNoise(edge=EDGE, gradients=gradients).draw(n, 1, rngs, Monitor())
     found = shells(points)
     return {"points": points[:, :, 0], "nu": found.nu, "power": found.power}
 
@@ -65,12 +65,12 @@ def _gradients(ask: Ask) -> int:
     return count
 
 
-def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
+def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
     """Draw two sets as beads on circles, and their mean periodogram in linear and in log scale.
 
     Parameters
     ----------
-    material : mapping
+    data : mapping
         Data under the names that ``needs`` gives them.
     ask : Ask
         Scale, sets of the user and seed.
@@ -80,7 +80,7 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
     Drawing
         The figure, as wide as the page, with its caption.
     """
-    pieces: Mapping[str, Mapping[str, FloatArray]] = material["line"]
+    pieces: Mapping[str, Mapping[str, FloatArray]] = data["line"]
     blocks = [pieces[key] for key in sorted(pieces)]
     nu, power = blocks[0]["nu"], np.mean([block["power"] for block in blocks], axis=0)
 

@@ -22,12 +22,12 @@ def needs(ask: Ask) -> Mapping[str, DataRequest]:
     return {"sobol": many, "classic": shared.classic(ask), **shared.given(ask, PAPER)}
 
 
-def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
+def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
     """Draw the radial power on exact shells above that over annuli, for each example.
 
     Parameters
     ----------
-    material : mapping
+    data : mapping
         Data under the names that ``needs`` gives them.
     ask : Ask
         Scale, sets of the user and seed.
@@ -39,8 +39,8 @@ def draw(material: Mapping[str, Any], ask: Ask) -> Drawing:
     """
     n = shared.size(ask)
     examples = [
-        *(shared.yours(material, PAPER, n) or [shared.made(material["classic"], "gbn", n)]),
-        shared.made(material["sobol"], "sobol", n),
+        *(shared.yours(data, PAPER, n) or [shared.made(data["classic"], "gbn", n)]),
+        shared.made(data["sobol"], "sobol", n),
     ]
     exact = [one.source.radial for one in examples]
     rings = [radial(one.source.spectrum, by="annuli", width=WIDTH) for one in examples]

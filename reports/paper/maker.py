@@ -29,7 +29,7 @@ PAGE_STYLE = (
 
 
 @dataclass(frozen=True)
-class Made:
+class FinishedFigure:
     """One finished figure.
 
     Attributes
@@ -54,7 +54,7 @@ def make(
     jobs: int,
     progress: Progress,
     captions: bool = True,
-) -> list[Made]:
+) -> list[FinishedFigure]:
     """Make figures one after the other; what two of them need is made once.
 
     Parameters
@@ -75,7 +75,7 @@ def make(
 
     Returns
     -------
-    list of Made
+    list of FinishedFigure
         In the order asked for.
 
     Raises
@@ -86,9 +86,9 @@ def make(
         If some could not be made, when the others are.
     """
     foot = f"Seed {ask.seed}; {_device()}; gbnbench {__version__}."
-    keeper = FigureFolder(folder, {"holds": "figures"})
-    with keeper.lock(), explain_interruption(folder):
-        keeper.begin()
+    store = FigureFolder(folder, {"holds": "figures"})
+    with store.lock(), explain_interruption(folder):
+        store.begin()
         made, failures = _make_all(figures, folder, ask, jobs, progress, captions, foot)
         _write_pages(folder, made, captions)
     if failures:
@@ -121,21 +121,21 @@ def _make_all(
     progress: Progress,
     captions: bool,
     foot: str,
-) -> tuple[list[Made], list[str]]:
+) -> tuple[list[FinishedFigure], list[str]]:
     """Make what can be made; return it, and what could not be."""
     known: dict[str, FigureData] = {}
-    made: list[Made] = []
+    made: list[FinishedFigure] = []
     failures: list[str] = []
     for figure in figures:
         progress.say(f"{_heading(figure)} {figure.title}")
         try:
-            material: dict[str, Any] = {}
+            data: dict[str, Any] = {}
             for name, request in figure.needs(ask).items():
                 place = folder_name(request, ask.seed)
                 if place not in known:
                     known[place] = obtain(request, folder / "data" / place, ask.seed, jobs, progress)
-                material[name] = known[place]
-            made.append(_draw(figure, folder, ask, material, foot, captions))
+                data[name] = known[place]
+            made.append(_draw(figure, folder, ask, data, foot, captions))
         except GbnbenchError as error:
             failures.append(f"{_heading(figure)} {error}")
             progress.say(failures[-1])
@@ -144,21 +144,21 @@ def _make_all(
 
 @style.styled
 def _draw(
-    figure: PaperFigure, folder: Path, ask: Ask, material: dict[str, Any], foot: str, captions: bool
-) -> Made:
-    drawing = figure.draw(material, ask)
+    figure: PaperFigure, folder: Path, ask: Ask, data: dict[str, Any], foot: str, captions: bool
+) -> FinishedFigure:
+    drawing = figure.draw(data, ask)
     page = compose(drawing, _heading(figure), foot, captions)
     stem = f"figure-{int(figure.name):02d}" if figure.name.isdigit() else f"figure-{figure.name}"
     write_whole(folder / f"{stem}.png", png(page, DPI))
     write_whole(folder / f"{stem}.pdf", pdf(page))
-    return Made(figure, signs(f"{drawing.caption} {foot}"), stem)
+    return FinishedFigure(figure, signs(f"{drawing.caption} {foot}"), stem)
 
 
 def _heading(figure: PaperFigure) -> str:
     return f"Figure {figure.name}." if figure.name.isdigit() else f"Figure, ours: {figure.name}."
 
 
-def _write_pages(folder: Path, made: Sequence[Made], captions: bool) -> None:
+def _write_pages(folder: Path, made: Sequence[FinishedFigure], captions: bool) -> None:
     """Write captions as text, and one page, of these figures and of those that earlier calls left there."""
     index = folder / "captions.json"
     known: dict[str, dict[str, str]] = json.loads(index.read_bytes()) if index.exists() else {}

@@ -186,12 +186,12 @@ def made(run: Run, text: str, n: int, title: str | None = None) -> Column:
     return Column(title or title_of(label), source, stroke(label))
 
 
-def yours(material: Mapping[str, Any], methods: Iterable[str], n: int) -> list[Column]:
+def yours(data: Mapping[str, Any], methods: Iterable[str], n: int) -> list[Column]:
     """Select the user's plane sets of these methods.
 
     Parameters
     ----------
-    material : mapping
+    data : mapping
         Data under the names that ``needs`` gives them.
     methods : iterable of str
         Names of methods; those without plane sets are left out.
@@ -205,7 +205,7 @@ def yours(material: Mapping[str, Any], methods: Iterable[str], n: int) -> list[C
     """
     found = []
     for name in methods:
-        flat = [source for source in material[name].sources if source.d == 2] if name in material else []
+        flat = [source for source in data[name].sources if source.d == 2] if name in data else []
         if flat:
             best = max(flat, key=lambda source: (source.n == n, source.n))
             found.append(Column(title_of(name), best, stroke(name)))

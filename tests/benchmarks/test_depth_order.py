@@ -13,7 +13,7 @@ from gbnbench.analysis.integration.integrands.korobov import Korobov
 from gbnbench.analysis.radial.radial_power import radial
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.benchmarks.experiments import depth_integration as integration
-from gbnbench.benchmarks.experiments import depth_looks, depth_order
+from gbnbench.benchmarks.experiments import depth_looks, depth_order, depth_order_row
 from gbnbench.execution.progress import Progress
 from gbnbench.reports.benchmarks.depth_order import figure
 from gbnbench.runs.resumable import TaskRun
@@ -30,7 +30,7 @@ def path(tmp_path_factory):
 
 def test_every_point_of_the_map_has_its_row_and_its_depth(path):
     table = pd.read_csv(path)
-    assert tuple(table.columns) == depth_order.COLUMNS
+    assert tuple(table.columns) == depth_order_row.COLUMNS
     assert table.groupby(["d", "generator"]).size().to_dict() == {
         (2, "deep"): 8, (2, "gbn"): 4, (3, "deep"): 1, (3, "gbn"): 1,
     }  # fmt: skip
@@ -53,7 +53,7 @@ def test_it_goes_on_where_it_was_stopped(path):
     depth_order.main([str(part)], (TINY,))
     again = part.read_text().splitlines()
     assert again[:6] == whole[:6]
-    column = depth_order.COLUMNS.index("cpu_s")
+    column = depth_order_row.COLUMNS.index("cpu_s")
     timeless = [
         [cell for k, cell in enumerate(line.split(",")) if k != column] for line in (*again, *whole[:13])
     ]
@@ -74,7 +74,7 @@ def test_the_band_beyond_the_edge_is_that_of_the_shells():
     f = np.indices((19, 19)).reshape(2, -1) - 9
     length = np.hypot(*f)
     band = (length >= 0.5 * 8) & (length <= 0.65 * 8)
-    mean, ring = depth_order.beyond(radial(spectrum), 0.5)
+    mean, ring = depth_order_row.beyond(radial(spectrum), 0.5)
     power = spectrum.power.ravel()
     assert mean == pytest.approx(power[band].mean())
     assert ring == pytest.approx(max(power[band & (np.rint(length) == k)].mean() for k in (4, 5)))

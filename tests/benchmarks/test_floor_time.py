@@ -19,7 +19,6 @@ from gbnbench.benchmarks.gbn import floor_cases
 from gbnbench.benchmarks.gbn.cutoffs import FORCES, exact_forces
 from gbnbench.benchmarks.gbn.floor_cases import Case, Curve
 from gbnbench.benchmarks.gbn.floor_time import (
-    AUTHORS_FLOOR,
     FLOOR_TIME,
     SPEEDUP,
     Outcome,
@@ -33,8 +32,9 @@ from gbnbench.benchmarks.timing import machine
 from gbnbench.cli.bench_gbn import draw, report
 from gbnbench.core.errors import InputError
 from gbnbench.execution.progress import Progress
-from gbnbench.generators.gbn.energy import field
+from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
+from gbnbench.generators.gbn.published_quality import AUTHORS_FLOOR
 from gbnbench.generators.protocol import realization_rng
 from tests import smallest_sizes
 from tests.oracles.power import direct_power
@@ -128,7 +128,7 @@ def test_exact_forces_are_the_slope_of_the_energy(n, d):
     step = 1e-5 * np.eye(d) / side
     slopes = [(energy(x[3] + h) - energy(x[3] - h)) / 2e-5 for h in step]
     assert found[0].astype(float) == pytest.approx(slopes, abs=1e-8)
-    on_device = field(n, d, 1.0, "double")(x[None]).gradient[0, [3, 0]]
+    on_device = energy_evaluation(n, d, 1.0, "double")(x[None]).gradient[0, [3, 0]]
     assert on_device == pytest.approx(found.astype(float), abs=1e-12)
 
 

@@ -91,7 +91,7 @@ def test_the_patches_fit_and_the_commands_then_know_both(place: Path) -> None:
         "from pathlib import Path; from gbnbench.studies.comparison import run_comparison;"
         "from gbnbench.runs.sources import resolve;"
         "found, _ = resolve(['antithetic[width=0.5]', 'latin', 'grid'], [128], [2], 2);"
-        "compare(found, Path('run'), jobs=1);"
+        "run_comparison(found, Path('run'), jobs=1);"
         "import numpy as np; from gbnbench import generate, periodogram, plan;"
         "x = generate('latin', n=100, seed=1);"
         "plain, usual = periodogram(x, 6, method='plain'), periodogram(x, 6);"

@@ -1,14 +1,15 @@
 from __future__ import annotations
 
+import inspect
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
 import pytest
 
-from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.errors import DeviceError, InputError, RefusalError
 from gbnbench.core.torus import FloatArray
-from gbnbench.generators.registry import find, generate
+from gbnbench.generators.registry import RESERVED, find, generate
 from gbnbench.generators.voronoi.lloyd import Lloyd
 
 
@@ -113,3 +114,27 @@ def test_an_instance_that_is_no_generator_is_refused(
 def test_an_instance_may_refuse() -> None:
     with pytest.raises(RefusalError, match="d must be at most 3; got d=4"):
         generate(Drawn(), n=4, d=4)
+
+
+def test_no_setting_is_named_as_a_keyword_of_generate():
+    assert set(inspect.signature(generate).parameters) == RESERVED
+
+    @dataclass(frozen=True)
+    class Seeded:
+        name: ClassVar[str] = "seeded"
+        summary: ClassVar[str] = "a generator with a seed of its own"
+        seed: int = 0
+
+        def refusal(self, n, d):
+            return None
+
+        def __call__(self, n, d, rng):
+            return rng.random((n, d))
+
+    with pytest.raises(InputError, match=r"must not be named as a keyword of generate; Seeded has seed"):
+        generate(Seeded(), n=4)
+
+
+def test_a_device_that_is_not_there_is_an_error_before_anything_is_drawn():
+    with pytest.raises(DeviceError, match="no such device"):
+        generate("random", n=4, device="no such device")

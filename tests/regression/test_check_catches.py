@@ -18,7 +18,7 @@ import numpy as np
 
 from gbnbench.cli import run
 from gbnbench.generators.gbn import energy, generator
-from gbnbench.generators.gbn.protocol import Gradient
+from gbnbench.generators.gbn.protocol import EnergyGradient
 
 met = []
 
@@ -89,9 +89,9 @@ def test_a_kernel_with_one_component_of_the_gradient_left_out():
             evaluate = field(*arguments)
             def without(x):
                 at = evaluate(x)
-                return Gradient(at.gradient * [1.0, 0.0], at.excess)
+                return EnergyGradient(at.gradient * [1.0, 0.0], at.excess)
             return without
-        wrap(energy, "field", spoil)
+        wrap(energy, "energy_evaluation", spoil)
         """,
         *TWO_FIELDS,
     )
@@ -115,9 +115,9 @@ def test_images_left_out(kept, departure):
                 pair = np.exp(-(u**2).sum(axis=-1) / (2 * sigma**2))
                 gradient = -(pair[..., None] * u).sum(axis=2) / sigma**2
                 uniform = (2 * np.pi) ** (d / 2) * sigma**d
-                return Gradient(gradient, (pair.sum(axis=(1, 2)) / n - uniform) / 2)
+                return EnergyGradient(gradient, (pair.sum(axis=(1, 2)) / n - uniform) / 2)
             return evaluate
-        wrap(energy, "field", spoil)
+        wrap(energy, "energy_evaluation", spoil)
         """,
         *cases,
     )
@@ -145,7 +145,9 @@ def test_float_where_double_was_asked():
     """In the energy, as the optimiser asks for it, and in the spectrum."""
     said = caught(
         """
-        wrap(energy, "field", lambda field, n, d, sigma, precision=None, **more: field(n, d, sigma, "float"))
+        def single(make, n, d, sigma, precision=None, **_):
+            return make(n, d, sigma, "float")
+        wrap(energy, "energy_evaluation", single)
         """,
         *TWO_FIELDS,
     )

@@ -5,14 +5,16 @@ from __future__ import annotations
 import json
 import math
 import os
+from collections import Counter
 from pathlib import Path
+from typing import ClassVar
 
 import numpy as np
 import pytest
 
 from gbnbench.core.errors import InputError, UnfinishedError
 from gbnbench.execution.progress import Progress
-from gbnbench.runs.resumable import Task, run_tasks
+from gbnbench.runs.resumable import Task, TaskRun, run_tasks
 from gbnbench.runs.resumable_folder import ResumableFolder
 from gbnbench.runs.task_folder import TaskFolder
 
@@ -96,3 +98,78 @@ def test_finished_means_that_the_manifest_is_there(tmp_path):
     assert json.loads((folder.path / "manifest.json").read_text()) == {"made": "now", "format": 1}
     folder.begin()
     assert not folder.whole
+
+
+class Counted(TaskFolder):
+    """A folder that counts how often each result is read."""
+
+    reads: ClassVar[Counter[str]] = Counter()
+
+    def read(self, key):
+        found = super().read(key)
+        if found is not None:
+            self.reads[key] += 1
+        return found
+
+
+def total(results):
+    return {"total": np.array(sum(result["root"].sum() for result in results))}
+
+
+def doubled(value, required):
+    return {"twice": 2 * value["total"], "of": np.array(len(required))}
+
+
+def sums(*counts):
+    """Roots, and their sum that requires them."""
+    roots_of = [Task(f"roots/{k}", f"roots {k}", roots, (k,)) for k in counts]
+    return [*roots_of, Task("sum", "their sum", total, (), tuple(t.key for t in roots_of), doubled)]
+
+
+@pytest.mark.parametrize("jobs", [None, 2])
+def test_what_a_task_requires_comes_first_and_is_read_once(tmp_path, jobs):
+    Counted.reads.clear()
+    folder = Counted(tmp_path, {"what": "sums"})
+    folder.begin()
+    run = TaskRun(sums(3, 4, 5), folder)
+    done = [finished.key for finished in run.complete(jobs, Progress())]
+    assert sorted(done) == ["roots/3", "roots/4", "roots/5", "sum"]
+    assert done[-1] == "sum"
+    expected = 2 * sum(np.sqrt(np.arange(k)).sum() for k in (3, 4, 5))
+    assert run.results.keys() == {"sum"}  # the others are let go
+    assert (run.results["sum"]["twice"], run.results["sum"]["of"]) == (pytest.approx(expected), 3)
+    assert not Counted.reads
+
+    again = TaskRun(sums(3, 4, 5), folder)
+    assert (again.reused, again.missing, Counted.reads) == (4, [], {"sum": 1})
+    (folder.path / "pieces/sum.npz").unlink()
+    (folder.path / "pieces/roots/4.npz").unlink()
+    Counted.reads.clear()
+    part = TaskRun(sums(3, 4, 5), folder)
+    assert [task.key for task in part.missing] == ["roots/4", "sum"]
+    assert [finished.key for finished in part.complete(jobs, Progress())] == ["roots/4", "sum"]
+    assert part.results["sum"]["twice"] == pytest.approx(expected)
+    assert Counted.reads == {"roots/3": 1, "roots/5": 1}
+
+
+@pytest.mark.parametrize("jobs", [None, 2])
+def test_what_requires_a_failed_task_is_left_out(tmp_path, jobs):
+    tasks = [
+        Task("good", "the good", roots, (4,)),
+        Task("bad", "the bad", fails, ("too odd",)),
+        Task("sum", "their sum", total, (), ("good", "bad")),
+        Task("other", "another", total, (), ("good",)),
+    ]
+    run = TaskRun(tasks)
+    done = {finished.key: finished.failure for finished in run.complete(jobs, Progress())}
+    assert done == {"good": "", "bad": "too odd", "other": ""}
+    assert run.failures == {"bad": "too odd"}
+    assert run.results["other"]["total"] == pytest.approx(np.sqrt(np.arange(4)).sum())
+
+
+def test_a_requirement_alone_is_not_made_again(tmp_path):
+    folder = opened(tmp_path)
+    run_tasks(sums(3, 4), folder, 1, Progress())
+    for path in (folder.path / "pieces/roots").iterdir():
+        path.unlink()
+    assert run_tasks(sums(3, 4), folder, 1, Progress()).reused == 3

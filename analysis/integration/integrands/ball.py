@@ -10,15 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.analysis.integration.integrands.ball_volume import ball_volume, radius_of
-from gbnbench.analysis.integration.integrands.integer_frequencies import (
-    MOST_FREQUENCIES,
-    beyond_dimensions,
-    check_count,
-    check_share,
-    half_ball,
-    shells,
-)
+from gbnbench.analysis.integration.integrands.limits import beyond_dimensions, check_count, check_share
 from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.integer_frequencies import MOST_FREQUENCIES, half_ball, shell_counts
 from gbnbench.core.torus import FloatArray
 
 
@@ -116,7 +110,7 @@ class Balls:
         volume = ball_volume(d, radius)
         target, longest = (1 - share) * volume * (1 - volume), 4
         while True:
-            squares, counts = shells(d, longest)
+            squares, counts = shell_counts(d, longest)
             energy = np.cumsum(counts[1:] * _shell_energy(d, np.sqrt(squares[1:]), radius))
             if energy[-1] > target:
                 break

@@ -10,23 +10,17 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.analysis.integration.integrands.integer_frequencies import (
-    MOST_FREQUENCIES,
-    beyond_dimensions,
-    check_count,
-    check_share,
-    half_ball,
-    shells,
-)
 from gbnbench.analysis.integration.integrands.kernel_values import (
     NUMPY_POINTS,
     coordinate_rows,
     evaluate,
     run_kernel,
 )
+from gbnbench.analysis.integration.integrands.limits import beyond_dimensions, check_count, check_share
 from gbnbench.analysis.integration.integrands.theta_polynomial import NEAREST, circle, theta_polynomial
 from gbnbench.analysis.precision import Precision
 from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.integer_frequencies import MOST_FREQUENCIES, half_ball, shell_counts
 from gbnbench.core.torus import FloatArray
 
 
@@ -122,7 +116,7 @@ class Gaussians:
         decay = (2 * math.pi * self.width(d)) ** 2
         longest = 4
         while True:  # until what is not counted cannot matter
-            squares, counts = shells(d, longest)
+            squares, counts = shell_counts(d, longest)
             energy = counts * np.exp(-decay * squares)
             if energy[squares > longest // 4].sum() <= 1e-6 * share * energy[1:].sum():
                 break

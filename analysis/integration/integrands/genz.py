@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.analysis.integration.integrands.genz_kinds import KINDS, GenzIntegrand
-from gbnbench.analysis.integration.integrands.integer_frequencies import beyond_dimensions
+from gbnbench.analysis.integration.integrands.limits import beyond_dimensions
 from gbnbench.core.errors import InputError, RefusalError
 
 # Sums of a by default, the same in every d: our choice, of the size customary for these families.

@@ -10,7 +10,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.analysis.integration.integrands.integer_frequencies import beyond_dimensions
+from gbnbench.analysis.integration.integrands.limits import beyond_dimensions
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray
 

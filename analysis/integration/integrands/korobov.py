@@ -11,13 +11,9 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.analysis.integration.integrands.integer_frequencies import (
-    MOST_FREQUENCIES,
-    beyond_dimensions,
-    check_count,
-    check_share,
-)
+from gbnbench.analysis.integration.integrands.limits import beyond_dimensions, check_count, check_share
 from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.integer_frequencies import MOST_FREQUENCIES
 from gbnbench.core.torus import FloatArray
 
 # B_alpha(t), its sign that of a positive cos 2 pi t, in powers of s = t (1 - t): it is even about 1/2.

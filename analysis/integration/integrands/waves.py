@@ -10,18 +10,11 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.analysis.integration.integrands.integer_frequencies import (
-    MOST_FREQUENCIES,
-    beyond_dimensions,
-    check_count,
-    check_share,
-    half_ball,
-    half_count,
-    halved,
-)
 from gbnbench.analysis.integration.integrands.kernel_values import coordinate_rows, evaluate, run_kernel
+from gbnbench.analysis.integration.integrands.limits import beyond_dimensions, check_count, check_share
 from gbnbench.analysis.precision import Precision
 from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.integer_frequencies import MOST_FREQUENCIES, half_ball, half_count, to_half_space
 from gbnbench.core.torus import FloatArray, fixed_point
 
 POINTS = 512  # the unit of reach is the nominal frequency of so many points, as that of the Gaussians' width
@@ -198,7 +191,7 @@ class WaveSum:
         """|transform|^2 at integer frequencies, (m, d) -> (m,): |sum of exp(2 pi i phase)|^2 / 4."""
         known, amplitudes = self._spectrum
         energy: FloatArray = np.zeros(len(frequencies))
-        half, _ = halved(np.ascontiguousarray(frequencies))
+        half, _ = to_half_space(np.ascontiguousarray(frequencies))
         for k, row in enumerate(map(bytes, half)):
             if row in known:
                 energy[k] = abs(amplitudes[known[row]]) ** 2
@@ -206,7 +199,7 @@ class WaveSum:
 
     @cached_property
     def _spectrum(self) -> tuple[dict[bytes, int], NDArray[np.complex128]]:
-        half, turned = halved(self.waves)
+        half, turned = to_half_space(self.waves)
         known: dict[bytes, int] = {}
         amplitudes = np.zeros(len(half), dtype=np.complex128)
         for row, sign, phase in zip(map(bytes, half), np.where(turned, -1, 1), self.phases, strict=True):

@@ -1,1 +1,1 @@
-"""Evaluators of power: one module a way to compute it, each with its cost and stated error."""
+"""Evaluators of power, each of which is one way to compute it, with its cost and its errors."""

@@ -1,4 +1,4 @@
-"""The two-group product over a cube of frequencies, or its half with f_0 >= 0: exact in any dimension."""
+"""Power of a cube of frequencies, or of its half with f_0 >= 0, by the exact two-group product."""
 
 from __future__ import annotations
 
@@ -12,18 +12,16 @@ import numpy as np
 from gbnbench.analysis.precision import Precision, padded
 from gbnbench.analysis.spectrum.digits import Division, cheapest_division, half_size, size
 from gbnbench.analysis.spectrum.error_model import Errors, coordinates, rounded_at_worst
-from gbnbench.analysis.spectrum.evaluators.protocol import DeviceEvaluator, EvaluationCost
-from gbnbench.analysis.spectrum.evaluators.two_group_product import (
+from gbnbench.analysis.spectrum.evaluators.frequency_tables import Group
+from gbnbench.analysis.spectrum.evaluators.point_slots import (
     AMPLITUDE_BYTES,
     TABLE_BYTES,
-    Group,
     Slots,
-    TwoGroupProduct,
-    deal,
-    norms_of,
-    product_errors,
-    rows_of,
+    choose_slots,
+    tile_rows,
 )
+from gbnbench.analysis.spectrum.evaluators.protocol import DeviceEvaluator, EvaluationCost
+from gbnbench.analysis.spectrum.evaluators.two_group_product import TwoGroupProduct, norms_of, product_errors
 from gbnbench.analysis.spectrum.evaluators.work_model import ENTRY, TILE, WRITTEN, device_cost
 from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest
 from gbnbench.core.torus import FloatArray
@@ -43,9 +41,9 @@ class CubeProduct(DeviceEvaluator):
     def work(self, request: SpectrumRequest) -> float:
         """Count the pairs of frequencies, the tables and the powers that are written."""
         p, n, d, f = self.on_device, request.n, request.d, request.fmax
-        divided = cheapest_division(d, f, rows_of(p))
+        divided = cheapest_division(d, f, tile_rows(p))
         a, b = half_size(divided.leading), half_size(divided.trailing)
-        each = (TILE * padded(a, rows_of(p)) * b + ENTRY * (a + b)) * n
+        each = (TILE * padded(a, tile_rows(p)) * b + ENTRY * (a + b)) * n
         return request.realizations * float(each + WRITTEN * (2 * f + 1) ** d / 2)
 
     def cost(self, request: SpectrumRequest) -> EvaluationCost:
@@ -64,7 +62,26 @@ class CubeProduct(DeviceEvaluator):
     def cube(
         self, x: FloatArray, fmax: int, weights: FloatArray | None, *, half: bool, mean: bool
     ) -> tuple[FloatArray, Errors]:
-        """Evaluate the power of a cube, as ``Evaluator.cube`` describes it."""
+        """Evaluate the power of a cube, as ``Evaluator.cube`` describes it.
+
+        Parameters
+        ----------
+        x : (sets, n, d) float64
+            Checked points.
+        fmax : int
+            Largest harmonic on each axis.
+        weights : (sets or 1, n) float64 or None
+            Weights of the points.
+        half : bool
+            Only the half with f_0 >= 0.
+        mean : bool
+            Average over sets; otherwise the power of each set.
+
+        Returns
+        -------
+        power : (2*fmax+1,)*d float64
+        errors : Errors
+        """
         return cube_powers(self.on_device, x, fmax, weights, half, mean)
 
 
@@ -82,9 +99,11 @@ def product_slots(p: Precision, request: SpectrumRequest) -> Slots:
     -------
     Slots
     """
-    divided = cheapest_division(request.d, request.fmax, rows_of(p))
+    divided = cheapest_division(request.d, request.fmax, tile_rows(p))
     a, b = half_size(divided.leading), half_size(divided.trailing)
-    return deal(p, request.n, request.realizations, padded(a, rows_of(p)), padded(b, p.runtime.group))
+    return choose_slots(
+        p, request.n, request.realizations, padded(a, tile_rows(p)), padded(b, p.runtime.group)
+    )
 
 
 def cube_powers(
@@ -95,32 +114,32 @@ def cube_powers(
     half: bool = False,
     mean: bool = True,
 ) -> tuple[FloatArray, Errors]:
-    """Power at all |f_a| <= fmax.
+    """Evaluate the power at all frequencies with |f_a| <= fmax.
 
     Parameters
     ----------
     p : Precision
-        Where and how.
+        Precision on the device.
     x : (sets, n, d) float64
         Checked points.
     fmax : int
         Largest harmonic on each axis.
     weights : (sets or 1, n) float64, optional
-        Of the points; power is over the sum of their squares.
+        Weights of the points; power is divided by the sum of their squares.
     half : bool
-        Only f_0 >= 0.
+        Only the half with f_0 >= 0.
     mean : bool
-        Average over sets; otherwise each.
+        Average over sets; otherwise the power of each set.
 
     Returns
     -------
     power : (2*fmax+1,)*d float64
-        The first axis only fmax+1 long where half; preceded by an axis of sets unless mean.
+        The first axis is only fmax+1 long for a half. An axis of sets precedes it unless ``mean``.
     errors : Errors
-        Of the square root of any of them.
+        Errors of the square root of the power of any one set.
     """
     sets, n, d = x.shape
-    divided = cheapest_division(d, fmax, rows_of(p))
+    divided = cheapest_division(d, fmax, tile_rows(p))
     at, rms, bound = coordinates(x, p.name, weights), 0.0, 0.0
     writer: CubeWriter | None = None
     for first_row, rows in row_blocks(p, divided):
@@ -143,19 +162,19 @@ class CubeWriter:
     Parameters
     ----------
     p : Precision
-        Where and how.
+        Precision on the device.
     divided : Division
-        The axes' two groups.
+        The two groups of axes.
     fmax : int
         Largest harmonic on each axis.
     norms : (sets,) float64
-        By which each set's squared amplitudes are divided.
+        Numbers by which the squared amplitudes of each set are divided.
     d : int
         Dimension.
     half, mean : bool
         As in ``cube_powers``.
     gains : (rows,) float64, optional
-        By which squared amplitudes of a leading frequency are divided besides.
+        Numbers by which the squared amplitudes at each leading frequency are divided besides; 1 if not given.
     """
 
     def __init__(
@@ -183,7 +202,21 @@ class CubeWriter:
     def add(
         self, program: Program, amplitude: Any, splits: int, first: int, count: int, first_row: int, rows: int
     ) -> None:
-        """Add so many sets from the first on, or write them where each is wanted, at some leading rows."""
+        """Turn the amplitudes of a batch into power, which is added up over sets or written set by set.
+
+        Parameters
+        ----------
+        program : Program
+            The kernels that were built for the product.
+        amplitude : buffer
+            Amplitudes of the batch.
+        splits : int
+            Slots of a set, whose amplitudes are added up.
+        first, count : int
+            First set of the batch, and how many sets it has.
+        first_row, rows : int
+            First leading frequency of the amplitudes, and how many there are.
+        """
         each = GPU_COLUMNS if self._p.runtime.group > 1 else self._columns
         program.run(
             "cube_power",
@@ -207,7 +240,7 @@ class CubeWriter:
         )
 
     def result(self) -> FloatArray:
-        """Download the cube, without what was covered beyond its edge."""
+        """Download the cube, and cut off the frequencies beyond its edge that the groups cover."""
         fmax, sets = self._fmax, 1 if self._mean else self._sets
         power = self._p.runtime.download(self._out, np.empty((sets, *self._shape), self._p.sum))
         inner = tuple(
@@ -224,10 +257,26 @@ class CubeWriter:
 
 
 def row_blocks(p: Precision, divided: Division) -> Iterator[tuple[int, Group]]:
-    """Yield the leading frequencies whole, or in runs whose amplitudes are not too many: first, group."""
+    """Cut the leading frequencies in runs whose amplitudes fit in ``AMPLITUDE_BYTES``.
+
+    Parameters
+    ----------
+    p : Precision
+        Precision on the device.
+    divided : Division
+        The two groups of axes.
+
+    Yields
+    ------
+    first : int
+        Position of the run's first frequency.
+    group : Group
+        The frequencies of the run; the whole group where one run holds it.
+    """
     total, columns = half_size(divided.leading), half_size(divided.trailing)
     most = max(
-        rows_of(p), AMPLITUDE_BYTES // (8 * np.dtype(p.sum).itemsize * columns) // rows_of(p) * rows_of(p)
+        tile_rows(p),
+        AMPLITUDE_BYTES // (8 * np.dtype(p.sum).itemsize * columns) // tile_rows(p) * tile_rows(p),
     )
     if total <= most:
         yield 0, Group(divided.leading)
@@ -239,7 +288,20 @@ def row_blocks(p: Precision, divided: Division) -> Iterator[tuple[int, Group]]:
 
 
 def covered(divided: Division, d: int) -> tuple[int, ...]:
-    """Frequencies on each axis that the two groups' sums cover: 2*fmax+1, or a few more on one."""
+    """Count the frequencies on each axis that the sums of the two groups cover.
+
+    Parameters
+    ----------
+    divided : Division
+        The two groups of axes.
+    d : int
+        Dimension.
+
+    Returns
+    -------
+    tuple of int
+        2*fmax+1 on each axis, or a few more on the one that is cut.
+    """
     shape = [1] * d
     for axis in (*divided.leading, *divided.trailing):
         shape[axis.coordinate] *= axis.base

@@ -1,4 +1,4 @@
-"""The direct sum at listed frequencies of 64 bits: a cosine and sine for each point and frequency."""
+"""Power at listed frequencies of 64 bits, by one cosine and sine for each point and frequency."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ from gbnbench.analysis.spectrum.evaluators.work_model import COSINE, device_cost
 from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest
 from gbnbench.core.torus import FloatArray
 
-ITEMS = 16  # work-items a core that a few frequencies are cut into
-GPU_ITEMS = 256  # work-items a multiprocessor
+ITEMS = 16  # work-items for each core of a CPU, if the frequencies are few
+GPU_ITEMS = 256  # the same for each multiprocessor of a GPU
 
 
 @dataclass(frozen=True)
@@ -48,31 +48,46 @@ class DirectSum(DeviceEvaluator):
     def listed(
         self, x: FloatArray, frequencies: NDArray[np.int64], weights: FloatArray | None
     ) -> tuple[FloatArray, Errors]:
-        """Evaluate the power at listed frequencies, as ``Evaluator.listed`` describes it."""
+        """Evaluate the power at listed frequencies, as ``Evaluator.listed`` describes it.
+
+        Parameters
+        ----------
+        x : (sets, n, d) float64
+            Checked points.
+        frequencies : (m, d) int64
+            Cycles per unit length.
+        weights : (sets or 1, n) float64 or None
+            Weights of the points.
+
+        Returns
+        -------
+        power : (m,) float64
+        errors : Errors
+        """
         return listed_power(self.on_device, x, frequencies, weights)
 
 
 def listed_power(
     p: Precision, x: FloatArray, frequencies: NDArray[np.int64], weights: FloatArray | None = None
 ) -> tuple[FloatArray, Errors]:
-    """Power averaged over sets.
+    """Evaluate the power at listed frequencies, averaged over sets.
 
     Parameters
     ----------
     p : Precision
-        Where and how.
+        Precision on the device.
     x : (sets, n, d) float64
         Checked points.
     frequencies : (m, d) int64
         Cycles per unit length.
     weights : (sets or 1, n) float64, optional
-        Of the points; power is over the sum of their squares.
+        Weights of the points; power is divided by the sum of their squares.
 
     Returns
     -------
     power : (m,) float64
     errors : Errors
-        Of the square root of any of them.
+        Errors of the square root of the power of any one set.
     """
     sets, n, d = x.shape
     m, stride = len(frequencies), padded(n, p.lanes)
@@ -106,7 +121,20 @@ def listed_power(
 
 
 def run_length(p: Precision, m: int, n: int) -> int:
-    """Points of a work-item, so that a few frequencies keep every core busy: a multiple of the lanes."""
+    """Choose how many points a work-item takes, so that even a few frequencies keep every core busy.
+
+    Parameters
+    ----------
+    p : Precision
+        Precision on the device.
+    m, n : int
+        Number of frequencies, and points of a set.
+
+    Returns
+    -------
+    int
+        A multiple of the lanes.
+    """
     device = p.runtime.device
     items = device.compute_units * (ITEMS if device.is_cpu else GPU_ITEMS)
     runs = max(1, min(-(-items // m), -(-n // (SUM_POINTS * p.lanes))))
@@ -114,7 +142,25 @@ def run_length(p: Precision, m: int, n: int) -> int:
 
 
 def listed_errors(p: Precision, n: int, largest: int, length: int, at: Coordinates) -> Errors:
-    """Errors of sqrt(power): one cosine a term, sums of runs of so many points kept with their rounding."""
+    """State the errors of sqrt(power), for one cosine a term and sums whose rounding is kept.
+
+    Parameters
+    ----------
+    p : Precision
+        Precision on the device.
+    n : int
+        Points of a set.
+    largest : int
+        Largest |f_a|.
+    length : int
+        Points of a work-item.
+    at : Coordinates
+        Rounding of the coordinates.
+
+    Returns
+    -------
+    Errors
+    """
     beyond = p.lanes.bit_length() + 2 + -(-n // length)
     in_registers = min(SUM_POINTS, -(-length // p.lanes))
     return sum_errors(

@@ -1,7 +1,8 @@
-"""The protocol of evaluators: what one can serve, what it costs, how exact it is, and the evaluation itself.
+"""Protocol of evaluators, each of which is one way to compute the power of point sets.
 
-An evaluator is one way to compute the power of point sets. Each stands in a module of its own and is named
-once, in ``registry.py``; ``gbnbench.analysis.spectrum.plan`` asks every one of them and knows none by name.
+An evaluator states the frequencies that it serves, its cost and its errors, and evaluates. Each stands in a
+module of its own and is named once, in ``registry.py``. ``gbnbench.analysis.spectrum.plan`` asks every one of
+them and knows none by name.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ from gbnbench.opencl import devices_present
 
 @dataclass(frozen=True)
 class EvaluationCost:
-    """What an evaluation takes.
+    """Work, memory and time of an evaluation.
 
     Attributes
     ----------
@@ -83,11 +84,15 @@ class Evaluator(ABC):
         request : SpectrumRequest
             The frequencies, points and sets.
         precision : {"double", "float"}
-            Precision of its arithmetic.
+            Precision of the arithmetic.
         floor : float, optional
             Smallest power that must be known to 1%; an approximate method chooses its tolerance by it.
         forced : bool
-            Whether the user asked for this method, so that it is offered even where another is cheaper.
+            Whether the user asked for this method.
+
+        Returns
+        -------
+        Evaluator or None
         """
 
     @classmethod
@@ -134,7 +139,7 @@ class Evaluator(ABC):
 
     @property
     def remark(self) -> str:
-        """What has to be said about a choice of it besides the reason; empty for most."""
+        """A remark for tables besides the reason of the choice; empty for most."""
         return ""
 
     @cached_property
@@ -229,7 +234,23 @@ class DeviceEvaluator(Evaluator, ABC):
     def offer(
         cls, request: SpectrumRequest, precision: str, *, floor: float | None = None, forced: bool = False
     ) -> Evaluator | None:
-        """Offer itself wherever there is a device that has the precision."""
+        """Offer itself wherever there is a device that has the precision.
+
+        Parameters
+        ----------
+        request : SpectrumRequest
+            The frequencies, points and sets.
+        precision : {"double", "float"}
+            Precision of the arithmetic.
+        floor : float, optional
+            Smallest power that must be known to 1%; not used, since the method is exact.
+        forced : bool
+            Whether the user asked for this method.
+
+        Returns
+        -------
+        Evaluator or None
+        """
         if request.what not in cls.serves or not devices_present():
             return None
         if precision == "double" and not precision_of("float").runtime.device.has_double:

@@ -1,4 +1,7 @@
-"""Every evaluator of power: one line adds one, and the plan asks each in this order."""
+"""Registry of the evaluators of power.
+
+An evaluator is added by one line here. The plan asks each of them, in this order.
+"""
 
 from __future__ import annotations
 

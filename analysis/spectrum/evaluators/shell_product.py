@@ -1,7 +1,8 @@
-"""The two-group product over shells of |f| without the cube: its blocks are reduced as they come.
+"""Moments of power on shells of |f|, by the two-group product in blocks that are reduced at once.
 
-Each group's frequencies are sorted by |f|^2, so that those of a ball or a band are, for each row of one
-group, a run of the other: only they are evaluated. Memory is that of a block, whatever the dimension.
+The frequencies of each group are sorted by |f|^2. Those that make up a ball or a band with one frequency of
+the other group are then consecutive, and only they are evaluated. Memory is that of one block in any
+dimension.
 """
 
 from __future__ import annotations
@@ -16,15 +17,10 @@ from numpy.typing import NDArray
 from gbnbench.analysis.precision import Precision
 from gbnbench.analysis.spectrum.error_model import Errors, coordinates, rounded_at_worst
 from gbnbench.analysis.spectrum.evaluators.cube_product import CubeProduct, product_slots
+from gbnbench.analysis.spectrum.evaluators.frequency_tables import Group
+from gbnbench.analysis.spectrum.evaluators.point_slots import TABLE_BYTES, tile_rows
 from gbnbench.analysis.spectrum.evaluators.protocol import DeviceEvaluator, EvaluationCost
-from gbnbench.analysis.spectrum.evaluators.two_group_product import (
-    TABLE_BYTES,
-    Group,
-    TwoGroupProduct,
-    norms_of,
-    product_errors,
-    rows_of,
-)
+from gbnbench.analysis.spectrum.evaluators.two_group_product import TwoGroupProduct, norms_of, product_errors
 from gbnbench.analysis.spectrum.evaluators.work_model import ENTRY, SHELL, TILE, device_cost
 from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest
 from gbnbench.analysis.spectrum.shell_moments import ShellMoments
@@ -32,8 +28,8 @@ from gbnbench.analysis.spectrum.sorted_groups import SortedGroup, count_pairs, t
 from gbnbench.core.torus import FloatArray
 
 BLOCK_ROWS, BLOCK_COLUMNS = 510, 1024  # frequencies of a block's two groups: 17 MB of amplitudes
-BIN_BYTES = 64 << 20  # of all strips' shells
-STRIPS = 4  # a core
+BIN_BYTES = 64 << 20  # of the moments of all strips
+STRIPS = 4  # strips of rows for each core
 
 Progress = Callable[[float], None]
 
@@ -70,7 +66,26 @@ class ShellProduct(DeviceEvaluator):
         weights: FloatArray | None,
         progress: Progress | None = None,
     ) -> tuple[ShellMoments, Errors]:
-        """Evaluate the shells, as ``Evaluator.shells`` describes it; d = 1 has no second group of axes."""
+        """Evaluate the shells, as ``Evaluator.shells`` describes it.
+
+        In one dimension there is no second group of axes, and the whole cube is evaluated.
+
+        Parameters
+        ----------
+        x : (sets, n, d) float64
+            Checked points.
+        request : SpectrumRequest
+            A request for shells.
+        weights : (sets or 1, n) float64 or None
+            Weights of the points.
+        progress : callable, optional
+            Called now and then with the share done.
+
+        Returns
+        -------
+        moments : ShellMoments
+        errors : Errors
+        """
         if request.d == 1:
             return CubeProduct(self.precision).shells(x, request, weights, progress)
         p = self.on_device
@@ -86,29 +101,29 @@ def shell_moments(
     weights: FloatArray | None = None,
     progress: Progress | None = None,
 ) -> tuple[ShellMoments, Errors]:
-    """ShellMoments of power on every shell low <= |f|^2 <= high of the cube |f_a| <= fmax.
+    """Evaluate the moments of power on every shell low <= |f|^2 <= high of the cube |f_a| <= fmax.
 
     Parameters
     ----------
     p : Precision
-        Where and how.
+        Precision on the device.
     x : (sets, n, d) float64
         Checked points.
     fmax : int
         Largest harmonic on each axis.
     low, high : int
-        Of |f|^2; beyond fmax^2 shells are cut by the cube.
+        Smallest and largest |f|^2; shells beyond fmax^2 are cut by the cube.
     weights : (sets or 1, n) float64, optional
-        Of the points.
+        Weights of the points.
     progress : callable, optional
         Called with the share done.
 
     Returns
     -------
     moments : ShellMoments
-        Of the shells that hold a frequency; DC is left out.
+        Moments of the shells that hold a frequency; DC is left out.
     errors : Errors
-        Of the square root of any frequency's power.
+        Errors of the square root of the power of any one set.
     """
     sets, n, d = x.shape
     at, rms, bound = coordinates(x, p.name, weights), 0.0, 0.0
@@ -121,7 +136,7 @@ def shell_moments(
     norms = p.runtime.upload(norms_of(weights, sets, n).astype(p.sum))
     work, done = count_pairs(a, b, low, high), 0
     power = p.runtime.empty(2 * BLOCK_ROWS * BLOCK_COLUMNS * np.dtype(p.sum).itemsize)
-    for rows, columns, bounds in blocks(a, b, low, high, rows_of(p)):
+    for rows, columns, bounds in blocks(a, b, low, high, tile_rows(p)):
         leading, trailing = Group(a.axes, a.order[rows]), Group(b.axes, b.order[columns])
         product = TwoGroupProduct(p, n, d, sets, leading, trailing, bounds)
         limits = p.runtime.upload(bounds)
@@ -145,7 +160,7 @@ def shell_moments(
                 np.uint32(first),
                 power,
             )
-        p.program("shells.cl", ROWS=rows_of(p)).run(
+        p.program("shells.cl", ROWS=tile_rows(p)).run(
             "shells",
             (strips,),
             (1,),
@@ -163,7 +178,7 @@ def shell_moments(
         )
         p.runtime.finish()
         if progress is not None:
-            done += int((bounds[:, 1] - bounds[:, 0]).sum()) * rows_of(p)
+            done += int((bounds[:, 1] - bounds[:, 0]).sum()) * tile_rows(p)
             progress(min(done / work, 1.0))
     parts = p.runtime.download(out, np.empty((strips, bins, 2), p.sum)).astype(np.float64)
     count = p.runtime.download(counts, np.empty((strips, bins), np.uint32))
@@ -173,7 +188,24 @@ def shell_moments(
 def blocks(
     a: SortedGroup, b: SortedGroup, low: int, high: int, rows: int
 ) -> Iterator[tuple[slice, slice, NDArray[np.uint32]]]:
-    """Blocks that hold pairs of the band: rows, columns, and of each row tile the columns wanted."""
+    """List the blocks that hold a pair of the band.
+
+    Parameters
+    ----------
+    a, b : SortedGroup
+        The leading and the trailing axes.
+    low, high : int
+        Smallest and largest |f|^2.
+    rows : int
+        Rows of a register tile.
+
+    Yields
+    ------
+    rows, columns : slice
+        Leading and trailing frequencies of the block.
+    bounds : (row tiles, 2) uint32
+        For each tile of rows the first and the end of the columns that are wanted.
+    """
     for i in range(0, len(a.order), BLOCK_ROWS):
         squares = a.square[i : i + BLOCK_ROWS]
         nearest = squares[::rows]
@@ -189,7 +221,22 @@ def blocks(
 
 
 def merged(count: NDArray[np.int64], mean: FloatArray, deviation: FloatArray, low: int) -> ShellMoments:
-    """Merge strips' counts, means and departures, each (strips, bins), shell by shell (Chan et al. 1979)."""
+    """Merge the moments of strips shell by shell (Chan, Golub & LeVeque 1979).
+
+    Parameters
+    ----------
+    count : (strips, bins) int64
+        Frequencies that a strip met on each shell.
+    mean, deviation : (strips, bins) float64
+        Mean power of these, and sum of squared departures from it.
+    low : int
+        |f|^2 of the first bin.
+
+    Returns
+    -------
+    ShellMoments
+        Moments of the shells that hold a frequency.
+    """
     total = count.sum(axis=0)
     held = total > 0
     count, mean, deviation, total = count[:, held], mean[:, held], deviation[:, held], total[held]

@@ -1,7 +1,7 @@
 """Work of evaluations in multiply-adds, and the time it takes on an OpenCL device.
 
-The constants were measured on CPUs. They count what a pair of a leading and a trailing frequency takes for
-each point, what the tables take that it is looked up in, and what is done once with each power.
+The constants were measured on CPUs. They count the work for each point on a pair of a leading and a trailing
+frequency, the work on the tables, and what is done once with each power.
 """
 
 from __future__ import annotations
@@ -13,10 +13,10 @@ from gbnbench.analysis.spectrum.evaluators.protocol import EvaluationCost
 from gbnbench.analysis.spectrum.request import SpectrumRequest
 from gbnbench.opencl.peak_rate import launch_seconds, peak
 
-# Multiply-adds of one pair of frequencies and one point (four, and what a tile wastes), of an entry of a
-# table, of a cosine and sine, of a power that is written, and of a pair that is reduced to its shell.
+# Multiply-adds for a pair of frequencies and a point (four, and the waste of a tile), for an entry of a
+# table, for a cosine and sine, for a power that is written, and for a pair that is reduced to its shell.
 TILE, ENTRY, COSINE, WRITTEN, SHELL = 5.0, 40.0, 200.0, 20.0, 550.0
-CALL_SECONDS = 4e-4  # once for every request
+CALL_SECONDS = 4e-4  # for every request
 NUMPY_RATE = 4e9  # multiply-adds that numpy does in a second on one core
 
 

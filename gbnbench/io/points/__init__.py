@@ -61,6 +61,16 @@ def load(path: str | os.PathLike[str], *, max_bytes: int | None = None) -> Float
     ------
     FormatError
         If the file cannot be read as points; the text names the file and, in text formats, the line.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     save(Path(folder) / "two.csv", [[0.25, 0.5], [0.1, 0.75]])
+    ...     load(Path(folder) / "two.csv")
+    array([[0.25, 0.5 ],
+           [0.1 , 0.75]])
     """
     sets = read(path, max_bytes=max_bytes)
     if len(sets) == 1:
@@ -120,6 +130,16 @@ def save(path: str | os.PathLike[str], x: ArrayLike | Sequence[ArrayLike]) -> No
     ------
     InputError
         If the extension is none of these, x is not points, or the place cannot be written.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     save(Path(folder) / "two.csv", [[0.25, 0.5], [0.1, 0.75]])
+    ...     load(Path(folder) / "two.csv")
+    array([[0.25, 0.5 ],
+           [0.1 , 0.75]])
     """
     path = Path(path)
     write_atomically(path, encode(path, x))

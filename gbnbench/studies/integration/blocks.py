@@ -14,7 +14,7 @@ from gbnbench.analysis.integration.integrands.protocol import Family, Integrand
 from gbnbench.analysis.integration.spectral_variance import FourierSeries, fourier_series, predicted_variance
 from gbnbench.core.settings import specification
 from gbnbench.core.torus import FloatArray, wrap
-from gbnbench.generators.monitor import Watch, Watchable
+from gbnbench.generators.monitor import Monitor, MonitoredGenerator
 from gbnbench.generators.protocol import Generator, realization_rng
 from gbnbench.runs.resumable import Task
 from gbnbench.runs.sources import Source
@@ -152,8 +152,8 @@ def estimate_block(
         sets = origin
     else:
         rngs = [realization_rng(seed, first + k) for k in range(count)]
-        if isinstance(origin, Watchable):
-            sets = origin.draw(n, d, rngs, Watch())
+        if isinstance(origin, MonitoredGenerator):
+            sets = origin.draw(n, d, rngs, Monitor())
         else:
             sets = np.stack([origin(n, d, rng) for rng in rngs])
     found: dict[str, NDArray[Any]] = {}

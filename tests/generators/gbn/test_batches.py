@@ -14,8 +14,8 @@ import pytest
 
 from gbnbench.core.errors import InputError
 from gbnbench.generators.gbn import batches, optimiser
-from gbnbench.generators.gbn.energy import field
-from gbnbench.generators.monitor import Trace, Watch
+from gbnbench.generators.gbn.energy import energy_evaluation
+from gbnbench.generators.monitor import Monitor, Trace
 from gbnbench.generators.registry import generate
 
 
@@ -46,18 +46,20 @@ class KilledError(Exception):
 def test_a_killed_run_goes_on_to_the_same_points_and_trace(monkeypatch, tmp_path, n, settings, at):
     monkeypatch.setattr(batches, "BATCH", 2 * n)
     whole, kept = Trace(keep_at=(5, 20)), tmp_path / "state.npz"
-    expected = generate("gbn", n=n, seed=1, realizations=6, watch=Watch(trace=whole), **settings)
+    expected = generate("gbn", n=n, seed=1, realizations=6, monitor=Monitor(trace=whole), **settings)
 
     def stop(done: int, *_: object) -> None:
         if done == at:
             raise KilledError
 
     with pytest.raises(KilledError):
-        generate("gbn", n=n, seed=1, realizations=6, watch=Watch(stop, Trace((5, 20)), kept, 0), **settings)
+        generate(
+            "gbn", n=n, seed=1, realizations=6, monitor=Monitor(stop, Trace((5, 20)), kept, 0), **settings
+        )
     resumed = Trace(keep_at=(5, 20))
     counts: list[int] = []
-    watch = Watch(lambda done, *_: counts.append(done), resumed, kept, 0)
-    assert np.array_equal(generate("gbn", n=n, seed=1, realizations=6, watch=watch, **settings), expected)
+    monitor = Monitor(lambda done, *_: counts.append(done), resumed, kept, 0)
+    assert np.array_equal(generate("gbn", n=n, seed=1, realizations=6, monitor=monitor, **settings), expected)
     assert min(counts, default=at) >= at - 1
     assert resumed.to_frame().equals(whole.to_frame())
     assert np.array_equal(resumed.points(20), whole.points(20))
@@ -95,33 +97,35 @@ def test_foreign_checkpoints_are_refused_and_kept(tmp_path, content):
         kept.write_bytes(content)
     before = kept.read_bytes()
     with pytest.raises(InputError, match=r"state\.npz is no checkpoint"):
-        generate("gbn", n=20, watch=Watch(checkpoint=kept))
+        generate("gbn", n=20, monitor=Monitor(checkpoint=kept))
     assert kept.read_bytes() == before
 
 
 def test_checkpoints_of_other_runs_are_refused(tmp_path):
     kept = Path(tmp_path / "state.npz")
-    generate("gbn[gradients=5]", n=20, watch=Watch(checkpoint=kept))
+    generate("gbn[gradients=5]", n=20, monitor=Monitor(checkpoint=kept))
     for other in ({"n": 21}, {"n": 20, "seed": 1}, {"n": 20, "sigma": 0.9}, {"n": 20, "realizations": 2}):
         with pytest.raises(InputError, match="of another run"):
-            generate("gbn[gradients=5]", watch=Watch(checkpoint=kept), **other)
+            generate("gbn[gradients=5]", monitor=Monitor(checkpoint=kept), **other)
 
 
 def test_generators_without_an_optimiser_say_so(tmp_path):
     with pytest.raises(InputError, match="jittered has no checkpoint"):
-        generate("jittered", n=16, watch=Watch(checkpoint=tmp_path / "x"))
+        generate("jittered", n=16, monitor=Monitor(checkpoint=tmp_path / "x"))
     for name in ("jittered", "stealthy"):
         with pytest.raises(InputError, match=f"{name} has no trace"):
-            generate(name, n=16, watch=Watch(trace=Trace()))
+            generate(name, n=16, monitor=Monitor(trace=Trace()))
 
 
 def test_a_trace_tells_the_energy_that_the_points_have():
     trace = Trace(keep_at=(10, 30))
-    x = generate("gbn[iterations=30]", n=256, seed=2, realizations=2, watch=Watch(trace=trace))
+    x = generate("gbn[iterations=30]", n=256, seed=2, realizations=2, monitor=Monitor(trace=trace))
     frame = trace.to_frame()
     assert list(frame.groupby("set").size()) == [30, 30]
     assert np.array_equal(trace.points(30), x)
-    after_ten = field(256, 2, 1.0)(trace.points(10))  # the eleventh gradient is taken where ten led
+    after_ten = energy_evaluation(256, 2, 1.0)(
+        trace.points(10)
+    )  # the eleventh gradient is taken where ten led
     told = frame[frame.gradient == 11]
     assert told.excess.to_numpy() == pytest.approx(after_ten.excess, rel=1e-9)
     x10 = trace.points(10)
@@ -135,7 +139,7 @@ def test_a_trace_tells_the_energy_that_the_points_have():
 
 def test_a_set_that_is_done_waits_for_the_others():
     alone = generate("gbn[excess=3e-3]", n=128, seed=5, realizations=4)
-    at = field(128, 2, 1.0)(alone)
+    at = energy_evaluation(128, 2, 1.0)(alone)
     assert (at.excess <= 3e-3).all()
     assert (at.excess > 1e-3).all()
 
@@ -143,7 +147,7 @@ def test_a_set_that_is_done_waits_for_the_others():
 def test_the_step_is_halved_while_the_energy_rises():
     """Ten times the largest stable step: the energy rises until the step has come down."""
     x = np.random.default_rng(0).random((1, 256, 2))
-    method = optimiser.Nesterov(field(256, 2, 1.0), x, 10 * optimiser.step_size(256, 2, 1.0))
+    method = optimiser.Nesterov(energy_evaluation(256, 2, 1.0), x, 10 * optimiser.step_size(256, 2, 1.0))
     for _ in range(400):
         method.advance()
     assert method.size[0] < 5 * optimiser.step_size(256, 2, 1.0)
@@ -153,10 +157,12 @@ def test_the_step_is_halved_while_the_energy_rises():
 def test_each_set_gets_its_own_band_back():
     """A set that is finished at its first gradient has no band to restore; the others keep theirs."""
     x = np.random.default_rng(0).random((2, 2100, 2))
-    energy = field(2100, 2, 1.0)
+    energy = energy_evaluation(2100, 2, 1.0)
     enough = float(energy(x).excess.min()) * (1 + 1e-9)
     step = optimiser.step_size(2100, 2, 1.0)
-    one, other = (optimiser.Nesterov(field(2100, 2, 1.0), x, step, enough, sigma=1.0) for _ in range(2))
+    one, other = (
+        optimiser.Nesterov(energy_evaluation(2100, 2, 1.0), x, step, enough, sigma=1.0) for _ in range(2)
+    )
     one.advance()
     assert one.finished.sum() == 1
     other.restore(one.state())

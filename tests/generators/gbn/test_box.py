@@ -7,7 +7,7 @@ import pytest
 
 from gbnbench.analysis.spatial.edge_density import edge_density
 from gbnbench.generators.gbn import operation_counts
-from gbnbench.generators.gbn.box import BoxField, domain_energy, domain_pull, fold
+from gbnbench.generators.gbn.box import BoxEnergy, domain_energy, domain_pull, fold
 from gbnbench.generators.registry import generate
 from gbnbench.opencl.runtime import Runtime
 from tests.oracles.energy import box_field
@@ -34,7 +34,7 @@ def test_energy_and_gradient_agree_with_quadrature(n, d, sigma, precision):
     sets = np.stack(
         [rng.random((n, d)), 0.5 + 1e-3 * rng.standard_normal((n, d)), rng.choice([0, 1 - 2.0**-53], (n, d))]
     )
-    at = BoxField(n, d, sigma, precision)(sets)
+    at = BoxEnergy(n, d, sigma, precision)(sets)
     for x, gradient, excess in zip(sets, at.gradient, at.excess, strict=True):
         expected, least = box_field(x, sigma)
         allowed = ALLOWED[precision] * (np.abs(expected).max() + 1 / sigma)
@@ -47,10 +47,10 @@ def test_energy_and_gradient_agree_with_quadrature(n, d, sigma, precision):
 @pytest.mark.parametrize("precision", ["double", "float"])
 def test_strips_give_what_all_pairs_give(monkeypatch, n, d, sigma, precision):
     x = np.random.default_rng(d).random((2, n, d))
-    cut = BoxField(n, d, sigma, precision)
+    cut = BoxEnergy(n, d, sigma, precision)
     assert cut.method == "box, strips"
     monkeypatch.setitem(operation_counts.SHARE, "strips", 1e-9)
-    whole = BoxField(n, d, sigma, precision)
+    whole = BoxEnergy(n, d, sigma, precision)
     assert whole.method == "box, images"
     one, other = cut(x), whole(x)
     assert one.gradient == pytest.approx(other.gradient, abs=20 * ALLOWED[precision])
@@ -61,7 +61,7 @@ def test_a_set_is_the_same_in_any_company():
     rng = np.random.default_rng(3)
     for n, d, sigma in ((900, 2, 0.5), (60, 3, 1.0)):
         x = rng.random((3, n, d))
-        field = BoxField(n, d, sigma)
+        field = BoxEnergy(n, d, sigma)
         together, alone = field(x), [field(each[None]) for each in x]
         assert np.array_equal(together.gradient, np.concatenate([at.gradient for at in alone]))
         assert np.array_equal(together.excess, np.concatenate([at.excess for at in alone]))
@@ -87,7 +87,7 @@ def test_the_domains_energy_is_that_of_a_fine_grid_of_points():
 )
 def test_the_curvature_is_that_of_the_hessian(n, d, sigma):
     """The largest eigenvalue by differences of the gradient, near a minimum: a step of 1.2 / it is stable."""
-    field = BoxField(n, d, sigma, "double")
+    field = BoxEnergy(n, d, sigma, "double")
     side, largest = n ** (1 / d), max(field.curvature, 2 / sigma**2)
     x = np.random.default_rng(0).random((1, n, d))
     for _ in range(40):
@@ -115,7 +115,7 @@ def test_the_mirror_image_has_the_same_energy_and_the_mirrored_gradient(n, d, si
     inside = rng.random((1, n, d))
     flip, turns = rng.integers(0, 2, inside.shape), 2 * rng.integers(-3, 4, inside.shape)
     outside = np.where(flip, -inside, inside) + turns
-    field = BoxField(n, d, sigma)
+    field = BoxEnergy(n, d, sigma)
     at, there = field(inside), field(outside)
     assert there.excess == pytest.approx(at.excess, rel=1e-12, abs=1e-13)
     assert there.gradient == pytest.approx(np.where(flip, -1, 1) * at.gradient, abs=1e-11)
@@ -126,7 +126,7 @@ def test_the_mirror_image_has_the_same_energy_and_the_mirrored_gradient(n, d, si
 @pytest.mark.parametrize("sigma", [0.3, 1.0, 3.0])
 def test_descent_leaves_no_point_outside_even_from_the_border_with_large_steps(n, d, sigma):
     rng = np.random.default_rng(n)
-    field = BoxField(n, d, sigma)
+    field = BoxEnergy(n, d, sigma)
     for start in (
         rng.random((n, d)),
         rng.choice([0.0, 1 - 2.0**-53], (n, d)) * rng.choice([1.0, 0.999], (n, d)),
@@ -148,7 +148,7 @@ def test_the_generator_draws_in_the_box_and_beats_uniform_points(n, d):
     x = generate("gbn", n=n, d=d, realizations=2, domain="box", gradients=150)
     assert np.all((x >= 0) & (x < 1))
     start = generate("gbn", n=n, d=d, realizations=2, domain="box", gradients=0)
-    field = BoxField(n, d, 1.0)
+    field = BoxEnergy(n, d, 1.0)
     assert np.all(field(x).excess < 0.05 * field(start).excess)
     assert np.array_equal(x[1], generate("gbn[domain=box,gradients=150]", n=n, d=d, realizations=2)[1])
 
@@ -164,9 +164,9 @@ def test_the_extreme_points_end_a_quarter_spacing_inside():
 @pytest.mark.parametrize(("n", "d", "sigma"), [(900, 2, 0.5), (60, 3, 1.0)])
 def test_one_lane_and_groups_of_64_give_the_same(monkeypatch, n, d, sigma, precision):
     x = np.random.default_rng(n).random((2, n, d))
-    vectors = BoxField(n, d, sigma, precision)(x)
+    vectors = BoxEnergy(n, d, sigma, precision)(x)
     monkeypatch.setattr(Runtime, "lanes", lambda self, name: 1)
     monkeypatch.setattr(Runtime, "group", property(lambda self: 64))
-    scalars = BoxField(n, d, sigma, precision)(x)
+    scalars = BoxEnergy(n, d, sigma, precision)(x)
     assert scalars.gradient == pytest.approx(vectors.gradient, abs=20 * ALLOWED[precision])
     assert scalars.excess == pytest.approx(vectors.excess, rel=ALLOWED[precision])

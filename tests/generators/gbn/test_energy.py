@@ -10,10 +10,10 @@ import pytest
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.generators.gbn import kernel
-from gbnbench.generators.gbn.energy import field
+from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.harmonics import Harmonics
 from gbnbench.generators.gbn.images import Images
-from gbnbench.generators.gbn.plan import METHODS, plan
+from gbnbench.generators.gbn.plan import METHODS, plan_energy
 from gbnbench.generators.gbn.theta import Theta
 from gbnbench.opencl import Runtime, runtime
 from gbnbench.opencl.width_probe import VectorWidths
@@ -26,7 +26,7 @@ def serving(n, d, sigma, precision):
     """Every method that serves this size."""
     for method in METHODS:
         try:
-            yield field(n, d, sigma, precision, method=method)
+            yield energy_evaluation(n, d, sigma, precision, method=method)
         except RefusalError:
             continue
 
@@ -113,9 +113,11 @@ def test_sets_too_many_for_the_buffers_come_in_turns(monkeypatch):
     from gbnbench.generators.gbn import operation_counts
 
     x = np.random.default_rng(1).random((7, 40, 2))
-    whole = field(40, 2, 1.0, method="theta")(x)
-    monkeypatch.setattr(operation_counts, "LARGEST", 3 * field(40, 2, 1.0, method="theta").bytes_a_set())
-    parts = field(40, 2, 1.0, method="theta")(x)
+    whole = energy_evaluation(40, 2, 1.0, method="theta")(x)
+    monkeypatch.setattr(
+        operation_counts, "LARGEST", 3 * energy_evaluation(40, 2, 1.0, method="theta").bytes_a_set()
+    )
+    parts = energy_evaluation(40, 2, 1.0, method="theta")(x)
     assert np.array_equal(whole.gradient, parts.gradient)
     assert np.array_equal(whole.excess, parts.excess)
 
@@ -167,14 +169,14 @@ def test_a_flat_kernel_keeps_its_digits(n, d, sigma, precision):
     gradient, excess = theta_field(x, sigma, digits=120)
     digits = {"double": 1e-12, "float": 1e-4}[precision]
     for method in ("theta", "harmonics"):
-        at = field(n, d, sigma, precision, method=method)(x[None])
+        at = energy_evaluation(n, d, sigma, precision, method=method)(x[None])
         assert np.abs(at.gradient[0] - gradient).max() <= digits * np.abs(gradient).max()
         assert at.excess[0] == pytest.approx(excess, rel=digits)
 
 
 @pytest.mark.parametrize("method", ["theta", "harmonics"])
 def test_the_force_of_a_flat_kernel_is_in_proportion_to_a_small_distance(method):
-    evaluate = field(2, 2, 3.0, "double", method=method)
+    evaluate = energy_evaluation(2, 2, 3.0, "double", method=method)
     forces = []
     for apart in (1e-3, 1e-6, 1e-9):
         x = np.array([[0.25, 0.5], [0.25 + apart, 0.5]])
@@ -192,7 +194,7 @@ def test_forces_keep_their_digits_across_the_border():
         x = np.array([[apart / 2, 0.3], [1 - apart / 2, 0.3], [0.5, 0.6]])
         moved = np.array([[0.5 + apart / 2, 0.3], [0.5 - apart / 2, 0.3], [0.0, 0.6]])
         for method in ("theta", "harmonics"):
-            near, same = field(3, 2, 1.0, "double", method=method)(np.stack([x, moved])).gradient
+            near, same = energy_evaluation(3, 2, 1.0, "double", method=method)(np.stack([x, moved])).gradient
             assert near[0, 0] == pytest.approx(same[0, 0], abs=1e-15)
 
 
@@ -200,11 +202,13 @@ def test_forces_keep_their_digits_across_the_border():
 @pytest.mark.parametrize("precision", ["double", "float"])
 def test_an_edge_keeps_the_modes_within_it(n, d, edge, precision):
     x = np.random.default_rng(n).random((n, d))
-    evaluate = field(n, d, 1.0, precision, edge=edge)
+    evaluate = energy_evaluation(n, d, 1.0, precision, edge=edge)
     assert evaluate.method == "harmonics"
     check(evaluate, n, d, 1.0, precision, x, frequency_field(x, 1.0, edge))
-    beyond = field(n, d, 1.0, precision, edge=50.0)(x[None])
-    assert beyond.gradient == pytest.approx(field(n, d, 1.0, precision)(x[None]).gradient, abs=1e-5)
+    beyond = energy_evaluation(n, d, 1.0, precision, edge=50.0)(x[None])
+    assert beyond.gradient == pytest.approx(
+        energy_evaluation(n, d, 1.0, precision)(x[None]).gradient, abs=1e-5
+    )
 
 
 def test_points_out_of_the_unit_box_are_wrapped():
@@ -215,14 +219,14 @@ def test_points_out_of_the_unit_box_are_wrapped():
 
 def test_another_shape_is_refused():
     with pytest.raises(InputError, match=r"x must be \(sets, 30, 2\); got shape \(30, 2\)"):
-        field(30, 2, 1.0)(np.zeros((30, 2)))
+        energy_evaluation(30, 2, 1.0)(np.zeros((30, 2)))
 
 
 @pytest.mark.parametrize("precision", ["double", "float"])
 def test_where_the_plan_changes_its_mind_both_agree(precision):
     rng = np.random.default_rng(5)
     sizes = [*range(2, 60, 3), *range(60, 500, 20)]
-    methods = [plan(n, 2, 1.0, precision).method for n in sizes]
+    methods = [plan_energy(n, 2, 1.0, precision).method for n in sizes]
     changes = [k for k in range(1, len(sizes)) if methods[k] != methods[k - 1]]
     assert changes
     for n in {sizes[k - below] for k in changes for below in (0, 1)}:

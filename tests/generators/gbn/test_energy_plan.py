@@ -8,10 +8,19 @@ import numpy as np
 import pytest
 
 from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.integer_frequencies import shell_counts
 from gbnbench.generators.gbn import kernel, operation_counts
-from gbnbench.generators.gbn.energy import field
-from gbnbench.generators.gbn.plan import plan
-from gbnbench.generators.gbn.wave_tables import TILE, ball, needed, shell_counts, volume
+from gbnbench.generators.gbn.energy import energy_evaluation
+from gbnbench.generators.gbn.plan import plan_energy
+from gbnbench.generators.gbn.wave_tables import TILE, ball_volume, ball_waves, square_needed
+
+
+def dense_counts(d, square):
+    """Counts of every |f|^2 from 0 to square."""
+    counts = np.zeros(square + 1)
+    squares, occurring = shell_counts(d, square)
+    counts[squares] = occurring
+    return counts
 
 
 @pytest.mark.parametrize(
@@ -28,7 +37,7 @@ from gbnbench.generators.gbn.wave_tables import TILE, ball, needed, shell_counts
     ],
 )
 def test_the_cheapest_is_chosen(n, d, sigma, method):
-    found = plan(n, d, sigma, "double")
+    found = plan_energy(n, d, sigma, "double")
     assert found.method == method
     assert found.chosen.effort == min(c.effort for c in (found.chosen, *found.others))
 
@@ -38,29 +47,29 @@ def test_every_size_has_an_evaluation(precision):
     for d in (*range(1, 9), 12, 20):
         for sigma in (0.3, 1.0, 3.0):
             for n in (2, 3, 10, 100, 1000, 4096):
-                found = plan(n, d, sigma, precision)
+                found = plan_energy(n, d, sigma, precision)
                 assert math.isfinite(found.chosen.effort)
                 across = n ** (1 / d) / sigma * 2.0**-53 * n  # coordinates are no finer
                 assert found.error < {"double": 2e-14, "float": 2e-5}[precision] * n + across
 
 
 def test_the_number_of_sets_changes_the_price_only():
-    one, many = (plan(300, 2, 1.0, "double", sets=sets) for sets in (1, 64))
+    one, many = (plan_energy(300, 2, 1.0, "double", sets=sets) for sets in (1, 64))
     assert one.method == many.method
     assert many.flops == 64 * one.flops
     assert one.seconds() < many.seconds() < 64 * one.seconds()
 
 
 def test_it_explains_itself():
-    text = str(plan(1024, 8, 1.0, "double"))
+    text = str(plan_energy(1024, 8, 1.0, "double"))
     assert "theta: all pairs, degree 3; the cheapest that is exact to the precision" in text
     assert "strips" in text
     assert "d=8" in text
-    assert "asked for" in str(plan(1024, 8, 1.0, "double", method="harmonics"))
+    assert "asked for" in str(plan_energy(1024, 8, 1.0, "double", method="harmonics"))
 
 
 def test_image_sums_that_lose_digits_come_last():
-    found = plan(2, 2, 1.0, "float")
+    found = plan_energy(2, 2, 1.0, "float")
     lossy = next(c for c in found.others if c.method == "images")
     assert lossy.error > 100 * found.error
     assert found.others[-1] is lossy
@@ -83,7 +92,7 @@ def test_image_sums_that_lose_digits_come_last():
 )
 def test_what_makes_no_sense_is_refused(settings, says):
     with pytest.raises(InputError, match=says):
-        plan(**{"n": 100, "d": 2, "sigma": 1.0, "precision": "double", **settings})
+        plan_energy(**{"n": 100, "d": 2, "sigma": 1.0, "precision": "double", **settings})
 
 
 @pytest.mark.parametrize(
@@ -99,27 +108,27 @@ def test_what_makes_no_sense_is_refused(settings, says):
 )
 def test_methods_say_what_they_cannot_serve(settings, says):
     with pytest.raises(RefusalError, match=says):
-        plan(**{"n": 100, "d": 2, "sigma": 1.0, "precision": "double", **settings})
+        plan_energy(**{"n": 100, "d": 2, "sigma": 1.0, "precision": "double", **settings})
 
 
 def test_waves_too_many_for_the_memory_are_refused():
     with pytest.raises(RefusalError, match="bytes; method harmonics takes"):
-        field(1_000_000, 2, 1.0, "double", edge=1.0)
+        energy_evaluation(1_000_000, 2, 1.0, "double", edge=1.0)
 
 
 def test_costs_are_those_of_the_evaluations():
     """The count of frequencies, of images and the degree stand both in the plan and in what runs."""
     for n, d, sigma in ((64, 2, 1.0), (300, 2, 1.0), (40, 5, 0.5)):
         for precision in ("double", "float"):
-            modes = field(n, d, sigma, precision, method="harmonics").modes
+            modes = energy_evaluation(n, d, sigma, precision, method="harmonics").modes
             assert (
                 operation_counts.harmonics(n, d, sigma, precision).detail
-                == f"{volume(d, modes.square):.4g} frequencies"
+                == f"{ball_volume(d, modes.square):.4g} frequencies"
             )
             assert operation_counts.harmonics(n, d, sigma, precision).work == pytest.approx(
                 n * modes.products, rel=0.35
             )
-            degree = field(n, d, sigma, precision, method="theta").degree
+            degree = energy_evaluation(n, d, sigma, precision, method="theta").degree
             assert operation_counts.theta(n, d, sigma, precision).instructions == n * n * d * (2 * degree + 9)
 
 
@@ -128,8 +137,8 @@ def test_a_ball_has_each_of_its_frequencies_once(d, square):
     reach = math.isqrt(square)
     f = np.indices((2 * reach + 1,) * d).reshape(d, -1) - reach
     squares = (f**2).sum(axis=0)
-    assert np.array_equal(shell_counts(d, square), np.bincount(squares, minlength=square + 1)[: square + 1])
-    modes = ball(d, square)
+    assert np.array_equal(dense_counts(d, square), np.bincount(squares, minlength=square + 1)[: square + 1])
+    modes = ball_waves(d, square)
     weights = modes.weights(0.0)  # each real wave stands for 2^(axes with f != 0) / 2^(same) frequencies
     held = np.zeros_like(weights, dtype=bool)
     for i, j in modes.tiles:
@@ -144,18 +153,18 @@ def test_a_ball_has_each_of_its_frequencies_once(d, square):
 @pytest.mark.parametrize("precision", ["double", "float"])
 def test_frequencies_left_out_do_not_show(n, d, sigma, precision):
     """Their forces add up to less than a rounding of the largest force of one pair; none is wasted."""
-    square, side = needed(n, d, sigma, precision), n ** (1 / d)
+    square, side = square_needed(n, d, sigma, precision), n ** (1 / d)
     b = 2 * (math.pi * sigma / side) ** 2
     more = square + math.ceil(60 / b) + 60
     s = np.arange(square + 1, more)
-    tail = np.sum(np.sqrt(s) * shell_counts(d, more)[square + 1 : more] * np.exp(-b * s))
+    tail = np.sum(np.sqrt(s) * dense_counts(d, more)[square + 1 : more] * np.exp(-b * s))
     mean = (math.sqrt(2 * math.pi) * sigma / side) ** d
     left_out = 2 * math.pi / side * mean * tail / kernel.largest_force(n, d, sigma)
     assert left_out <= kernel.EPS[precision]
     if square > 20:  # a ball a sixth smaller would show
         s = np.arange(math.ceil(square / 1.2), more)
         assert 2 * math.pi / side * mean * np.sum(
-            np.sqrt(s) * shell_counts(d, more)[s[0] : more] * np.exp(-b * s)
+            np.sqrt(s) * dense_counts(d, more)[s[0] : more] * np.exp(-b * s)
         ) > (kernel.EPS[precision] * kernel.largest_force(n, d, sigma) / 4)
 
 

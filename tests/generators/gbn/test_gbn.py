@@ -13,9 +13,9 @@ from gbnbench.analysis.spatial.distances import min_distance
 from gbnbench.analysis.spatial.valence import valence6
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.core.errors import InputError
-from gbnbench.generators.gbn.energy import field
+from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
-from gbnbench.generators.gbn.lowband import LowBand
+from gbnbench.generators.gbn.lowest_band import LowestBandPreconditioner
 from gbnbench.generators.gbn.optimiser import largest_curvature, step_size
 from gbnbench.generators.protocol import realization_rng
 
@@ -46,7 +46,7 @@ def test_the_papers_descent_is_slower_by_the_published_factor():
         "descent": GaussianBlueNoise(iterations=400),
         "accelerated": GaussianBlueNoise(gradients=60),
     }.items():
-        excess[name] = field(256, 2, 1.0)(maker(256, 2, realization_rng(2, 0))[None]).excess[0]
+        excess[name] = energy_evaluation(256, 2, 1.0)(maker(256, 2, realization_rng(2, 0))[None]).excess[0]
     assert excess["accelerated"] == pytest.approx(excess["descent"], rel=0.6)
 
 
@@ -61,13 +61,13 @@ def test_other_dimensions_and_small_sets_reach_deep_floors(n, d, floor):
 
 def test_it_stops_at_the_excess_asked_for():
     x = GaussianBlueNoise(excess=1e-3)(256, 2, realization_rng(4, 0))
-    assert 2e-4 < field(256, 2, 1.0)(x[None]).excess[0] <= 1e-3
+    assert 2e-4 < energy_evaluation(256, 2, 1.0)(x[None]).excess[0] <= 1e-3
 
 
 def test_a_kernel_cut_off_runs_through_though_its_energy_falls_below_uniform_points():
     """Within one sigma the sets become as regular as centroidal tessellations (Section 4.4)."""
     x = GaussianBlueNoise(cutoff=1.0)(256, 2, realization_rng(7, 0))
-    at = field(256, 2, 1.0, cutoff=1.0)(x[None])
+    at = energy_evaluation(256, 2, 1.0, cutoff=1.0)(x[None])
     assert at.excess[0] < -0.01
     assert valence6(x) > 0.75
     assert min_distance(x) > 0.8
@@ -96,7 +96,7 @@ def test_a_mode_of_the_low_band_is_divided_by_its_own_curvature():
     n, sigma, size = 900, 1.0, 0.26
     side = 30.0
     x = (np.stack(np.meshgrid(*[np.arange(30)] * 2, indexing="ij"), -1).reshape(-1, 2) + 0.5) / 30
-    band = LowBand(n, 2, sigma)
+    band = LowestBandPreconditioner(n, 2, sigma)
     for f, inside in (([1, 2], True), ([4, -1], True), ([5, 0], False)):
         q = 2 * np.pi * np.array(f) / side
         q2 = q @ q
@@ -160,5 +160,5 @@ def test_the_authors_step_is_theirs():
     x = realization_rng(7, 0).random((n, d))
     moved = GaussianBlueNoise(iterations=1, step="authors")(n, d, realization_rng(7, 0))
     spacing = n ** (-1 / d)
-    force = field(n, d, 1.0)(x[None]).gradient[0] / spacing  # by coordinates of the box
+    force = energy_evaluation(n, d, 1.0)(x[None]).gradient[0] / spacing  # by coordinates of the box
     assert moved == pytest.approx(np.mod(x - 0.25 / n * force, 1.0), abs=1e-12)

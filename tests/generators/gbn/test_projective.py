@@ -8,9 +8,9 @@ import pytest
 from gbnbench.analysis.radial.projections import projections
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import wrap
-from gbnbench.generators.gbn.energy import field
+from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.optimiser import Nesterov, step_size
-from gbnbench.generators.gbn.projective import ProjectiveField, shares, subsets
+from gbnbench.generators.gbn.projective import ProjectiveEnergy, shares, subsets
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.generators.registry import generate
 
@@ -44,7 +44,7 @@ def test_too_many_projections_are_refused():
     ("n", "d", "text", "edge"), [(40, 3, "1/0+2", None), (30, 2, "1", 0.3), (25, 4, "2", None)]
 )
 def test_the_gradient_is_that_of_the_sum(n, d, text, edge):
-    evaluate = ProjectiveField(
+    evaluate = ProjectiveEnergy(
         n, d, 1.0, subsets(text, d), edge=edge, weights={(0,): 0.5}, precision="double"
     )
     x = np.random.default_rng(n).random((2, n, d))
@@ -58,14 +58,14 @@ def test_the_gradient_is_that_of_the_sum(n, d, text, edge):
     assert np.array_equal(at.gradient[1:], alone.gradient)
     total = 0.0
     for axes, scale in evaluate.scale.items():
-        term = field(n, len(axes), 1.0, "double", edge=edge if len(axes) < d else None)
+        term = energy_evaluation(n, len(axes), 1.0, "double", edge=edge if len(axes) < d else None)
         total = total + scale * term(np.ascontiguousarray(x[:, :, axes])).excess
     assert at.excess == pytest.approx(total)
 
 
 @pytest.mark.parametrize(("n", "d", "text"), [(256, 2, "1"), (216, 3, "2"), (125, 3, "1/2")])
 def test_the_whole_energys_step_is_stable_for_the_sum(n, d, text):
-    evaluate = ProjectiveField(n, d, 1.0, subsets(text, d), precision="double")
+    evaluate = ProjectiveEnergy(n, d, 1.0, subsets(text, d), precision="double")
     side, size = n ** (1 / d), step_size(n, d, 1.0)
     x = np.random.default_rng(0).random((1, n, d))
     before = np.inf
@@ -78,7 +78,7 @@ def test_the_whole_energys_step_is_stable_for_the_sum(n, d, text):
 
 def test_projections_become_blue_and_the_set_stays_so():
     n, chosen = 256, subsets("1", 2)
-    evaluate = ProjectiveField(n, 2, 1.0, chosen, edge=0.3)
+    evaluate = ProjectiveEnergy(n, 2, 1.0, chosen, edge=0.3)
     starts = np.stack([realization_rng(seed, 0).random((n, 2)) for seed in (0, 1)])
     run = Nesterov(evaluate, starts, step_size(n, 2, 1.0))
     for _ in range(300):
@@ -93,7 +93,7 @@ def test_projections_become_blue_and_the_set_stays_so():
 
 def test_weights_out_of_range_are_refused():
     with pytest.raises(InputError, match="weights must be positive"):
-        ProjectiveField(16, 2, 1.0, subsets("1", 2), weights={(0,): 0.0})
+        ProjectiveEnergy(16, 2, 1.0, subsets("1", 2), weights={(0,): 0.0})
 
 
 def test_shares_count_the_frequencies_bound():

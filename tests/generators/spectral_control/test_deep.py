@@ -10,8 +10,8 @@ import pytest
 import gbnbench
 from gbnbench.core.errors import FormatError, InputError, RefusalError
 from gbnbench.core.settings import specification
-from gbnbench.generators.gauss_newton.modes import edge_of
-from gbnbench.generators.gauss_newton.solver import Outcome
+from gbnbench.generators.gauss_newton.modes import edge_binding
+from gbnbench.generators.gauss_newton.solver import AmplitudeSolution
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.generators.registry import find, generate
@@ -77,10 +77,10 @@ def test_every_dimension_follows_its_profile_down_to_rounding(n, d):
 
 
 def test_the_default_edge_binds_one_share_in_every_dimension():
-    assert edge_of(BOUND, 2) == pytest.approx(0.72, rel=1e-12)
+    assert edge_binding(BOUND, 2) == pytest.approx(0.72, rel=1e-12)
     for d in range(1, 9):
         ball = math.pi ** (d / 2) / math.gamma(d / 2 + 1)
-        assert ball * edge_of(BOUND, d) ** d / d == pytest.approx(math.pi * 0.72**2 / 2, rel=1e-12)
+        assert ball * edge_binding(BOUND, d) ** d / d == pytest.approx(math.pi * 0.72**2 / 2, rel=1e-12)
 
 
 def test_the_default_steepness_has_one_depth_in_every_dimension():
@@ -192,14 +192,14 @@ class TestRefusals:
         asked = []
 
         def never(x, target, edge, **_):
-            return Outcome(x, 7.0, 3, 9, False, "it was not to be")
+            return AmplitudeSolution(x, 7.0, 3, 9, False, "it was not to be")
 
         class Counted(GaussianBlueNoise):
-            def draw(self, n, d, rngs, watch):
+            def draw(self, n, d, rngs, monitor):
                 asked.append(self.gradients)
-                return super().draw(n, d, rngs, watch)
+                return super().draw(n, d, rngs, monitor)
 
-        monkeypatch.setattr("gbnbench.generators.spectral_control.deep.reach", never)
+        monkeypatch.setattr("gbnbench.generators.spectral_control.deep.solve_for_amplitudes", never)
         monkeypatch.setattr("gbnbench.generators.spectral_control.deep.GaussianBlueNoise", Counted)
         with pytest.raises(
             RefusalError, match=r"n=64 points in d=2 do not reach .* not to be; lower the edge"
@@ -209,12 +209,12 @@ class TestRefusals:
 
 
 def test_sets_are_the_same_drawn_alone_or_together_and_say_how_far_they_are():
-    from gbnbench.generators.monitor import Trace, Watch
+    from gbnbench.generators.monitor import Monitor, Trace
     from gbnbench.generators.registry import generate
 
     told, trace = [], Trace()
-    watch = Watch(progress=lambda done, total, doing: told.append((done, total, doing)), trace=trace)
-    together = generate("deep", n=100, seed=4, realizations=3, watch=watch)
+    monitor = Monitor(progress=lambda done, total, doing: told.append((done, total, doing)), trace=trace)
+    together = generate("deep", n=100, seed=4, realizations=3, monitor=monitor)
     assert np.array_equal(together[0], generate("deep", n=100, seed=4))
     counts = [done for done, _, _ in told]
     assert counts == sorted(counts)
@@ -224,12 +224,12 @@ def test_sets_are_the_same_drawn_alone_or_together_and_say_how_far_they_are():
 
 
 def test_a_start_goes_on_from_its_checkpoint(tmp_path):
-    from gbnbench.generators.monitor import Watch
+    from gbnbench.generators.monitor import Monitor
     from gbnbench.generators.registry import generate
 
-    kept = Watch(checkpoint=tmp_path / "state", seconds=0)
-    once = generate("deep", n=100, seed=4, realizations=2, watch=kept)
+    kept = Monitor(checkpoint=tmp_path / "state", seconds=0)
+    once = generate("deep", n=100, seed=4, realizations=2, monitor=kept)
     counted = []
-    again = Watch(progress=lambda *told: counted.append(told), checkpoint=tmp_path / "state", seconds=0)
-    assert np.array_equal(once, generate("deep", n=100, seed=4, realizations=2, watch=again))
+    again = Monitor(progress=lambda *told: counted.append(told), checkpoint=tmp_path / "state", seconds=0)
+    assert np.array_equal(once, generate("deep", n=100, seed=4, realizations=2, monitor=again))
     assert all("deep" in doing for _, _, doing in counted)  # the descent was done

@@ -8,8 +8,8 @@ import pytest
 from gbnbench.analysis.radial.radial_power import radial
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.core.errors import InputError, RefusalError
-from gbnbench.generators.gauss_newton.modes import edge_of
-from gbnbench.generators.monitor import Watch
+from gbnbench.generators.gauss_newton.modes import edge_binding
+from gbnbench.generators.monitor import Monitor
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.generators.registry import generate
 from gbnbench.generators.spectral_control.stealthy import Stealthy, band_power
@@ -38,7 +38,7 @@ def below(x, edge):
 )
 def test_newton_empties_the_band_to_rounding(n, d, edge):
     x = Stealthy(edge=edge)(n, d, realization_rng(1, 0))
-    inside, beyond = below(x, edge_of(0.6, d) if edge is None else edge)
+    inside, beyond = below(x, edge_binding(0.6, d) if edge is None else edge)
     assert inside.max() < 1e-26
     assert beyond.mean() > 0.05  # the edge is a step
 
@@ -88,9 +88,9 @@ def test_one_dimension_without_an_edge_descends_to_the_grid():
 
 
 def test_equal_shares_give_the_edge_of_each_dimension():
-    assert edge_of(0.8, 1) == pytest.approx(0.4)
-    assert edge_of(np.pi / 8, 2) == pytest.approx(0.5)
-    assert edge_of(0.5, 3) == pytest.approx((0.5 * 3 / (4 * np.pi / 3)) ** (1 / 3))
+    assert edge_binding(0.8, 1) == pytest.approx(0.4)
+    assert edge_binding(np.pi / 8, 2) == pytest.approx(0.5)
+    assert edge_binding(0.5, 3) == pytest.approx((0.5 * 3 / (4 * np.pi / 3)) ** (1 / 3))
 
 
 @pytest.mark.parametrize(("d", "edge"), [(1, 0.6), (2, 0.85), (3, 1.0)])
@@ -117,8 +117,8 @@ def test_settings_out_of_range_are_refused(settings):
 def test_sets_are_the_same_drawn_alone_or_together_and_say_how_far_they_are():
     for settings in ({}, {"method": "harmonics"}):
         told: list[tuple[int, int, str]] = []
-        watch = Watch(progress=lambda *now, told=told: told.append(now))
-        together = generate("stealthy", n=100, seed=2, realizations=2, watch=watch, **settings)
+        monitor = Monitor(progress=lambda *now, told=told: told.append(now))
+        together = generate("stealthy", n=100, seed=2, realizations=2, monitor=monitor, **settings)
         assert np.array_equal(together[0], generate("stealthy", n=100, seed=2, **settings))
         assert {total for _, total, _ in told} == {200}
         assert all(done < total for done, total, _ in told)

@@ -15,7 +15,7 @@ from gbnbench import generate, periodogram, radial, save, shells
 from gbnbench.analysis.radial.profile_measures import noise_floor
 from gbnbench.cli import gbnbench
 from gbnbench.execution.progress import Progress
-from gbnbench.generators.monitor import Trace, Watch
+from gbnbench.generators.monitor import Monitor, Trace
 from gbnbench.reports import style
 from gbnbench.reports.paper import axes, figure_07
 from gbnbench.reports.paper.data import folder_name, obtain
@@ -46,13 +46,13 @@ def drawn(made: tuple[Path, Ask], name: str) -> tuple[Figure, dict[str, Any], st
     """Draw a figure again from what the command kept."""
     folder, ask = made
     (figure,) = find([name])
-    material = {}
+    data = {}
     for what, request in figure.needs(ask).items():
         kept = folder / "data" / folder_name(request, ask.seed)
         assert kept.is_dir()
-        material[what] = obtain(request, kept, ask.seed, 1, Progress())
-    drawing = figure.draw(material, ask)
-    return compose(drawing, "", "", captions=False), material, drawing.caption
+        data[what] = obtain(request, kept, ask.seed, 1, Progress())
+    drawing = figure.draw(data, ask)
+    return compose(drawing, "", "", captions=False), data, drawing.caption
 
 
 def panel(figure: Figure, letter: str) -> Axes:
@@ -135,30 +135,30 @@ def test_energy_profiles_are_sums_of_images(made: tuple[Path, Ask]) -> None:
 
 
 def test_evolution_is_that_of_the_points(made: tuple[Path, Ask]) -> None:
-    figure, material, caption = drawn(made, "7")
+    figure, data, caption = drawn(made, "7")
     assert [figure_07.gradients(steps) for steps in (1, 100, 10_000)] == [3, 30, 300]
     trace = Trace(keep_at=(30,))
-    generate("gbn[iterations=300]", n=64, realizations=2, watch=Watch(trace=trace))
+    generate("gbn[iterations=300]", n=64, realizations=2, monitor=Monitor(trace=trace))
     expected = shells(trace.points(30)).radial()
     raw = lines(panel(figure, "a"))
     assert list(raw) == ["1", "3", "10", "30", "100", "300"]
     assert raw["30"][1] == pytest.approx(expected.power, rel=1e-6)
     filtered = np.asarray(panel(figure, "b").get_lines()[3].get_ydata())
     assert filtered == pytest.approx(raw["30"][1] * np.exp(-((2 * np.pi * raw["30"][0]) ** 2)), rel=1e-9)
-    floors = material["evolution"]["descent_000"]["floor"]
+    floors = data["evolution"]["descent_000"]["floor"]
     assert floors[3] == pytest.approx(noise_floor(expected), rel=1e-6)
     assert np.all(np.diff(floors) < 0)
-    excess = material["evolution"]["descent_000"]["excess"]
+    excess = data["evolution"]["descent_000"]["excess"]
     assert len(excess) == 300
     assert np.all(np.diff(excess) < 0)
     assert "Eq. 14" in caption
 
 
 def test_line_is_empty_below_the_edge(made: tuple[Path, Ask]) -> None:
-    figure, material, _ = drawn(made, "13")
+    figure, data, _ = drawn(made, "13")
     power = next(line for line in panel(figure, "c").get_lines() if len(np.asarray(line.get_xdata())) > 2)
     nu, found = np.asarray(power.get_xdata()), np.asarray(power.get_ydata())
-    sets = material["line"]["000"]["points"]
+    sets = data["line"]["000"]["points"]
     f = np.arange(1, len(nu) + 1)
     expected = mean_power(sets[..., None], f[:, None]).astype(float)
     assert nu == pytest.approx(f / sets.shape[1])
@@ -171,9 +171,9 @@ def test_line_is_empty_below_the_edge(made: tuple[Path, Ask]) -> None:
 
 
 def test_depth_draws_what_was_measured(made: tuple[Path, Ask]) -> None:
-    figure, material, caption = drawn(made, "depth")
+    figure, data, caption = drawn(made, "depth")
     spectra = lines(panel(figure, "a"))
-    deep = next(source for source in material["sets"].sources if source.label == "deep")
+    deep = next(source for source in data["sets"].sources if source.label == "deep")
     assert spectra["Deep"][1] == pytest.approx(deep.radial.power)
     assert "BNOT" in spectra
     assert "BNOT" in caption
@@ -183,5 +183,5 @@ def test_depth_draws_what_was_measured(made: tuple[Path, Ask]) -> None:
                 for x, y in zip(line.get_xdata(), line.get_ydata(), strict=True)}  # fmt: skip
         assert (deep.measures["noise_floor"], deep.measures[name]) in dots
         assert ax.xaxis_inverted()
-    variance = material["study"].variance
+    variance = data["study"].variance
     assert set(variance["source"]) == {"random", "gbn[gradients=60]", "deep"}

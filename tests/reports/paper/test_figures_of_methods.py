@@ -33,13 +33,13 @@ NAMES = ("1", "2", "5", "8", "12", "14")
 
 @dataclass
 class Folder:
-    """What the command left, and the same material read again."""
+    """What the command left, and the same data read again."""
 
     path: Path
     ask: Ask
     captions: dict[str, dict[str, str]]
 
-    def material(self, name: str, ask: Ask | None = None) -> Mapping[str, Any]:
+    def data(self, name: str, ask: Ask | None = None) -> Mapping[str, Any]:
         (figure,) = find([name])
         ask = ask or self.ask
         return {
@@ -49,7 +49,7 @@ class Folder:
 
     def drawing(self, name: str, ask: Ask | None = None) -> Drawing:
         (figure,) = find([name])
-        return figure.draw(self.material(name, ask), ask or self.ask)
+        return figure.draw(self.data(name, ask), ask or self.ask)
 
     def axes(self, name: str, ask: Ask | None = None) -> list[Any]:
         drawing = self.drawing(name, ask)
@@ -106,19 +106,19 @@ def test_the_command_writes_both_formats_and_a_caption_that_says_what_is_seen(ma
 
 
 def test_figure_1_lays_every_method_s_exact_shells_over_one_another(made):
-    material = made.material("1")
+    data = made.data("1")
     plot = made.axes("1")[-1]
     for key, label in [(k, None) for k in ("bnot", "house")] + [
         ("large", name) for name in ("jittered", "sobol", "fpo", "gbn")
     ]:
-        (source,) = [s for s in material[key].sources if label in (None, s.label)]
+        (source,) = [s for s in data[key].sources if label in (None, s.label)]
         assert drawn(plot, source.radial), (key, label)
     assert plot.get_xscale() == plot.get_yscale() == "log"
     titles = [text.get_text() for text in plot.get_legend().get_texts()]
     assert titles == ["Owen-Sobol", "Stratified", "BNOT", "FPO", "house", "GBN", "GBN, 1M"]
     caption = made.caption("1")
     assert "KDM, VnC and BlueNets of the paper are left out" in caption
-    floor = material["bnot"].sources[0].measures["noise_floor"]
+    floor = data["bnot"].sources[0].measures["noise_floor"]
     assert f"{shared.rounded(floor)} (BNOT)" in caption
 
 
@@ -127,7 +127,7 @@ def test_figure_1_s_guides_are_the_ideal_profiles(made):
     dotted = [line for line in ax.get_lines() if line.get_linestyle() == ":"]
     strata, ideal = (np.stack(line.get_data()) for line in dotted)
     assert strata[1] == pytest.approx((math.pi * strata[0]) ** 2 / 3)
-    (gbn,) = [s for s in made.material("1")["large"].sources if s.label == "gbn"]
+    (gbn,) = [s for s in made.data("1")["large"].sources if s.label == "gbn"]
     slope = np.polyfit(ideal[0] ** 2, np.log(ideal[1]), 1)
     assert slope[0] == pytest.approx(4 * math.pi**2)
     assert math.exp(slope[1]) == pytest.approx(gbn.measures["profile_epsilon"])
@@ -147,7 +147,7 @@ def test_without_sets_the_column_is_left_out_and_the_caption_says_so(made):
 
 
 def test_figure_2_draws_both_settings_and_names_their_floors(made):
-    run = made.material("2")["sets"]
+    run = made.data("2")["sets"]
     narrow, wide = run.sources
     plot = made.axes("2")[-1]
     assert drawn(plot, narrow.radial)
@@ -159,13 +159,13 @@ def test_figure_2_draws_both_settings_and_names_their_floors(made):
 
 
 def test_figure_5_has_a_column_for_each_cut_off_with_the_whole_kernel_behind(made):
-    material = made.material("5")
-    (whole,) = [s for s in material["whole"].sources if s.label == "gbn"]
+    data = made.data("5")
+    (whole,) = [s for s in data["whole"].sources if s.label == "gbn"]
     plots = made.axes("5")[12:]
-    for plot, source in zip(plots, [*material["cvt"].sources, *material["cut"].sources, whole], strict=True):
+    for plot, source in zip(plots, [*data["cvt"].sources, *data["cut"].sources, whole], strict=True):
         assert drawn(plot, source.radial)
         assert drawn(plot, whole.radial)
-    floors = [source.measures["noise_floor"] for source in material["cut"].sources]
+    floors = [source.measures["noise_floor"] for source in data["cut"].sources]
     assert floors[0] > 100 * floors[3] > 100 * whole.measures["noise_floor"]
 
 
@@ -173,8 +173,8 @@ def test_figure_8_shows_five_rows_a_column_a_method(made):
     axes = made.axes("8")
     titles = ["Stratified", "CVT", "BNOT", "house", "FPO", "GBN"]
     assert [ax.get_title() for ax in axes[:6]] == titles
-    material = made.material("8")
-    (gbn,) = [s for s in material["classic"].sources if s.label == "gbn"]
+    data = made.data("8")
+    (gbn,) = [s for s in data["classic"].sources if s.label == "gbn"]
     points, grey, power, plate, cells = axes[5::6]
     assert np.array_equal(np.column_stack(points.get_lines()[0].get_data()), gbn.points[0])
     assert grey.get_images()[0].get_array().shape == gbn.spectrum.power.shape
@@ -185,23 +185,23 @@ def test_figure_8_shows_five_rows_a_column_a_method(made):
 
 
 def test_figure_12_s_bands_are_as_low_as_the_caption_says(made):
-    material = made.material("12")
-    for edge, source in zip((*figure_12.EDGES, 0.7), material["sets"].sources, strict=True):
+    data = made.data("12")
+    for edge, source in zip((*figure_12.EDGES, 0.7), data["sets"].sources, strict=True):
         assert source.label.endswith(f"[edge={edge}]")
         power = radial(periodogram(source.points, 12))
         highest = power.power[power.nu < edge - 1e-9].max()
         assert figure_12.band(source.radial, edge) == pytest.approx(highest, rel=1e-6, abs=1e-26)
-    assert figure_12.band(material["sets"].sources[-1].radial, 0.7) < 1e-26
+    assert figure_12.band(data["sets"].sources[-1].radial, 0.7) < 1e-26
     plots = made.axes("12")[10:]
-    sources = [*material["sets"].sources, *material["step"].sources]
+    sources = [*data["sets"].sources, *data["step"].sources]
     assert all(drawn(plot, source.radial) for plot, source in zip(plots, sources, strict=True))
-    low = figure_12.band(material["step"].sources[0].radial, 0.5)
+    low = figure_12.band(data["step"].sources[0].radial, 0.5)
     assert f"the highest below 0.5 is {shared.rounded(low)}" in made.caption("12")
 
 
 def test_figure_14_s_annuli_are_the_means_of_its_exact_shells(made):
     exact, _, rings, _ = (lines(ax)[0] for ax in made.axes("14"))
-    source = made.material("14")["bnot"].sources[0]
+    source = made.data("14")["bnot"].sources[0]
     assert np.array_equal(exact[1], source.radial.power)
     frequency, power, count = (getattr(source.radial, name) for name in ("frequency", "power", "count"))
     ring = np.floor(frequency / 2)

@@ -67,12 +67,12 @@ def test_figure_9_names_the_users_sets_by_their_method_whatever_their_folder_is_
         slopes = pd.DataFrame(columns=["source", "d", "integrand", "slope", "standard_error"])
         return IntegrationStudy({}, pd.DataFrame(rows), slopes)
 
-    material = {f"d{d}": study("gbn", (16, 64), d, 1e-3) for d in (2, 3, 8)}
-    material["sets of vnc"] = study("gbn", (16,), 2, 1e-5)
+    data = {f"d{d}": study("gbn", (16, 64), d, 1e-3) for d in (2, 3, 8)}
+    data["sets of vnc"] = study("gbn", (16,), 2, 1e-5)
     flat = [[0.0, 1.0], [1.0, 0.0]]
-    material["integrands"] = {"plane": {"gaussians": flat, "half-space": flat}}
+    data["integrands"] = {"plane": {"gaussians": flat, "half-space": flat}}
     page = Figure(layout="constrained").subfigures(1, 1, squeeze=False)[0, 0]
-    figure.draw(material, ask).paint(page)
+    figure.draw(data, ask).paint(page)
     drawn = {
         line.get_color(): list(line.get_ydata()) for line in page.axes[0].lines if line.get_marker() == "o"
     }

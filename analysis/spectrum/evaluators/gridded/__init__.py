@@ -1,1 +1,1 @@
-"""The gridded product: one axis is carried to a grid by a window, the others are summed as they are."""
+"""The gridded product: the first axis is carried to a grid by a window, and the others are summed exactly."""

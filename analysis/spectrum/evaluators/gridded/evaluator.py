@@ -1,4 +1,4 @@
-"""The gridded product as an evaluator: when it is offered, what it costs and how exact it is."""
+"""The gridded product as an evaluator, with its cost and its errors."""
 
 from __future__ import annotations
 
@@ -11,25 +11,25 @@ from gbnbench.analysis.precision import Precision, padded
 from gbnbench.analysis.spectrum.digits import half_size, whole_axes
 from gbnbench.analysis.spectrum.error_model import Errors, rounded_at_worst
 from gbnbench.analysis.spectrum.evaluators.cube_product import CubeProduct
+from gbnbench.analysis.spectrum.evaluators.gridded.grid import DEGREE, WIDTH
 from gbnbench.analysis.spectrum.evaluators.gridded.kaiser_bessel import nodes_for
 from gbnbench.analysis.spectrum.evaluators.gridded.product import (
-    DEGREE,
-    WIDTH,
     griddable,
     gridded_errors,
     gridded_powers,
     least_gridded,
 )
+from gbnbench.analysis.spectrum.evaluators.point_slots import TABLE_BYTES
 from gbnbench.analysis.spectrum.evaluators.protocol import DeviceEvaluator, EvaluationCost
-from gbnbench.analysis.spectrum.evaluators.two_group_product import TABLE_BYTES
 from gbnbench.analysis.spectrum.evaluators.work_model import ENTRY, TILE, WRITTEN, device_cost
 from gbnbench.analysis.spectrum.limits import BYTES, MEMORY_SHARE
 from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest
 from gbnbench.core.memory import physical_memory
 from gbnbench.core.torus import FloatArray
 
-SPREAD, CARRIED = 7.0, 60.0  # multiply-adds of a frequency carried from a point to a node, and folded there
-SET_UP = 2e7  # multiply-adds that its further launches and its sort are worth
+# Multiply-adds of carrying a frequency from a point to a node, and of folding it at a node.
+SPREAD, CARRIED = 7.0, 60.0
+SET_UP = 2e7  # multiply-adds that take as long as its additional launches and its sort
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,23 @@ class GriddedProduct(DeviceEvaluator):
     def offer(
         cls, request: SpectrumRequest, precision: str, *, floor: float | None = None, forced: bool = False
     ) -> GriddedProduct | None:
-        """Offer itself where the grid fits and the product takes less than the plain one, set-up included."""
+        """Offer itself where the grid fits and the product takes less than the plain one, set-up included.
+
+        Parameters
+        ----------
+        request : SpectrumRequest
+            The frequencies, points and sets.
+        precision : {"double", "float"}
+            Precision of the arithmetic.
+        floor : float, optional
+            Smallest power that must be known to 1%; not used, since the method is exact.
+        forced : bool
+            Whether the user asked for this method.
+
+        Returns
+        -------
+        GriddedProduct or None
+        """
         if request.what not in cls.serves or not griddable(request.d, request.fmax, precision):
             return None
         if super().offer(request, precision) is None:
@@ -59,7 +75,20 @@ class GriddedProduct(DeviceEvaluator):
 
     @classmethod
     def why_not(cls, request: SpectrumRequest, precision: str) -> str:
-        """Say which dimensions and frequencies it serves."""
+        """Say which dimensions and frequencies it serves.
+
+        Parameters
+        ----------
+        request : SpectrumRequest
+            The request that it cannot serve.
+        precision : {"double", "float"}
+            Precision that was asked for.
+
+        Returns
+        -------
+        str
+            A sentence for an error message.
+        """
         return (
             f"the gridded product in {precision} needs two dimensions and fmax of at least "
             f"{least_gridded(precision)}; got d={request.d}, fmax={request.fmax}"
@@ -93,7 +122,26 @@ class GriddedProduct(DeviceEvaluator):
     def cube(
         self, x: FloatArray, fmax: int, weights: FloatArray | None, *, half: bool, mean: bool
     ) -> tuple[FloatArray, Errors]:
-        """Evaluate the power of a cube, as ``Evaluator.cube`` describes it."""
+        """Evaluate the power of a cube, as ``Evaluator.cube`` describes it.
+
+        Parameters
+        ----------
+        x : (sets, n, d) float64
+            Checked points.
+        fmax : int
+            Largest harmonic on each axis.
+        weights : (sets or 1, n) float64 or None
+            Weights of the points.
+        half : bool
+            Only the half with f_0 >= 0.
+        mean : bool
+            Average over sets; otherwise the power of each set.
+
+        Returns
+        -------
+        power : (2*fmax+1,)*d float64
+        errors : Errors
+        """
         return gridded_powers(self.on_device, x, fmax, weights, half, mean)
 
 

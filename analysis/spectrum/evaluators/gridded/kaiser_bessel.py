@@ -1,9 +1,9 @@
-"""The window that carries points to a grid: a Kaiser-Bessel kernel as polynomials, one for each of its cells.
+"""Kaiser-Bessel window that carries points to a grid, as a polynomial in each of its cells.
 
-A sum of exp(-2 pi i f x) is a sum over nodes m / M of exp(-2 pi i f m / M) times the window's values there,
-divided by the window's transform at f (Jackson, Meyer, Nishimura & Macovski 1991). With a support of 16
-cells and two and a half times as many nodes as frequencies, what is left out is less than rounding in
-double; 8 cells serve float.
+exp(-2 pi i f x) is the sum over nodes m / M of exp(-2 pi i f m / M) times the values of the window there,
+divided by the transform of the window at f (Jackson, Meyer, Nishimura & Macovski 1991). With a support of 16
+cells and two and a half times as many nodes as frequencies the error is less than rounding in double. In
+float 8 cells are enough.
 """
 
 from __future__ import annotations
@@ -17,22 +17,22 @@ import numpy as np
 
 from gbnbench.core.torus import FloatArray
 
-OVERSAMPLING = 2.5  # nodes for each frequency of the whole range
-DIGITS = 40  # of the arithmetic that finds the polynomials
-TERMS = 140  # of the Bessel function's series, whose argument is below 45
+OVERSAMPLING = 2.5  # nodes of the grid for each frequency -fmax .. fmax
+DIGITS = 40  # decimal digits of the arithmetic by which polynomials are fitted
+TERMS = 140  # terms of the Bessel function's series, for arguments below 45
 
 
 @dataclass(frozen=True)
 class Window:
-    """Kaiser-Bessel window of an even number of cells.
+    """Kaiser-Bessel window on an even number of cells.
 
     Attributes
     ----------
     width : int
         Cells of the support.
     coefficients : (degree + 1, width) float64
-        Of cell j: the value at a node j - width/2 + 1 cells above that of the point, as a polynomial in the
-        point's place in its cell less 1/2, highest power first.
+        Column j gives the value at the node that is j - width/2 + 1 cells above that of the point, as a
+        polynomial in the point's place in its cell less 1/2, highest power first.
     left_out : float
         Largest relative error of exp(-2 pi i f x), met at 64 places of a cell and all frequencies.
     """
@@ -43,11 +43,11 @@ class Window:
 
     @property
     def degree(self) -> int:
-        """Of the polynomials."""
+        """Degree of the polynomials."""
         return len(self.coefficients) - 1
 
     def values(self, place: FloatArray) -> FloatArray:
-        """Values at the nodes around points at a place in [0, 1) of their cell: (k,) -> (k, width)."""
+        """Evaluate the window at the nodes around points at a place in [0, 1): (k,) -> (k, width)."""
         s = np.asarray(place)[:, None] - 0.5
         total = np.zeros((len(s), self.width))
         for row in self.coefficients:
@@ -55,26 +55,68 @@ class Window:
         return total
 
     def transform(self, fmax: int, nodes: int) -> FloatArray:
-        """Transform at f = 0 .. fmax on a grid of so many nodes, seen from a node: (fmax + 1,)."""
+        """Evaluate the transform of the window at f = 0 .. fmax, for a point that lies on a node.
+
+        Parameters
+        ----------
+        fmax, nodes : int
+            Largest frequency, and nodes of the grid.
+
+        Returns
+        -------
+        (fmax + 1,) float64
+        """
         away = np.arange(self.width) - self.width // 2 + 1
         turns = np.outer(np.arange(fmax + 1), away) % nodes / nodes
         found: FloatArray = np.cos(2 * np.pi * turns) @ self.values(np.zeros(1))[0]
         return found
 
     def amplification(self, fmax: int, nodes: int) -> float:
-        """How much the transform falls to the edge, and so magnifies rounding there."""
+        """Give the ratio of the transform at 0 to its smallest value, by which rounding is magnified there.
+
+        Parameters
+        ----------
+        fmax, nodes : int
+            Largest frequency, and nodes of the grid.
+
+        Returns
+        -------
+        float
+        """
         transform = self.transform(fmax, nodes)
         return float(transform[0] / transform.min())
 
 
 def nodes_for(fmax: int, step: int) -> int:
-    """Nodes of the grid for |f| <= fmax, a multiple of step."""
+    """Count the nodes of the grid for frequencies |f| <= fmax.
+
+    Parameters
+    ----------
+    fmax, step : int
+        Largest frequency, and a number of which the count shall be a multiple.
+
+    Returns
+    -------
+    int
+    """
     return -(-math.ceil(OVERSAMPLING * (2 * fmax + 1)) // step) * step
 
 
 @lru_cache(maxsize=4)
 def window(width: int, degree: int) -> Window:
-    """Fit the polynomials: exact at Chebyshev's nodes of each cell, in 40 digits, then rounded."""
+    """Fit the polynomials: exact at the Chebyshev nodes of each cell, in 40 digits, then rounded.
+
+    Parameters
+    ----------
+    width : int
+        Cells of the support, even.
+    degree : int
+        Degree of the polynomials.
+
+    Returns
+    -------
+    Window
+    """
     beta = decimal.Decimal(math.pi * width * (1 - 0.5 / OVERSAMPLING) * 0.99)
     places = [decimal.Decimal(0.5 * math.cos(math.pi * (k + 0.5) / (degree + 1))) for k in range(degree + 1)]
     with decimal.localcontext() as context:
@@ -94,7 +136,7 @@ def window(width: int, degree: int) -> Window:
 
 
 def _bessel(x: decimal.Decimal) -> decimal.Decimal:
-    """I_0 by its series."""
+    """Evaluate the modified Bessel function I_0 by its series."""
     square, term, total = x * x / 4, decimal.Decimal(1), decimal.Decimal(1)
     for k in range(1, TERMS):
         term = term * square / (k * k)
@@ -103,7 +145,7 @@ def _bessel(x: decimal.Decimal) -> decimal.Decimal:
 
 
 def _monomials(places: list[decimal.Decimal], values: list[decimal.Decimal]) -> list[decimal.Decimal]:
-    """Coefficients, lowest power first, of the polynomial through the values (Newton's differences)."""
+    """Interpolate by Newton's differences: coefficients of the polynomial, lowest power first."""
     differences = list(values)
     for order in range(1, len(places)):
         for k in range(len(places) - 1, order - 1, -1):

@@ -1,4 +1,4 @@
-"""The non-uniform FFT as an evaluator: cubes of up to three dimensions, as exact as a floor needs."""
+"""The non-uniform FFT as an evaluator of cubes in up to three dimensions, to a tolerance."""
 
 from __future__ import annotations
 
@@ -8,15 +8,10 @@ from typing import ClassVar
 
 from gbnbench.analysis.spectrum.error_model import Errors, rms_for
 from gbnbench.analysis.spectrum.evaluators.nufft import transform
-from gbnbench.analysis.spectrum.evaluators.nufft.transform import (
-    DIMENSIONS,
-    TIGHTEST,
-    nufft_bytes,
-    nufft_errors,
-    nufft_power,
-    nufft_seconds,
-    nufft_tolerance,
-)
+from gbnbench.analysis.spectrum.evaluators.nufft.cost import nufft_bytes, nufft_seconds
+from gbnbench.analysis.spectrum.evaluators.nufft.errors import nufft_errors, nufft_tolerance
+from gbnbench.analysis.spectrum.evaluators.nufft.limits import DIMENSIONS, TIGHTEST
+from gbnbench.analysis.spectrum.evaluators.nufft.transform import nufft_power
 from gbnbench.analysis.spectrum.evaluators.protocol import EvaluationCost, Evaluator, set_by_set
 from gbnbench.analysis.spectrum.evaluators.work_model import CALL_SECONDS, NUMPY_RATE
 from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest
@@ -37,20 +32,50 @@ class NonuniformFFT(Evaluator):
     def offer(
         cls, request: SpectrumRequest, precision: str, *, floor: float | None = None, forced: bool = False
     ) -> NonuniformFFT | None:
-        """Offer itself at the loosest tolerance that resolves the floor, or at its tightest."""
+        """Offer itself at the loosest tolerance that resolves the floor, or at its tightest.
+
+        Parameters
+        ----------
+        request : SpectrumRequest
+            The frequencies, points and sets.
+        precision : {"double", "float"}
+            Precision of the arithmetic.
+        floor : float, optional
+            Smallest power that must be known to 1%; the tightest tolerance is taken where it is not given or
+            out of reach.
+        forced : bool
+            Whether the user asked for this method.
+
+        Returns
+        -------
+        NonuniformFFT or None
+        """
         if request.what not in cls.serves or precision != "double":
             return None
         if request.d > DIMENSIONS or not transform.available():
             return None
         tolerance = TIGHTEST
         if floor is not None:
-            with suppress(InputError):  # the floor is out of its reach: it is weighed at its tightest
+            with suppress(InputError):  # where the floor is out of reach, it is offered at its tightest
                 tolerance = nufft_tolerance(rms_for(floor), request.n, request.d, request.fmax)
         return cls(precision, tolerance)
 
     @classmethod
     def why_not(cls, request: SpectrumRequest, precision: str) -> str:
-        """Say what is missing: FINUFFT, a lower dimension, or double precision."""
+        """Say what is missing: FINUFFT, a lower dimension, or double precision.
+
+        Parameters
+        ----------
+        request : SpectrumRequest
+            The request that it cannot serve.
+        precision : {"double", "float"}
+            Precision that was asked for.
+
+        Returns
+        -------
+        str
+            A sentence for an error message.
+        """
         if request.d > DIMENSIONS:
             return f"the non-uniform FFT does up to {DIMENSIONS} dimensions; got d={request.d}"
         if not transform.available():
@@ -81,7 +106,26 @@ class NonuniformFFT(Evaluator):
     def cube(
         self, x: FloatArray, fmax: int, weights: FloatArray | None, *, half: bool, mean: bool
     ) -> tuple[FloatArray, Errors]:
-        """Evaluate the power of a cube, as ``Evaluator.cube`` describes it."""
+        """Evaluate the power of a cube, as ``Evaluator.cube`` describes it.
+
+        Parameters
+        ----------
+        x : (sets, n, d) float64
+            Checked points.
+        fmax : int
+            Largest harmonic on each axis.
+        weights : (sets or 1, n) float64 or None
+            Weights of the points.
+        half : bool
+            Only the half with f_0 >= 0.
+        mean : bool
+            Average over sets; otherwise the power of each set.
+
+        Returns
+        -------
+        power : (2*fmax+1,)*d float64
+        errors : Errors
+        """
         _, n, d = x.shape
 
         def one_set(one: FloatArray, w: FloatArray | None) -> tuple[FloatArray, Errors]:

@@ -1,4 +1,4 @@
-"""The numpy product as an evaluator: it serves every request where there is no OpenCL device."""
+"""The numpy product as an evaluator, which serves every request where there is no OpenCL device."""
 
 from __future__ import annotations
 
@@ -9,11 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.analysis.spectrum.error_model import Errors
-from gbnbench.analysis.spectrum.evaluators.numpy_product.product import (
-    separable_errors,
-    separable_power,
-    separable_selected,
-)
+from gbnbench.analysis.spectrum.evaluators.numpy_product.errors import numpy_errors
+from gbnbench.analysis.spectrum.evaluators.numpy_product.product import numpy_listed_power, numpy_power
 from gbnbench.analysis.spectrum.evaluators.protocol import EvaluationCost, Evaluator, set_by_set
 from gbnbench.analysis.spectrum.evaluators.work_model import CALL_SECONDS, NUMPY_RATE
 from gbnbench.analysis.spectrum.limits import cube_fits
@@ -34,7 +31,23 @@ class NumpyProduct(Evaluator):
     def offer(
         cls, request: SpectrumRequest, precision: str, *, floor: float | None = None, forced: bool = False
     ) -> NumpyProduct | None:
-        """Offer itself where there is no device, for shells only if their whole cube fits in memory."""
+        """Offer itself where there is no device, for shells only if their whole cube fits in memory.
+
+        Parameters
+        ----------
+        request : SpectrumRequest
+            The frequencies, points and sets.
+        precision : {"double", "float"}
+            Precision of the arithmetic.
+        floor : float, optional
+            Smallest power that must be known to 1%; not used, since the method is exact.
+        forced : bool
+            Whether the user asked for this method.
+
+        Returns
+        -------
+        NumpyProduct or None
+        """
         if forced:
             return cls(precision)
         if devices_present() or (request.what == "shells" and not cube_fits(request.fmax, request.d)):
@@ -63,17 +76,36 @@ class NumpyProduct(Evaluator):
     def expected_errors(self, request: SpectrumRequest) -> Errors:
         """State the errors of any points."""
         n, d, f = request.n, request.d, request.fmax
-        return separable_errors(n, d, f, self.precision, listed=request.what == "listed")
+        return numpy_errors(n, d, f, self.precision, listed=request.what == "listed")
 
     def cube(
         self, x: FloatArray, fmax: int, weights: FloatArray | None, *, half: bool, mean: bool
     ) -> tuple[FloatArray, Errors]:
-        """Evaluate the power of a cube, as ``Evaluator.cube`` describes it."""
+        """Evaluate the power of a cube, as ``Evaluator.cube`` describes it.
+
+        Parameters
+        ----------
+        x : (sets, n, d) float64
+            Checked points.
+        fmax : int
+            Largest harmonic on each axis.
+        weights : (sets or 1, n) float64 or None
+            Weights of the points.
+        half : bool
+            Only the half with f_0 >= 0.
+        mean : bool
+            Average over sets; otherwise the power of each set.
+
+        Returns
+        -------
+        power : (2*fmax+1,)*d float64
+        errors : Errors
+        """
         _, n, d = x.shape
 
         def one_set(one: FloatArray, w: FloatArray | None) -> tuple[FloatArray, Errors]:
-            power = separable_power(one, fmax, self.precision, w)
-            errors = separable_errors(n, d, fmax, self.precision, one, w)
+            power = numpy_power(one, fmax, self.precision, w)
+            errors = numpy_errors(n, d, fmax, self.precision, one, w)
             return power[fmax:] if half else power, errors
 
         return set_by_set(x, weights, one_set, mean=mean)
@@ -81,12 +113,27 @@ class NumpyProduct(Evaluator):
     def listed(
         self, x: FloatArray, frequencies: NDArray[np.int64], weights: FloatArray | None
     ) -> tuple[FloatArray, Errors]:
-        """Evaluate the power at listed frequencies, as ``Evaluator.listed`` describes it."""
+        """Evaluate the power at listed frequencies, as ``Evaluator.listed`` describes it.
+
+        Parameters
+        ----------
+        x : (sets, n, d) float64
+            Checked points.
+        frequencies : (m, d) int64
+            Cycles per unit length.
+        weights : (sets or 1, n) float64 or None
+            Weights of the points.
+
+        Returns
+        -------
+        power : (m,) float64
+        errors : Errors
+        """
         _, n, d = x.shape
         largest = int(np.abs(frequencies.astype(np.float64)).max())
 
         def one_set(one: FloatArray, w: FloatArray | None) -> tuple[FloatArray, Errors]:
-            errors = separable_errors(n, d, largest, self.precision, one, w, listed=True)
-            return separable_selected(one, frequencies, self.precision, w), errors
+            errors = numpy_errors(n, d, largest, self.precision, one, w, listed=True)
+            return numpy_listed_power(one, frequencies, self.precision, w), errors
 
         return set_by_set(x, weights, one_set, mean=True)

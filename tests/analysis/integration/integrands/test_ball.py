@@ -10,8 +10,8 @@ from scipy.stats import qmc
 
 from gbnbench.analysis.integration.integrands.ball import Ball, Balls
 from gbnbench.analysis.integration.integrands.ball_volume import ball_volume, radius_of
-from gbnbench.analysis.integration.integrands.integer_frequencies import MOST_FREQUENCIES, half_ball
 from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.integer_frequencies import MOST_FREQUENCIES, half_ball
 
 
 def by_laplace(d: int, radius: float) -> float:

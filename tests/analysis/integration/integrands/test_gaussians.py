@@ -8,9 +8,9 @@ import pytest
 
 from gbnbench.analysis.integration.integrands import kernel_values
 from gbnbench.analysis.integration.integrands.gaussians import Gaussians, GaussianSum
-from gbnbench.analysis.integration.integrands.integer_frequencies import half_ball
 from gbnbench.analysis.integration.integrands.theta_polynomial import NEAREST, circle, theta_polynomial
 from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.integer_frequencies import half_ball
 from gbnbench.core.torus import FloatArray
 from tests.oracles.theta import image_sum
 

@@ -7,9 +7,9 @@ import mpmath
 import numpy as np
 import pytest
 
-from gbnbench.analysis.integration.integrands.integer_frequencies import MOST_FREQUENCIES, half_ball, halved
 from gbnbench.analysis.integration.integrands.korobov import Korobov, KorobovProduct
 from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.integer_frequencies import MOST_FREQUENCIES, half_ball, to_half_space
 
 
 def series(t: float, smoothness: int) -> mpmath.mpf:
@@ -58,7 +58,7 @@ def test_frequencies_leave_out_no_more_than_the_share(
 ) -> None:
     family = Korobov(smoothness, weight)
     f = family.frequencies(d, share)
-    assert (halved(f)[0] == f).all()
+    assert (to_half_space(f)[0] == f).all()
     assert f.any(axis=1).all()
     assert len(np.unique(f, axis=0)) == len(f)
     with mpmath.workdps(40):
@@ -69,7 +69,7 @@ def test_frequencies_leave_out_no_more_than_the_share(
         listed = {tuple(row) for row in f.tolist()}
         reach = int(np.abs(f).max()) + 1
         cube = np.array(list(itertools.product(range(-reach, reach + 1), repeat=d)))
-        out = [row for row in halved(cube)[0].tolist() if any(row) and tuple(row) not in listed]
+        out = [row for row in to_half_space(cube)[0].tolist() if any(row) and tuple(row) not in listed]
         assert family.mean_energy(np.array(out)).max() <= family.mean_energy(f).min() * (1 + 1e-12)
 
 

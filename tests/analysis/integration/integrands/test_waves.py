@@ -6,10 +6,10 @@ import mpmath
 import numpy as np
 import pytest
 
-from gbnbench.analysis.integration.integrands.integer_frequencies import half_ball
 from gbnbench.analysis.integration.integrands.waves import Waves, WaveSum
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.integer_frequencies import half_ball
 
 
 @pytest.mark.parametrize("d", [1, 2, 3, 5, 8, 12, 20])

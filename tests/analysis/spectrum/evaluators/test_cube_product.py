@@ -11,9 +11,11 @@ from hypothesis import strategies as st
 
 from gbnbench.analysis.precision import Precision, precision_of
 from gbnbench.analysis.spectrum.digits import cheapest_division, half_size
-from gbnbench.analysis.spectrum.evaluators import cube_product, two_group_product
+from gbnbench.analysis.spectrum.evaluators import cube_product, point_slots
 from gbnbench.analysis.spectrum.evaluators.cube_product import covered, cube_powers, row_blocks
-from gbnbench.analysis.spectrum.evaluators.two_group_product import COMPENSATED_FROM, Group, TwoGroupProduct
+from gbnbench.analysis.spectrum.evaluators.frequency_tables import Group
+from gbnbench.analysis.spectrum.evaluators.point_slots import COMPENSATED_FROM
+from gbnbench.analysis.spectrum.evaluators.two_group_product import TwoGroupProduct
 from gbnbench.opencl import runtime
 from tests.devices import gpu_form
 from tests.oracles.power import lattice_of, mean_power, on_grid, root_distance, roots
@@ -117,10 +119,10 @@ def test_half_is_the_half_with_f_0_from_0_up(d, fmax, mean):
 @pytest.mark.parametrize("precision", ["double", "float"])
 @pytest.mark.parametrize(("n", "fmax", "sets"), [(100, 20, 23), (400, 6, 7), (9, 3, 200)])
 def test_sets_in_batches_that_they_do_not_fill(monkeypatch, precision, n, fmax, sets):
-    monkeypatch.setattr(two_group_product, "TABLE_BYTES", 1 << 15)
+    monkeypatch.setattr(point_slots, "TABLE_BYTES", 1 << 15)
     p = precision_of(precision)
-    divided = cheapest_division(2, fmax, two_group_product.rows_of(p))
-    slots = two_group_product.deal(p, n, sets, half_size(divided.leading), half_size(divided.trailing))
+    divided = cheapest_division(2, fmax, point_slots.tile_rows(p))
+    slots = point_slots.choose_slots(p, n, sets, half_size(divided.leading), half_size(divided.trailing))
     assert slots.sets < sets
     assert slots.sets == 1 or sets % slots.sets
     x = on_grid((sets, n, 2), n)
@@ -146,9 +148,9 @@ def test_many_points_take_several_launches_and_keep_their_rounding(monkeypatch, 
     if form == "float sums" and precision == "double":
         pytest.skip("such a device has no double")
     p = precision_of(precision) if form == "cpu" else gpu_form(precision == "double", form == "gpu")
-    monkeypatch.setattr(two_group_product, "TABLE_BYTES", 1 << 17)
+    monkeypatch.setattr(point_slots, "TABLE_BYTES", 1 << 17)
     n, fmax = 128 * p.lanes * (COMPENSATED_FROM + 5) * (1 if form == "cpu" else 2) + 3, 12
-    divided = cheapest_division(2, fmax, two_group_product.rows_of(p))
+    divided = cheapest_division(2, fmax, point_slots.tile_rows(p))
     slots = TwoGroupProduct(p, n, 2, 1, Group(divided.leading), Group(divided.trailing)).slots
     assert slots.sums(n, p.lanes) > COMPENSATED_FROM
     assert slots.launches(n) > 1
@@ -170,7 +172,7 @@ def test_rows_in_blocks_change_nothing(monkeypatch, d, fmax, form):
     weights = np.random.default_rng(d).random((3, 33))
     whole = [cube_powers(p, x, fmax, weights, half, mean)[0] for half in (0, 1) for mean in (0, 1)]
     monkeypatch.setattr(cube_product, "AMPLITUDE_BYTES", 1 << 10)
-    divided = cheapest_division(d, fmax, two_group_product.rows_of(p))
+    divided = cheapest_division(d, fmax, point_slots.tile_rows(p))
     assert len(list(row_blocks(p, divided))) > 1
     parts = [cube_powers(p, x, fmax, weights, half, mean)[0] for half in (0, 1) for mean in (0, 1)]
     for one, other in zip(whole, parts, strict=True):
@@ -238,9 +240,9 @@ def test_a_product_of_one_dimensional_sets_has_the_product_of_their_powers():
 @pytest.mark.parametrize(("n", "sets"), [(1, 3000), (2, 700), (16, 100)])
 def test_many_small_sets_do_not_ask_for_more_than_the_room_of_amplitudes(n, sets):
     p = precision_of("double")
-    divided = cheapest_division(2, 1023, two_group_product.rows_of(p))
+    divided = cheapest_division(2, 1023, point_slots.tile_rows(p))
     rows, columns = half_size(divided.leading), half_size(divided.trailing)
-    slots = two_group_product.deal(p, n, sets, rows, columns)
+    slots = point_slots.choose_slots(p, n, sets, rows, columns)
     assert slots.count * rows * columns * 4 * 8 <= cube_product.AMPLITUDE_BYTES
 
 

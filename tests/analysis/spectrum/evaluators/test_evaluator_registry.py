@@ -8,6 +8,7 @@ from typing import ClassVar, get_args
 import numpy as np
 import pytest
 
+from gbnbench.analysis.spectrum import candidates as candidates_module
 from gbnbench.analysis.spectrum import plan as plan_module
 from gbnbench.analysis.spectrum.error_model import Errors
 from gbnbench.analysis.spectrum.evaluators.protocol import EvaluationCost, Evaluator, set_by_set
@@ -56,7 +57,8 @@ class PlainSum(Evaluator):
 
 @pytest.fixture
 def with_plain_sum(monkeypatch):
-    monkeypatch.setattr(plan_module, "EVALUATORS", (*EVALUATORS, PlainSum))
+    for module in (candidates_module, plan_module):
+        monkeypatch.setattr(module, "EVALUATORS", (*EVALUATORS, PlainSum))
 
 
 @pytest.mark.usefixtures("with_plain_sum")

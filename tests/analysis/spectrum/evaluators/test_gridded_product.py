@@ -7,13 +7,11 @@ import pytest
 
 from gbnbench.analysis.precision import Precision, precision_of
 from gbnbench.analysis.spectrum.evaluators.cube_product import cube_powers
+from gbnbench.analysis.spectrum.evaluators.gridded import grid
 from gbnbench.analysis.spectrum.evaluators.gridded import product as gridded_product
-from gbnbench.analysis.spectrum.evaluators.gridded.product import (
-    griddable,
-    gridded_powers,
-    node_turns,
-    sorted_by_cell,
-)
+from gbnbench.analysis.spectrum.evaluators.gridded.cells import sorted_by_cell
+from gbnbench.analysis.spectrum.evaluators.gridded.grid import node_turns
+from gbnbench.analysis.spectrum.evaluators.gridded.product import griddable, gridded_powers
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.core.errors import InputError
 from tests.devices import gpu_form
@@ -79,7 +77,7 @@ def test_coincident_points_and_their_bound(kept_from, monkeypatch):
 
 
 def test_points_on_the_border_and_in_one_chunk_after_another(monkeypatch):
-    monkeypatch.setattr(gridded_product, "CHUNK_BYTES", 1 << 15)
+    monkeypatch.setattr(grid, "CHUNK_BYTES", 1 << 15)
     rng = np.random.default_rng(4)
     x = rng.random((1, 2000, 2))
     x[0, :4, 0] = [0, 1 - 2.0**-53, 2.0**-60, 5e-324]

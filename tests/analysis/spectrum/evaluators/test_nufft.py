@@ -10,14 +10,10 @@ import numpy as np
 import pytest
 
 from gbnbench.analysis.spectrum.evaluators.nufft import transform as nufft
-from gbnbench.analysis.spectrum.evaluators.nufft.transform import (
-    available,
-    nufft_bytes,
-    nufft_errors,
-    nufft_power,
-    nufft_seconds,
-    nufft_tolerance,
-)
+from gbnbench.analysis.spectrum.evaluators.nufft.cost import nufft_bytes, nufft_seconds
+from gbnbench.analysis.spectrum.evaluators.nufft.errors import nufft_errors, nufft_tolerance
+from gbnbench.analysis.spectrum.evaluators.nufft.limits import LOOSEST
+from gbnbench.analysis.spectrum.evaluators.nufft.transform import available, nufft_power
 from gbnbench.core.errors import InputError
 from tests.oracles.power import roots
 
@@ -75,7 +71,7 @@ def test_coincident_and_clustered_points_are_within_the_bound(n, d, fmax, tolera
 def test_half_a_grid_is_the_whole_one_and_exactly_symmetric(monkeypatch, d, fmax):
     x = points(90, d)
     half = nufft_power(x, fmax, 1e-12)
-    monkeypatch.setattr(nufft, "_halved", lambda *_: False)
+    monkeypatch.setattr(nufft, "half_grid_pays", lambda *_: False)
     whole = nufft_power(x, fmax, 1e-12)
     np.testing.assert_allclose(np.sqrt(half), np.sqrt(whole), atol=1e-10)
     for cube in (half, whole):
@@ -101,7 +97,7 @@ def test_an_error_out_of_reach_is_refused_with_what_can_be_reached():
     for rms in (0.0, -1.0, float("nan")):
         with pytest.raises(InputError, match="reaches"):
             nufft_tolerance(rms)
-    assert nufft_tolerance(10.0) == nufft.LOOSEST
+    assert nufft_tolerance(10.0) == LOOSEST
 
 
 @pytest.mark.parametrize("tolerance", [1e-15, 0.0, -1.0, 1.0, float("nan")])

@@ -10,7 +10,7 @@ import pytest
 
 from gbnbench.analysis.precision import Precision, precision_of
 from gbnbench.analysis.spectrum.digits import whole_axes
-from gbnbench.analysis.spectrum.evaluators import shell_product, two_group_product
+from gbnbench.analysis.spectrum.evaluators import point_slots, shell_product
 from gbnbench.analysis.spectrum.evaluators.shell_product import (
     blocks,
     merged,
@@ -114,7 +114,7 @@ def test_any_number_of_strips_merges_to_the_same(monkeypatch, strip_bytes):
 
 
 def test_points_beyond_one_launch(monkeypatch):
-    monkeypatch.setattr(two_group_product, "TABLE_BYTES", 1 << 14)
+    monkeypatch.setattr(point_slots, "TABLE_BYTES", 1 << 14)
     check(
         precision_of("double"), on_grid((2, 3001, 2), 8), 3, 1, 18, np.random.default_rng(9).random((2, 3001))
     )
@@ -221,5 +221,5 @@ def test_large_harmonics_in_a_narrow_band():
 def test_many_small_sets_take_no_more_memory_than_few(sets, n):
     p = precision_of("double")
     rows, columns = shell_product.BLOCK_ROWS, shell_product.BLOCK_COLUMNS
-    slots = two_group_product.deal(p, n, sets, rows, columns)
+    slots = point_slots.choose_slots(p, n, sets, rows, columns)
     assert slots.count * rows * columns * 4 * 8 <= 300e6

@@ -21,7 +21,7 @@ STEP = 0.75  # of the grid, in spacings: the cubic spline's aliases are 3e-4 of 
 SLACK = 0.02  # moves in spacings over which a point keeps its weights: 2% of the band's fastest phase
 
 
-class LowBand:
+class LowestBandPreconditioner:
     """Modes with 0 < nu <= 0.15 of a set of n points in d dimensions, by a grid: n log n.
 
     Points give their forces to a grid by cubic B-splines and take displacements from it by the same weights,
