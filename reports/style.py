@@ -89,17 +89,17 @@ class Stroke:
 
 def strokes(run: Run) -> dict[str, Stroke]:
     """Assign each source key a stroke; sources of one label share it over all n and d of the run."""
-    given: dict[tuple[str, int], Stroke] = {}
+    assigned: dict[tuple[str, int], Stroke] = {}
     seen: dict[tuple[str, int, int], int] = {}
     result: dict[str, Stroke] = {}
     for source in run.sources:
         place = (source.label, source.n, source.d)
         twin = seen.get(place, 0)
         seen[place] = twin + 1
-        if (source.label, twin) not in given:
-            turn, colour = divmod(len(given), len(COLOURS))
-            given[source.label, twin] = Stroke(COLOURS[colour], DASHES[turn % len(DASHES)])
-        result[source.key] = given[source.label, twin]
+        if (source.label, twin) not in assigned:
+            turn, colour = divmod(len(assigned), len(COLOURS))
+            assigned[source.label, twin] = Stroke(COLOURS[colour], DASHES[turn % len(DASHES)])
+        result[source.key] = assigned[source.label, twin]
     return result
 
 

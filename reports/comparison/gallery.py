@@ -31,15 +31,15 @@ def rows(run: Run, sources: Sequence[SourceResult]) -> list[tuple[str, float, Dr
         Title of each row, height of its panels over their width, and the function that draws a source
         into axes.
     """
-    given = style.strokes(run)
+    strokes = style.strokes(run)
     scale = spectrum.norm(sources)
     top, limits = radial.power_limit(sources), radial.decibel_limits(sources)
     flat = any(source.d == 2 for source in sources)
     found: list[tuple[str, float, Draw]] = [
         ("points", 1.0, points.panel),
         ("spectrum", 1.0, lambda ax, s: spectrum.panel(ax, s, scale, ticks=False)),
-        ("radial power", 0.55, lambda ax, s: radial.power_panel(ax, s, given[s.key], top)),
-        ("anisotropy\n(dB)", 0.32, lambda ax, s: radial.anisotropy_panel(ax, s, given[s.key], limits)),
+        ("radial power", 0.55, lambda ax, s: radial.power_panel(ax, s, strokes[s.key], top)),
+        ("anisotropy\n(dB)", 0.32, lambda ax, s: radial.anisotropy_panel(ax, s, strokes[s.key], limits)),
     ]
     if any(source.zone_plate is not None for source in sources):
         found.append(("zone plate", 1.0, zone_plate.panel))

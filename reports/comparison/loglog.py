@@ -47,7 +47,7 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
         One plot of all sources. Shells whose power is zero to rounding stand as triangles on its floor.
     """
     sources = style.members(run, group)
-    given = style.strokes(run)
+    strokes = style.strokes(run)
     gone = [_zero(source) for source in sources]
     powers = [np.where(zero, np.nan, s.radial.power) for s, zero in zip(sources, gone, strict=True)]
     finite = np.concatenate([p[np.isfinite(p)] for p in powers] or [np.empty(0)])
@@ -75,7 +75,7 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
     ax = sheet.cells[0][0]
     handles = []
     for source, power, zero in zip(sources, powers, gone, strict=True):
-        nu, stroke = source.radial.nu, given[source.key]
+        nu, stroke = source.radial.nu, strokes[source.key]
         few = len(nu) < 40
         (line,) = ax.plot(
             nu,

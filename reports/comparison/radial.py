@@ -134,7 +134,7 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
         One pair of axes for each source.
     """
     sources = style.members(run, group)
-    given = style.strokes(run)
+    strokes = style.strokes(run)
     top, limits = power_limit(sources), decibel_limits(sources)
     caption = (
         "Above: mean power over each exact shell |f|, DC excluded; the line at 1 is white noise. Below: "
@@ -154,8 +154,8 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
         under=0.42,
     )
     for (power, anisotropy), first, source in zip(sheet.cells, sheet.first, sources, strict=True):
-        power_panel(power, source, given[source.key], top)
-        anisotropy_panel(anisotropy, source, given[source.key], limits)
+        power_panel(power, source, strokes[source.key], top)
+        anisotropy_panel(anisotropy, source, strokes[source.key], limits)
         power.set_title(style.name(source, run, 34), loc="left")
         power.tick_params(labelbottom=False, labelleft=first)
         anisotropy.tick_params(labelleft=first)

@@ -30,7 +30,7 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
     Figure
         One plot of all these sources.
     """
-    given = style.strokes(run)
+    strokes = style.strokes(run)
     drawn = [(s, s.rdf) for s in style.members(run, group) if s.rdf is not None]
     labels = [style.name(source, run, 30) for source, _ in drawn]
     curves = [(t["r"].to_numpy(dtype=float), t["g"].to_numpy(dtype=float)) for _, t in drawn]
@@ -54,7 +54,7 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
     ax.axhline(1, color=style.RULE, linewidth=0.9, zorder=0)
     handles = []
     for (source, _), (r, g) in zip(drawn, curves, strict=True):
-        stroke = given[source.key]
+        stroke = strokes[source.key]
         handles += ax.plot(r, g, color=stroke.colour, linestyle=stroke.dash, linewidth=1.1)
     farthest = max((float(np.nanmax(r)) for r, _ in curves if len(r)), default=1.0)
     ax.set_xlim(0, min(REACH, farthest) if math.isfinite(farthest) and farthest > 0 else 1.0)

@@ -74,7 +74,7 @@ def panel(ax: Axes, run: Run, measure: str, logarithmic: bool) -> None:
     logarithmic : bool
         Draw the measure in log scale, without values of 0 or below.
     """
-    given = style.strokes(run)
+    strokes = style.strokes(run)
     if logarithmic:
         ax.set_yscale("log")
     drawn = False
@@ -86,7 +86,7 @@ def panel(ax: Axes, run: Run, measure: str, logarithmic: bool) -> None:
             y = np.where(y > 0, y, np.nan)
         error = np.where(np.isfinite(error), error, 0.0)
         below = np.minimum(error, 0.9 * y) if logarithmic else error  # keeps the bar on the log axis
-        stroke = given[line[0].key]
+        stroke = strokes[line[0].key]
         if np.isfinite(y).any():
             drawn = True
             ax.errorbar(
@@ -144,7 +144,7 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:  # noqa: ARG00
         under=0.45,
         right=style.legend_room(labels),
     )
-    given = style.strokes(run)
+    strokes = style.strokes(run)
     for (ax,), (measure, logarithmic) in zip(sheet.cells, MEASURES, strict=True):
         panel(ax, run, measure, logarithmic)
         definition = BY_NAME.get(measure)
@@ -157,8 +157,8 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:  # noqa: ARG00
         corner.plot(
             [],
             [],
-            color=given[line[0].key].colour,
-            linestyle=given[line[0].key].dash,
+            color=strokes[line[0].key].colour,
+            linestyle=strokes[line[0].key].dash,
             marker="o",
             markersize=3,
         )[0]

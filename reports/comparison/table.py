@@ -94,7 +94,7 @@ def rows(run: Run, group: Group | None = None) -> list[Row]:
     -------
     list of Row
     """
-    made: list[Row] = []
+    filled: list[Row] = []
     for source in members(run, group):
         cells = {}
         for column in COLUMNS:
@@ -110,8 +110,8 @@ def rows(run: Run, group: Group | None = None) -> list[Row]:
             cells[name] = Cell(
                 value, error, number(value), error_number(value, error), False, verdict, reason
             )
-        made.append(Row(source, cells))
-    best = {(place, column.name): _best(made, place, column) for place in groups(run) for column in COLUMNS}
+        filled.append(Row(source, cells))
+    best = {(place, column.name): _best(filled, place, column) for place in groups(run) for column in COLUMNS}
     return [
         Row(
             row.source,
@@ -120,13 +120,13 @@ def rows(run: Run, group: Group | None = None) -> list[Row]:
                 for name, cell in row.cells.items()
             },
         )
-        for row in made
+        for row in filled
     ]
 
 
-def _best(made: Sequence[Row], place: Group, column: Definition) -> set[str]:
+def _best(filled: Sequence[Row], place: Group, column: Definition) -> set[str]:
     """Text of the best value of a column among the sources of one n and d; empty where there is none."""
-    there = [row for row in made if (row.source.n, row.source.d) == place]
+    there = [row for row in filled if (row.source.n, row.source.d) == place]
     found = {
         row.cells[column.name].text: comparable_value(
             column.name, row.cells[column.name].value, row.source.realizations

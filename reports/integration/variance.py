@@ -33,14 +33,14 @@ SLOPES = (
 def strokes(study: IntegrationStudy) -> dict[str, style.Stroke]:
     """Assign each source label a stroke that is the same in every panel."""
     labels = dict.fromkeys(study.variance["source"])
-    given = {}
+    by_source = {}
     for k, label in enumerate(labels):
         turn, colour = divmod(k, len(style.COLOURS))
-        given[str(label)] = style.Stroke(style.COLOURS[colour], style.DASHES[turn % len(style.DASHES)])
-    return given
+        by_source[str(label)] = style.Stroke(style.COLOURS[colour], style.DASHES[turn % len(style.DASHES)])
+    return by_source
 
 
-def panel(ax: Axes, part: pd.DataFrame, given: dict[str, style.Stroke]) -> None:
+def panel(ax: Axes, part: pd.DataFrame, by_source: dict[str, style.Stroke]) -> None:
     """Draw one family in one dimension.
 
     Parameters
@@ -49,13 +49,13 @@ def panel(ax: Axes, part: pd.DataFrame, given: dict[str, style.Stroke]) -> None:
         Empty.
     part : DataFrame
         Rows of ``IntegrationStudy.variance``.
-    given : mapping
+    by_source : mapping
         Source label -> stroke.
     """
     ax.set_xscale("log", base=2)
     ax.set_yscale("log")
     for label, rows in part.groupby("source", sort=False):
-        stroke, line = given[str(label)], rows[rows["variance"] > 0].sort_values("n")
+        stroke, line = by_source[str(label)], rows[rows["variance"] > 0].sort_values("n")
         ax.plot(
             line["n"],
             line["variance"],
@@ -128,7 +128,7 @@ def figure(study: IntegrationStudy) -> Figure:
     """Draw one panel for each family of integrands and dimension of a study."""
     table = study.variance
     parts = list(table.groupby(["integrand", "d"], sort=False))
-    given = strokes(study)
+    by_source = strokes(study)
     shifts = int(table["shifts"].max())
     several = bool(len(study.slopes))
     caption = CAPTION.format(
@@ -149,12 +149,19 @@ def figure(study: IntegrationStudy) -> Figure:
         right=style.legend_room(["x" * longest]),
     )  # fmt: skip
     for (ax,), (key, part) in zip(sheet.cells, parts, strict=True):
-        panel(ax, part, given)
+        panel(ax, part, by_source)
         ax.set_title(f"{style.shown(str(key[0]), 40)}, d = {key[1]}", loc="left")
         ax.set_xlabel("points n")
         ax.set_ylabel("variance")
         handles = [
-            Line2D([], [], color=given[label].colour, linestyle=given[label].dash, marker="o", markersize=2.6)
+            Line2D(
+                [],
+                [],
+                color=by_source[label].colour,
+                linestyle=by_source[label].dash,
+                marker="o",
+                markersize=2.6,
+            )
             for label in dict.fromkeys(part["source"].astype(str))
         ]
         style.beside(ax, handles, keys[key])

@@ -44,8 +44,8 @@ def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
     """
     text, gradients = _wide(ask)
     run, n = data["sets"], shared.size(ask)
-    narrow = shared.made(run, NARROW, n, "σ = 0.5, 30 steps")
-    wide = shared.made(run, text, n, f"σ = 1.1, {gradients:,} gradients")
+    narrow = shared.generated_column(run, NARROW, n, "σ = 0.5, 30 steps")
+    wide = shared.generated_column(run, text, n, f"σ = 1.1, {gradients:,} gradients")
     both = (narrow, wide)
     strokes = (style.Stroke(style.FAINT, "-"), shared.stroke("gbn"))
     low = shared.lowest(one.source.radial for one in both)

@@ -52,9 +52,12 @@ def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
     """
     n = shared.size(ask)
     columns = [
-        shared.made(data["cvt"], "lloyd", n, "CVT"),
-        *(shared.made(data["cut"], f"gbn[cutoff={cutoff}]", n, f"cut at {cutoff}σ") for cutoff in CUTOFFS),
-        shared.made(data["whole"], "gbn", n, "whole"),
+        shared.generated_column(data["cvt"], "lloyd", n, "CVT"),
+        *(
+            shared.generated_column(data["cut"], f"gbn[cutoff={cutoff}]", n, f"cut at {cutoff}σ")
+            for cutoff in CUTOFFS
+        ),
+        shared.generated_column(data["whole"], "gbn", n, "whole"),
     ]
     strokes = [columns[0].stroke, *STROKES]
     low = shared.lowest(one.source.radial for one in columns)

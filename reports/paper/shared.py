@@ -96,7 +96,7 @@ def relaxed(ask: Ask) -> ComparisonRequest:
     return ComparisonRequest(("lloyd",), (size(ask),), (2,), sets(ask))
 
 
-def shown_methods(ask: Ask, paper: Sequence[str]) -> tuple[str, ...]:
+def methods_with_sets(ask: Ask, paper: Sequence[str]) -> tuple[str, ...]:
     """List the methods without a generator whose sets the user gave for a figure.
 
     Parameters
@@ -117,7 +117,7 @@ def shown_methods(ask: Ask, paper: Sequence[str]) -> tuple[str, ...]:
     )
 
 
-def given(ask: Ask, methods: Iterable[str]) -> dict[str, ComparisonRequest]:
+def user_set_requests(ask: Ask, methods: Iterable[str]) -> dict[str, ComparisonRequest]:
     """Return requests for the user's sets of these methods, equal in every figure so that they are shared.
 
     Parameters
@@ -135,7 +135,7 @@ def given(ask: Ask, methods: Iterable[str]) -> dict[str, ComparisonRequest]:
     return {name: ComparisonRequest((ask.sets[name],)) for name in methods if name in ask.sets}
 
 
-def absent(ask: Ask, methods: Iterable[str], whose: str = "of the paper") -> str:
+def missing_sets_note(ask: Ask, methods: Iterable[str], whose: str = "of the paper") -> str:
     """Name the methods without sets in a sentence for the caption.
 
     Parameters
@@ -162,7 +162,7 @@ def absent(ask: Ask, methods: Iterable[str], whose: str = "of the paper") -> str
     )
 
 
-def made(run: Run, text: str, n: int, title: str | None = None) -> Column:
+def generated_column(run: Run, text: str, n: int, title: str | None = None) -> Column:
     """Select the plane sets of a generator from a run.
 
     Parameters
@@ -186,7 +186,7 @@ def made(run: Run, text: str, n: int, title: str | None = None) -> Column:
     return Column(title or title_of(label), source, stroke(label))
 
 
-def yours(data: Mapping[str, Any], methods: Iterable[str], n: int) -> list[Column]:
+def user_columns(data: Mapping[str, Any], methods: Iterable[str], n: int) -> list[Column]:
     """Select the user's plane sets of these methods.
 
     Parameters
