@@ -1,4 +1,4 @@
-"""How every picture looks: one matplotlib style, one stroke a source, and sheets laid out in inches."""
+"""Style of every figure: matplotlib settings, the stroke of each source, and sheets laid out in inches."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ T = TypeVar("T")
 
 
 def styled(draw: Callable[P, T]) -> Callable[P, T]:
-    """Run a function under gbnbench's style and matplotlib's defaults, whatever the user's own settings."""
+    """Make a function draw with gbnbench's style over matplotlib's defaults, whatever the user's settings."""
 
     @wraps(draw)
     def inside(*args: P.args, **kwargs: P.kwargs) -> T:
@@ -88,18 +88,18 @@ class Stroke:
 
 
 def strokes(run: Run) -> dict[str, Stroke]:
-    """Source key -> stroke; one label keeps one stroke over all n and d of the run."""
-    given: dict[tuple[str, int], Stroke] = {}
+    """Assign each source key a stroke; sources of one label share it over all n and d of the run."""
+    assigned: dict[tuple[str, int], Stroke] = {}
     seen: dict[tuple[str, int, int], int] = {}
     result: dict[str, Stroke] = {}
     for source in run.sources:
         place = (source.label, source.n, source.d)
         twin = seen.get(place, 0)
         seen[place] = twin + 1
-        if (source.label, twin) not in given:
-            turn, colour = divmod(len(given), len(COLOURS))
-            given[source.label, twin] = Stroke(COLOURS[colour], DASHES[turn % len(DASHES)])
-        result[source.key] = given[source.label, twin]
+        if (source.label, twin) not in assigned:
+            turn, colour = divmod(len(assigned), len(COLOURS))
+            assigned[source.label, twin] = Stroke(COLOURS[colour], DASHES[turn % len(DASHES)])
+        result[source.key] = assigned[source.label, twin]
     return result
 
 
@@ -107,12 +107,25 @@ Group = tuple[int, int]
 
 
 def groups(run: Run) -> list[Group]:
-    """Each (n, d) of the run once, in the order of the sources: what may be compared side by side."""
+    """List each (n, d) of the run once, in the order of the sources; only sources of one are compared."""
     return list(dict.fromkeys((source.n, source.d) for source in run.sources))
 
 
 def members(run: Run, group: Group | None) -> list[SourceResult]:
-    """List the sources of one (n, d), or all of them for None."""
+    """Return the sources of one size and dimension.
+
+    Parameters
+    ----------
+    run : Run
+        The comparison.
+    group : (n, d) or None
+        Size and dimension; None takes all sources.
+
+    Returns
+    -------
+    list of SourceResult
+        Sources in the run's order.
+    """
     return [source for source in run.sources if group is None or (source.n, source.d) == group]
 
 
@@ -122,7 +135,19 @@ def _has_glyph(character: str) -> bool:
 
 
 def shown(text: str, width: int = 26) -> str:
-    """Text that matplotlib draws as it stands: shortened, no mathtext, a box for signs the font lacks.
+    """Shorten a text and make matplotlib draw it literally, without mathtext.
+
+    Parameters
+    ----------
+    text : str
+        Text from the user, such as a label.
+    width : int
+        Most characters; a longer text loses some of its middle.
+
+    Returns
+    -------
+    str
+        The text with ``$`` escaped, and a box for each sign that the font lacks.
 
     Examples
     --------
@@ -142,7 +167,22 @@ def shown(text: str, width: int = 26) -> str:
 
 
 def name(source: SourceResult, run: Run, width: int = 26) -> str:
-    """Label of a source as drawn, with n and d where several of them stand in one picture."""
+    """Return the label of a source for a figure.
+
+    Parameters
+    ----------
+    source : SourceResult
+        Source to name.
+    run : Run
+        The comparison.
+    width : int
+        Most characters of the label.
+
+    Returns
+    -------
+    str
+        The label, followed by n and d where they vary in the run.
+    """
     every = groups(run)
     marks = [f"n={source.n}"] if len({n for n, _ in every}) > 1 else []
     marks += [f"d={source.d}"] if len({d for _, d in every}) > 1 else []
@@ -155,7 +195,20 @@ def _span(values: Sequence[int]) -> str:
 
 
 def settings(run: Run, group: Group | None = None) -> str:
-    """One line that says what a picture shows: n, d, realizations, seed, device and version."""
+    """Describe the settings of a run in one line for a caption.
+
+    Parameters
+    ----------
+    run : Run
+        The comparison.
+    group : (n, d), optional
+        Describe only the sources of this size and dimension.
+
+    Returns
+    -------
+    str
+        n, d, realizations, seed, device and version, as far as they are known.
+    """
     sources = members(run, group)
     parts = []
     if sources:
@@ -175,18 +228,18 @@ def settings(run: Run, group: Group | None = None) -> str:
 
 @dataclass(frozen=True)
 class Sheet:
-    """A figure of equal cells, each a stack of axes; sizes in inches.
+    """A figure of equal cells, each of them a stack of axes.
 
     Attributes
     ----------
     figure : Figure
-        With its title and caption drawn.
+        Figure with its title and caption drawn.
     cells : list of list of Axes
-        One stack a source, top axes first.
+        One stack of axes for each source, the top axes first.
     first : list of bool
-        Whether the cell stands at the left edge, where axis labels go.
+        Whether each cell stands at the left edge, where axis labels go.
     foot : float
-        Height in inches, from the bottom, where the caption ends: colour bars and keys go above it.
+        Height in inches of the upper edge of the caption. Colour bars and keys go above it.
     """
 
     figure: Figure
@@ -211,28 +264,33 @@ def sheet(
     titles: bool = True,
     key: float = 0.0,
 ) -> Sheet:
-    """Lay out count cells of stacked axes.
+    """Lay out a figure of equal cells, each of them a stack of axes.
 
     Parameters
     ----------
     title, caption : str
-        Above and below; the caption is folded to the figure's width.
+        Texts above and below the cells; the caption is folded to the figure's width.
     count : int
-        Cells, at least 1.
+        Number of cells, at least 1.
     width : float
-        Of every axes, inches.
+        Width of all axes in inches.
     heights : sequence of float
-        Of the axes in a cell, top first, inches.
+        Heights in inches of the axes in a cell, top first.
     columns : int
         Most cells in a row.
     gaps : sequence of float
-        Between the axes of a cell, inches.
+        Gaps in inches between the axes of a cell.
     left, between, under, right : float
-        Room left of the first cell, between cells, under each cell and right of the last, inches.
+        Room in inches left of the first cell, between cells, under each cell and right of the last.
     titles : bool
         Whether the cells have titles of their own.
     key : float
-        Room between the cells and the caption for a colour bar or legend, inches.
+        Room in inches between the cells and the caption for a colour bar or legend.
+
+    Returns
+    -------
+    Sheet
+        The figure with empty axes.
     """
     columns = max(1, min(columns, count))
     rows = -(-count // columns)
@@ -273,19 +331,37 @@ def sheet(
 
 
 def beside(ax: Axes, handles: Sequence[Artist], labels: Sequence[str]) -> None:
-    """Put the legend right of an axes, where ``legend_room`` inches were kept for it."""
+    """Put a legend to the right of axes, where ``sheet`` kept the ``legend_room``.
+
+    Parameters
+    ----------
+    ax : Axes
+        Axes that the legend belongs to.
+    handles : sequence of Artist
+        Curves or markers.
+    labels : sequence of str
+        Names, as many as handles.
+    """
     ax.legend(
         handles, labels, loc="upper left", bbox_to_anchor=(1.01, 1.0), handlelength=2.6, borderaxespad=0.2
     )
 
 
 def legend_room(labels: Sequence[str]) -> float:
-    """Inches that a legend beside the axes needs for these labels."""
+    """Return the width in inches that a legend of these labels takes beside axes."""
     return 0.75 + 0.078 * max((len(label) for label in labels), default=0)
 
 
 def empty(ax: Axes, reason: str) -> None:
-    """Say in an axes why there is no picture."""
+    """Write into axes why they hold no picture.
+
+    Parameters
+    ----------
+    ax : Axes
+        Axes to draw in.
+    reason : str
+        Sentence to write.
+    """
     frame(ax)
     ax.text(
         0.5,

@@ -1,6 +1,6 @@
-"""Order of deep sets against the share of coordinates that their edge binds, and depth against order.
+"""Figure of the order of deep sets against the freedom that the band takes, and of depth against order.
 
-python -m gbnbench.reports.benchmarks.depth_order TABLE.csv PICTURE.png
+Run it as ``python -m gbnbench.reports.benchmarks.depth_order TABLE.csv PICTURE.png``.
 """
 
 from __future__ import annotations
@@ -40,7 +40,21 @@ CAPTION = (
 
 
 def means(table: pd.DataFrame, n: int, d: int) -> pd.DataFrame:
-    """Mean, least and most over the converged seeds of each point of the map at one n and d."""
+    """Summarise the converged seeds of each setting by their mean, least and greatest value.
+
+    Parameters
+    ----------
+    table : DataFrame
+        Rows of ``depth_order.csv``, one for each setting and seed.
+    n, d : int
+        Number of points and dimension of the rows that are used.
+
+    Returns
+    -------
+    DataFrame
+        One row for each generator, steepness, edge, number of gradients and chi. Each measure has a
+        column of its mean, and columns ending in ``_min`` and ``_max``.
+    """
     part = table[(table.n == n) & (table.d == d) & table.converged.astype(str).eq("True")]
     keys = ["generator", "c_pi2", "edge", "gradients", "chi"]
     names = [*(name for name, *_ in ORDER), "noise_floor"]
@@ -57,8 +71,16 @@ def figure(table: pd.DataFrame, n: int = 1024, d: int = 2, start: int = 100) -> 
     ----------
     table : DataFrame
         Columns of ``gbnbench.benchmarks.experiments.depth_order_row.COLUMNS``.
-    n, d, start : int
-        Which points, dimension and length of start of the table are drawn.
+    n, d : int
+        Number of points and dimension of the rows that are drawn.
+    start : int
+        Gradients of Gaussian Blue Noise that the drawn sets started from.
+
+    Returns
+    -------
+    Figure
+        One panel for each measure of order against chi, and a last one of the noise floor against
+        order.
     """
     found = means(table, n, d)
     deep, gbn = found[found.generator == "deep"], found[found.generator == "gbn"].sort_values("gradients")

@@ -1,4 +1,4 @@
-"""Noise floor against CPU time of the optimisers, and what a cut-off costs, from the saved tables."""
+"""Figure of the noise floor against the CPU time of each optimiser, and of the cost of cut-offs."""
 
 from __future__ import annotations
 
@@ -55,6 +55,11 @@ def figure(floors: pd.DataFrame, forces: pd.DataFrame, machine: Mapping[str, Any
         Columns of ``gbnbench.benchmarks.gbn.cutoffs.FORCES``.
     machine : mapping
         The record ``machine.json``.
+
+    Returns
+    -------
+    Figure
+        Noise floor against CPU time, one panel for each case, and panels of the cut-offs.
     """
     whole, cut = floors[floors.kernel == "whole"], floors[floors.kernel != "whole"]
     panels: list[tuple[str, Any, pd.DataFrame]] = [

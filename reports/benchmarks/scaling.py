@@ -1,4 +1,4 @@
-"""How a spectrum's cost grows with points, frequencies, dimension and sets, from the benchmark's table."""
+"""Figure of the cost of a spectrum as points, frequencies, dimensions and sets grow."""
 
 from __future__ import annotations
 
@@ -42,6 +42,11 @@ def figure(scaling: pd.DataFrame, machine: Mapping[str, Any]) -> Figure:
         Columns of ``gbnbench.benchmarks.spectra.speed_error.SCALING``.
     machine : mapping
         The record ``machine.json``.
+
+    Returns
+    -------
+    Figure
+        CPU time, and below it the share of peak speed, one column for each quantity that is varied.
     """
     sweeps = list(dict.fromkeys(scaling.sweep))
     sheet = style.sheet(

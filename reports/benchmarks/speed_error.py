@@ -1,4 +1,4 @@
-"""Time against error of every way to a power spectrum, a panel a case, from the benchmark's saved table."""
+"""Figure of time against error for every method of computing a power spectrum, one panel for each case."""
 
 from __future__ import annotations
 
@@ -46,6 +46,11 @@ def figure(speed: pd.DataFrame, machine: Mapping[str, Any]) -> Figure:
         Columns of ``gbnbench.benchmarks.spectra.speed_error.SPEED``.
     machine : mapping
         The record ``machine.json``: processor, device, versions.
+
+    Returns
+    -------
+    Figure
+        CPU time against error, one panel for each case.
     """
     cases = list(dict.fromkeys(speed.case))
     drawn = speed[speed.error_rms.notna()]
@@ -161,7 +166,7 @@ def _handle(family: str) -> Line2D:
 
 
 def machine_line(machine: Mapping[str, Any]) -> str:
-    """Where it was measured, in one line."""
+    """Describe the machine of a benchmark in one line."""
     versions = machine.get("versions", {})
     parts = [f"{machine.get('processor', 'unknown processor')}, {machine.get('cores', '?')} cores"]
     parts.append(str(machine.get("device", "unknown device")))

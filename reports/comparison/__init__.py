@@ -1,1 +1,1 @@
-"""Pictures and tables of a comparison: one module each."""
+"""Figures and tables of a comparison, one module for each kind."""

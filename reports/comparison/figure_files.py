@@ -1,4 +1,4 @@
-"""Writes every figure of a run as PNG and PDF, each whole or not at all."""
+"""Every figure of a run as PNG and PDF files, each written whole or not at all."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from gbnbench.runs.comparison_result import Run, SourceResult
 
 
 class Kind(NamedTuple):
-    """A figure by name: how it is drawn, and what a source needs to be in it."""
+    """A kind of figure: the function that draws it, and the condition on a source to appear in it."""
 
     draw: Callable[[Run, style.Group | None], Figure]
     needs: Callable[[SourceResult], bool]
@@ -51,7 +51,20 @@ FIGURES: dict[str, Kind] = {
 
 @style.styled
 def png(figure: Figure, dpi: float = style.DPI) -> bytes:
-    """Return the figure as PNG: the same bytes for the same figure, no date within."""
+    """Render a figure as PNG, without a date, so that equal figures give equal bytes.
+
+    Parameters
+    ----------
+    figure : Figure
+        Figure to render.
+    dpi : float
+        Pixels an inch.
+
+    Returns
+    -------
+    bytes
+        Content of the file.
+    """
     stream = io.BytesIO()
     FigureCanvasAgg(figure)
     figure.savefig(
@@ -62,14 +75,14 @@ def png(figure: Figure, dpi: float = style.DPI) -> bytes:
 
 @style.styled
 def pdf(figure: Figure) -> bytes:
-    """Return the figure as PDF: the same bytes for the same figure, no date within."""
+    """Render a figure as PDF, without a date, so that equal figures give equal bytes."""
     stream = io.BytesIO()
     figure.savefig(stream, format="pdf", dpi=200, metadata={"CreationDate": None, "Producer": None})
     return stream.getvalue()
 
 
 def planned(run: Run) -> list[tuple[str, Callable[[Run, style.Group | None], Figure], style.Group | None]]:
-    """File stem, drawing function and (n, d) of every figure of a run; stems say n and d where several."""
+    """List the figures of a run as (file stem, drawing function, (n, d)); stems tell several (n, d) apart."""
     every = style.groups(run)
     plan: list[tuple[str, Callable[[Run, style.Group | None], Figure], style.Group | None]] = []
     for group in every:
@@ -83,20 +96,20 @@ def planned(run: Run) -> list[tuple[str, Callable[[Run, style.Group | None], Fig
 
 
 def write_figures(run: Run, folder: str | Path) -> list[Path]:
-    """Draw every figure the run has data for.
+    """Draw every figure that the run has data for.
 
     Parameters
     ----------
     run : Run
-        Drawn as it is: nothing is measured again.
+        The comparison. Nothing in it is measured again.
     folder : path
-        Made where it is not there; files of the same names are replaced, each at once.
+        Folder of the files, made where missing. Files of the same names are replaced.
 
     Returns
     -------
     list of Path
-        ``gallery.png``, ``gallery.pdf`` and so on; with several (n, d) in the run the names end in
-        ``_n1024_d2``, and ``sweep`` shows the measures against n.
+        ``gallery.png``, ``gallery.pdf`` and so on. In a run of several sizes or dimensions the names end in
+        ``_n1024_d2``, and the figure ``sweep`` shows the measures against n.
     """
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)

@@ -1,4 +1,4 @@
-"""All pictures side by side, a column a source (Ahmed, Ren & Wonka 2022, Fig. 8)."""
+"""Figure with all pictures of every source, one column for each source (Ahmed, Ren & Wonka 2022, Fig. 8)."""
 
 from __future__ import annotations
 
@@ -16,16 +16,30 @@ Draw = Callable[[Axes, SourceResult], None]
 
 
 def rows(run: Run, sources: Sequence[SourceResult]) -> list[tuple[str, float, Draw]]:
-    """Name, height over width, and drawing function of each row these sources can fill."""
-    given = style.strokes(run)
+    """List the rows of the gallery that these sources have data for.
+
+    Parameters
+    ----------
+    run : Run
+        The comparison.
+    sources : sequence of SourceResult
+        Columns of the gallery, which share the scales of their axes.
+
+    Returns
+    -------
+    list of (str, float, callable)
+        Title of each row, height of its panels over their width, and the function that draws a source
+        into axes.
+    """
+    strokes = style.strokes(run)
     scale = spectrum.norm(sources)
     top, limits = radial.power_limit(sources), radial.decibel_limits(sources)
     flat = any(source.d == 2 for source in sources)
     found: list[tuple[str, float, Draw]] = [
         ("points", 1.0, points.panel),
         ("spectrum", 1.0, lambda ax, s: spectrum.panel(ax, s, scale, ticks=False)),
-        ("radial power", 0.55, lambda ax, s: radial.power_panel(ax, s, given[s.key], top)),
-        ("anisotropy\n(dB)", 0.32, lambda ax, s: radial.anisotropy_panel(ax, s, given[s.key], limits)),
+        ("radial power", 0.55, lambda ax, s: radial.power_panel(ax, s, strokes[s.key], top)),
+        ("anisotropy\n(dB)", 0.32, lambda ax, s: radial.anisotropy_panel(ax, s, strokes[s.key], limits)),
     ]
     if any(source.zone_plate is not None for source in sources):
         found.append(("zone plate", 1.0, zone_plate.panel))
@@ -38,7 +52,20 @@ def rows(run: Run, sources: Sequence[SourceResult]) -> list[tuple[str, float, Dr
 
 @style.styled
 def figure(run: Run, group: style.Group | None = None) -> Figure:
-    """Points, spectrum, radial power with anisotropy, zone plate and valence of every source."""
+    """Draw points, spectrum, radial power, anisotropy, zone plate and valence of every source.
+
+    Parameters
+    ----------
+    run : Run
+        The comparison.
+    group : (n, d), optional
+        Draw only the sources of this size and dimension; all sources where not given.
+
+    Returns
+    -------
+    Figure
+        One column for each source.
+    """
     sources = style.members(run, group)
     lines = rows(run, sources)
     names = [name for name, _, _ in lines]

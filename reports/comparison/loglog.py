@@ -1,4 +1,4 @@
-"""Radial power of all sources laid over one another in log-log scale (Ahmed, Ren & Wonka 2022, Fig. 1(g))."""
+"""Figure with the radial power of all sources in one log-log plot (Ahmed, Ren & Wonka 2022, Fig. 1(g))."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ ZERO = {"double": 1e-27, "float": 1e-12}
 
 
 def guide(sources: list[SourceResult]) -> tuple[float, float] | None:
-    """Epsilon of the deepest source whose c is near 4 pi^2, and the nu where its guide reaches 1."""
+    """Return epsilon of the deepest source with a fitted c near 4 pi^2, and the nu where its guide is 1."""
     measured = [s.measures.measured for s in sources]
     near = [m for m in measured if abs(m.get("profile_c", math.nan) / (4 * math.pi**2) - 1) <= NEAR]
     fits = [m.get("profile_epsilon", math.nan) for m in near]
@@ -32,9 +32,22 @@ def guide(sources: list[SourceResult]) -> tuple[float, float] | None:
 
 @style.styled
 def figure(run: Run, group: style.Group | None = None) -> Figure:
-    """Every exact shell of every source; shells that are zero to rounding stand as triangles on the floor."""
+    """Draw the power of every exact shell of every source.
+
+    Parameters
+    ----------
+    run : Run
+        The comparison.
+    group : (n, d), optional
+        Draw only the sources of this size and dimension; all sources where not given.
+
+    Returns
+    -------
+    Figure
+        One plot of all sources. Shells whose power is zero to rounding stand as triangles on its floor.
+    """
     sources = style.members(run, group)
-    given = style.strokes(run)
+    strokes = style.strokes(run)
     gone = [_zero(source) for source in sources]
     powers = [np.where(zero, np.nan, s.radial.power) for s, zero in zip(sources, gone, strict=True)]
     finite = np.concatenate([p[np.isfinite(p)] for p in powers] or [np.empty(0)])
@@ -62,7 +75,7 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
     ax = sheet.cells[0][0]
     handles = []
     for source, power, zero in zip(sources, powers, gone, strict=True):
-        nu, stroke = source.radial.nu, given[source.key]
+        nu, stroke = source.radial.nu, strokes[source.key]
         few = len(nu) < 40
         (line,) = ax.plot(
             nu,

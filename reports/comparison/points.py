@@ -1,4 +1,4 @@
-"""The points themselves: the first realization in the unit square, x to the right and y up."""
+"""Figure of the points of each source: the first realization in the unit square, x to the right and y up."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ VECTOR = 4096  # a PDF holds so many points as vectors, more as a picture
 
 
 def window(source: SourceResult) -> float:
-    """Side of the corner square that a picture of the points shows: 1, or less for very large 2D sets."""
+    """Return the side of the corner square that a picture shows, below 1 for very large plane sets."""
     return 1.0 if source.n <= MOST or source.d > 2 else math.sqrt(4096 / source.n)
 
 
 def note(source: SourceResult) -> str:
-    """Say what the panel of this source shows other than the whole set; empty for an ordinary 2D set."""
+    """Say what part of the set the panel shows; empty where it shows a whole plane set."""
     if source.d == 1:
         return "Points on a line."
     if source.d > 2:
@@ -31,7 +31,15 @@ def note(source: SourceResult) -> str:
 
 
 def panel(ax: Axes, source: SourceResult) -> None:
-    """Draw the first realization: a rug in 1D, the first two coordinates in higher dimensions."""
+    """Draw the first realization: ticks on a line in 1D, the first two coordinates in higher dimensions.
+
+    Parameters
+    ----------
+    ax : Axes
+        Axes to draw in.
+    source : SourceResult
+        Source to draw.
+    """
     style.frame(ax)
     x = source.points[0]
     side = window(source)
@@ -52,7 +60,20 @@ def panel(ax: Axes, source: SourceResult) -> None:
 
 @style.styled
 def figure(run: Run, group: style.Group | None = None) -> Figure:
-    """Scatter of every source, the first realization of each."""
+    """Draw the first realization of every source.
+
+    Parameters
+    ----------
+    run : Run
+        The comparison.
+    group : (n, d), optional
+        Draw only the sources of this size and dimension; all sources where not given.
+
+    Returns
+    -------
+    Figure
+        One panel for each source.
+    """
     sources = style.members(run, group)
     notes = " ".join(dict.fromkeys(filter(None, map(note, sources))))
     caption = f"First realization of each source in the unit square, x right, y up. {notes} ".replace(

@@ -1,4 +1,4 @@
-"""Radial power over exact shells with the anisotropy of its rings under it, against nu."""
+"""Figure of the radial power over exact shells, and below it the anisotropy of the rings, against nu."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ FEW = 40  # with fewer shells than this each one gets a dot
 
 
 def power_limit(sources: Sequence[SourceResult]) -> float:
-    """Top of the power axis shared by all sources."""
+    """Return the upper end of the power axis that all sources share."""
     tops = [float(np.nanmax(s.radial.power)) for s in sources if np.isfinite(s.radial.power).any()]
     return min(CAP, max([2.0, *(1.12 * top for top in tops)]))
 
 
 def decibel_limits(sources: Sequence[SourceResult]) -> tuple[float, float]:
-    """Range of the anisotropy axis shared by all sources, whole steps of 5 dB."""
+    """Return the range of the anisotropy axis that all sources share, in whole steps of 5 dB."""
     values = [-10 * math.log10(max(s.realizations, 1)) for s in sources]
     for source in sources:
         decibel = source.anisotropy["anisotropy_db"].to_numpy(dtype=float)
@@ -34,7 +34,19 @@ def decibel_limits(sources: Sequence[SourceResult]) -> tuple[float, float]:
 
 
 def power_panel(ax: Axes, source: SourceResult, stroke: style.Stroke, top: float) -> None:
-    """Radial power, one value a shell, with the white-noise line at 1."""
+    """Draw the radial power, one value for each shell, with the line of white noise at 1.
+
+    Parameters
+    ----------
+    ax : Axes
+        Axes to draw in.
+    source : SourceResult
+        Source to draw.
+    stroke : Stroke
+        Colour and dash of the curve.
+    top : float
+        Upper end of the power axis, as ``power_limit`` gives it.
+    """
     nu, power = source.radial.nu, source.radial.power
     ax.axhline(1, color=style.RULE, linewidth=0.8, zorder=0)
     marker = "o" if len(nu) < FEW else ""
@@ -68,7 +80,19 @@ def power_panel(ax: Axes, source: SourceResult, stroke: style.Stroke, top: float
 def anisotropy_panel(
     ax: Axes, source: SourceResult, stroke: style.Stroke, limits: tuple[float, float]
 ) -> None:
-    """Anisotropy of the rings in dB, with the line that isotropic noise over M realizations would give."""
+    """Draw the anisotropy of the rings, with the line of isotropic noise over as many realizations.
+
+    Parameters
+    ----------
+    ax : Axes
+        Axes to draw in.
+    source : SourceResult
+        Source to draw.
+    stroke : Stroke
+        Colour and dash of the curve.
+    limits : (float, float)
+        Range of the axis in dB, as ``decibel_limits`` gives it.
+    """
     reference = -10 * math.log10(max(source.realizations, 1))
     table = source.anisotropy
     nu = table["nu"].to_numpy(dtype=float)
@@ -95,9 +119,22 @@ def anisotropy_panel(
 
 @style.styled
 def figure(run: Run, group: style.Group | None = None) -> Figure:
-    """Radial power over anisotropy, a pair of axes a source, the same scales for all."""
+    """Draw radial power above anisotropy for every source, on shared scales.
+
+    Parameters
+    ----------
+    run : Run
+        The comparison.
+    group : (n, d), optional
+        Draw only the sources of this size and dimension; all sources where not given.
+
+    Returns
+    -------
+    Figure
+        One pair of axes for each source.
+    """
     sources = style.members(run, group)
-    given = style.strokes(run)
+    strokes = style.strokes(run)
     top, limits = power_limit(sources), decibel_limits(sources)
     caption = (
         "Above: mean power over each exact shell |f|, DC excluded; the line at 1 is white noise. Below: "
@@ -117,8 +154,8 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
         under=0.42,
     )
     for (power, anisotropy), first, source in zip(sheet.cells, sheet.first, sources, strict=True):
-        power_panel(power, source, given[source.key], top)
-        anisotropy_panel(anisotropy, source, given[source.key], limits)
+        power_panel(power, source, strokes[source.key], top)
+        anisotropy_panel(anisotropy, source, strokes[source.key], limits)
         power.set_title(style.name(source, run, 34), loc="left")
         power.tick_params(labelbottom=False, labelleft=first)
         anisotropy.tick_params(labelleft=first)

@@ -1,4 +1,4 @@
-"""Radial distribution functions: how often two points stand at each distance, white noise being 1."""
+"""Figure of radial distribution functions, the density of pairs at each distance over that of white noise."""
 
 from __future__ import annotations
 
@@ -16,8 +16,21 @@ REACH = 5.0  # in densest spacings; beyond it every curve lies on 1
 
 @style.styled
 def figure(run: Run, group: style.Group | None = None) -> Figure:
-    """Radial distribution function of every source that has one, laid over one another."""
-    given = style.strokes(run)
+    """Draw the radial distribution function of every source that has one.
+
+    Parameters
+    ----------
+    run : Run
+        The comparison.
+    group : (n, d), optional
+        Draw only the sources of this size and dimension; all sources where not given.
+
+    Returns
+    -------
+    Figure
+        One plot of all these sources.
+    """
+    strokes = style.strokes(run)
     drawn = [(s, s.rdf) for s in style.members(run, group) if s.rdf is not None]
     labels = [style.name(source, run, 30) for source, _ in drawn]
     curves = [(t["r"].to_numpy(dtype=float), t["g"].to_numpy(dtype=float)) for _, t in drawn]
@@ -41,7 +54,7 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
     ax.axhline(1, color=style.RULE, linewidth=0.9, zorder=0)
     handles = []
     for (source, _), (r, g) in zip(drawn, curves, strict=True):
-        stroke = given[source.key]
+        stroke = strokes[source.key]
         handles += ax.plot(r, g, color=stroke.colour, linestyle=stroke.dash, linewidth=1.1)
     farthest = max((float(np.nanmax(r)) for r, _ in curves if len(r)), default=1.0)
     ax.set_xlim(0, min(REACH, farthest) if math.isfinite(farthest) and farthest > 0 else 1.0)

@@ -1,4 +1,4 @@
-"""One spectrum by itself: in 2D its picture, and always its radial power, log scale, over its anisotropy."""
+"""Figure of a single spectrum: its picture in 2D, its radial power in log scale and its anisotropy."""
 
 from __future__ import annotations
 
@@ -24,14 +24,19 @@ WIDTH, UPPER, LOWER, GAP = 3.3, 2.25, 0.95, 0.1  # inches
 
 @style.styled
 def figure(result: Spectrum | ShellSpectrum, label: str) -> Figure:
-    """Draw a whole or half cube, or shells.
+    """Draw the spectrum of points that belong to no comparison.
 
     Parameters
     ----------
     result : Spectrum or ShellSpectrum
-        Not of listed frequencies.
+        A whole or half cube of frequencies, or shells; not a list of frequencies.
     label : str
-        What the points are, for the title.
+        Name of the points, for the title.
+
+    Returns
+    -------
+    Figure
+        Radial power above anisotropy, and in 2D the spectrum beside them.
     """
     source = _source(result, label)
     run = Run({"device": result.device.split(" (")[0], "version": __version__}, (source,))

@@ -1,4 +1,4 @@
-"""Pictures of the power spectrum: log10 with a colour bar, and the grey tone map of PSA."""
+"""Figures of the power spectrum, in log10 with a colour bar and in the grey tones of PSA."""
 
 from __future__ import annotations
 
@@ -23,13 +23,14 @@ ROUNDING = 1e-24  # what double precision leaves of a lattice's exact zeros stay
 
 
 def plane(spectrum: Spectrum) -> FloatArray | None:
-    """Return the picture's power: frequency x on axis 0 and y on axis 1, nan where it was not evaluated.
+    """Return the power that a picture shows, with frequency x on axis 0 and y on axis 1.
 
     Returns
     -------
     (2*fmax+1, 2*fmax+1) float64 or None
-        The cube itself in 2D; the slice with all other frequencies 0 in higher dimensions; a single column,
-        (2*fmax+1, 1), in 1D; None where a list of frequencies has none in that plane.
+        The whole spectrum in 2D; in higher dimensions the slice where all other frequencies are 0; in 1D a
+        single column, (2*fmax+1, 1). Frequencies that were not evaluated are nan. None where a list of
+        frequencies has none in that plane.
     """
     f, d = spectrum.fmax, spectrum.d
     wide = (2 * f + 1, 2 * f + 1 if d > 1 else 1)
@@ -48,20 +49,20 @@ def plane(spectrum: Spectrum) -> FloatArray | None:
 
 
 def without_dc(image: FloatArray) -> FloatArray:
-    """Return the same picture with its centre, which holds n and not noise, left out as nan."""
+    """Return a copy of a picture with nan in its centre, whose value n is no noise."""
     clear = image.copy()
     clear[image.shape[0] // 2, image.shape[1] // 2] = np.nan
     return clear
 
 
 def tone_map(power: FloatArray) -> FloatArray:
-    """PSA's grey: clamp(log2(1 + sqrt(P) / 4)) in [0, 1], white from P = 16 (Schlömer & Deussen 2011)."""
+    """Return PSA's grey, log2(1 + sqrt(P) / 4) in [0, 1], white from P = 16 (Schlömer & Deussen 2011)."""
     grey: FloatArray = np.clip(np.log2(1 + 0.25 * np.sqrt(np.maximum(power, 0.0))), 0.0, 1.0)
     return grey
 
 
 def norm(sources: Sequence[SourceResult]) -> LogNorm:
-    """One log10 scale for all sources: up to 10, down to a decade under the smallest power in any picture."""
+    """Return the log10 scale of all sources, from a decade below their smallest power to 10."""
     lowest = math.inf
     for source in sources:
         image = plane(source.spectrum)
@@ -74,19 +75,31 @@ def norm(sources: Sequence[SourceResult]) -> LogNorm:
 
 
 def palette() -> Colormap:
-    """Dark is quiet; where the spectrum was not evaluated, and at DC, it is grey."""
+    """Return the colour map of power: dark where it is low, grey at DC and where it was not evaluated."""
     return colormaps["magma"].with_extremes(bad="#9aa3af")
 
 
 def note(source: SourceResult) -> str:
-    """Say what the picture shows other than the whole spectrum; empty in 2D."""
+    """Say what part of the spectrum the picture shows; empty in 2D, where it shows the whole."""
     if source.d == 1:
         return "1D: every row is the same."
     return "" if source.d == 2 else f"Slice of the first two of {source.d} frequencies, the others 0."
 
 
 def panel(ax: Axes, source: SourceResult, scale: LogNorm | None, *, ticks: bool = True) -> None:
-    """Draw one spectrum, log10 with the given scale, or in PSA's grey for None; axes in nu."""
+    """Draw the spectrum of one source, on axes in nu.
+
+    Parameters
+    ----------
+    ax : Axes
+        Axes to draw in.
+    source : SourceResult
+        Source to draw.
+    scale : LogNorm or None
+        Scale of log10 power; None draws PSA's grey tones.
+    ticks : bool
+        Label the axes.
+    """
     image = plane(source.spectrum)
     if image is None:
         style.empty(ax, "no frequency of the plane was evaluated")
@@ -111,7 +124,20 @@ def panel(ax: Axes, source: SourceResult, scale: LogNorm | None, *, ticks: bool 
 
 @style.styled
 def figure(run: Run, group: style.Group | None = None) -> Figure:
-    """Log10 of power over the grey picture that PSA shows, every source on the same scales."""
+    """Draw log10 of the power above the grey picture of PSA for every source, on shared scales.
+
+    Parameters
+    ----------
+    run : Run
+        The comparison.
+    group : (n, d), optional
+        Draw only the sources of this size and dimension; all sources where not given.
+
+    Returns
+    -------
+    Figure
+        One pair of pictures for each source.
+    """
     sources = style.members(run, group)
     scale = norm(sources)
     notes = " ".join(dict.fromkeys(filter(None, map(note, sources))))
@@ -144,7 +170,15 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
 
 
 def add_colour_bar(sheet: style.Sheet, scale: LogNorm) -> None:
-    """Draw a horizontal bar for log10 power in the key strip above the caption."""
+    """Draw a horizontal bar of log10 power between the cells and the caption.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        Figure whose layout kept room for a key.
+    scale : LogNorm
+        Scale of the pictures.
+    """
     width, height = sheet.figure.get_size_inches()
     bar = sheet.figure.add_axes(
         (0.35 / width, (sheet.foot + 0.36) / height, min(3.0, width - 0.8) / width, 0.1 / height)

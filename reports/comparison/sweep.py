@@ -1,4 +1,4 @@
-"""Measures against the number of points, for a run that has several n."""
+"""Figure of the measures against the number of points, for a run of several sizes."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ MEASURES = (
 
 
 def several(run: Run) -> bool:
-    """Whether some source was measured at more than one n."""
+    """Return whether some source was measured at more than one n."""
     return any(len({s.n for s in line}) > 1 for line in lines(run).values())
 
 
 def lines(run: Run) -> dict[tuple[str, int], list[SourceResult]]:
-    """Group the sources of one label and d by ascending n: what one curve joins."""
+    """Group the sources of equal label and dimension by ascending n: the curves of the plot."""
     joined: dict[tuple[str, int], list[SourceResult]] = {}
     for source in run.sources:
         joined.setdefault((source.label, source.d), []).append(source)
@@ -40,7 +40,20 @@ def lines(run: Run) -> dict[tuple[str, int], list[SourceResult]]:
 
 
 def value(source: SourceResult, measure: str) -> tuple[float, float]:
-    """Return a measure and its standard error, nan where there is none."""
+    """Return a measure of a source with its standard error.
+
+    Parameters
+    ----------
+    source : SourceResult
+        Source that was measured.
+    measure : str
+        Name of a measure, or ``cpu_seconds``.
+
+    Returns
+    -------
+    (float, float)
+        Value and standard error; nan where undefined.
+    """
     if measure == "cpu_seconds":
         return source.cpu_seconds, math.nan
     got = source.measures
@@ -48,8 +61,20 @@ def value(source: SourceResult, measure: str) -> tuple[float, float]:
 
 
 def panel(ax: Axes, run: Run, measure: str, logarithmic: bool) -> None:
-    """One measure against n, a curve a source, bars of one standard error."""
-    given = style.strokes(run)
+    """Draw one measure against n, with a curve for each source and bars of one standard error.
+
+    Parameters
+    ----------
+    ax : Axes
+        Axes to draw in.
+    run : Run
+        The comparison.
+    measure : str
+        Name of a measure, or ``cpu_seconds``.
+    logarithmic : bool
+        Draw the measure in log scale, without values of 0 or below.
+    """
+    strokes = style.strokes(run)
     if logarithmic:
         ax.set_yscale("log")
     drawn = False
@@ -61,7 +86,7 @@ def panel(ax: Axes, run: Run, measure: str, logarithmic: bool) -> None:
             y = np.where(y > 0, y, np.nan)
         error = np.where(np.isfinite(error), error, 0.0)
         below = np.minimum(error, 0.9 * y) if logarithmic else error  # keeps the bar on the log axis
-        stroke = given[line[0].key]
+        stroke = strokes[line[0].key]
         if np.isfinite(y).any():
             drawn = True
             ax.errorbar(
@@ -89,7 +114,20 @@ def panel(ax: Axes, run: Run, measure: str, logarithmic: bool) -> None:
 
 @style.styled
 def figure(run: Run, group: style.Group | None = None) -> Figure:  # noqa: ARG001 - every figure is called alike
-    """Noise floor and other measures against n; the whole run, whatever the group."""
+    """Draw the noise floor and other measures against n.
+
+    Parameters
+    ----------
+    run : Run
+        The comparison.
+    group : (n, d), optional
+        Not used: the figure shows the whole run. All figures are called with it.
+
+    Returns
+    -------
+    Figure
+        One panel for each measure.
+    """
     joined = lines(run)
     many = len({d for _, d in joined}) > 1
     labels = [style.shown(label, 30) + (f" (d={d})" if many else "") for label, d in joined]
@@ -106,7 +144,7 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:  # noqa: ARG00
         under=0.45,
         right=style.legend_room(labels),
     )
-    given = style.strokes(run)
+    strokes = style.strokes(run)
     for (ax,), (measure, logarithmic) in zip(sheet.cells, MEASURES, strict=True):
         panel(ax, run, measure, logarithmic)
         definition = BY_NAME.get(measure)
@@ -119,8 +157,8 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:  # noqa: ARG00
         corner.plot(
             [],
             [],
-            color=given[line[0].key].colour,
-            linestyle=given[line[0].key].dash,
+            color=strokes[line[0].key].colour,
+            linestyle=strokes[line[0].key].dash,
             marker="o",
             markersize=3,
         )[0]

@@ -1,4 +1,4 @@
-"""The measures as a table: a row a source, the best of each column marked, for terminals and Markdown."""
+"""Table of the measures, with a row for each source and the best of each column marked."""
 
 from __future__ import annotations
 
@@ -94,7 +94,7 @@ def rows(run: Run, group: Group | None = None) -> list[Row]:
     -------
     list of Row
     """
-    made: list[Row] = []
+    filled: list[Row] = []
     for source in members(run, group):
         cells = {}
         for column in COLUMNS:
@@ -110,8 +110,8 @@ def rows(run: Run, group: Group | None = None) -> list[Row]:
             cells[name] = Cell(
                 value, error, number(value), error_number(value, error), False, verdict, reason
             )
-        made.append(Row(source, cells))
-    best = {(place, column.name): _best(made, place, column) for place in groups(run) for column in COLUMNS}
+        filled.append(Row(source, cells))
+    best = {(place, column.name): _best(filled, place, column) for place in groups(run) for column in COLUMNS}
     return [
         Row(
             row.source,
@@ -120,13 +120,13 @@ def rows(run: Run, group: Group | None = None) -> list[Row]:
                 for name, cell in row.cells.items()
             },
         )
-        for row in made
+        for row in filled
     ]
 
 
-def _best(made: Sequence[Row], place: Group, column: Definition) -> set[str]:
+def _best(filled: Sequence[Row], place: Group, column: Definition) -> set[str]:
     """Text of the best value of a column among the sources of one n and d; empty where there is none."""
-    there = [row for row in made if (row.source.n, row.source.d) == place]
+    there = [row for row in filled if (row.source.n, row.source.d) == place]
     found = {
         row.cells[column.name].text: comparable_value(
             column.name, row.cells[column.name].value, row.source.realizations
@@ -141,7 +141,20 @@ def _best(made: Sequence[Row], place: Group, column: Definition) -> set[str]:
 
 
 def row_label(source: SourceResult, run: Run) -> str:
-    """Say what the first column reads: the label on one line, with n and d where the run has several."""
+    """Return the text of the first column.
+
+    Parameters
+    ----------
+    source : SourceResult
+        Source of the row.
+    run : Run
+        The comparison.
+
+    Returns
+    -------
+    str
+        Label of the source in one line, with n and d where the run has several.
+    """
     every = groups(run)
     marks = [f"n={source.n}"] if len({n for n, _ in every}) > 1 else []
     marks += [f"d={source.d}"] if len({d for _, d in every}) > 1 else []
@@ -150,20 +163,21 @@ def row_label(source: SourceResult, run: Run) -> str:
 
 
 def terminal_table(run: Run, width: int | None = None) -> Table:
-    """Lay out the table for a terminal, as much of it as stands there unbroken.
+    """Return the table for a terminal, with as many columns as fit into a line.
 
     Parameters
     ----------
     run : Run
         The comparison.
     width : int, optional
-        Characters in a line; that of this terminal where not given.
+        Characters in a line; the width of this terminal where not given.
 
     Returns
     -------
     rich.table.Table
-        One row a source. All measures with standard errors where they fit, else all without, else the
-        headline ones; the caption says what is left out. ``*`` marks the best of a column.
+        One row for each source. It shows all measures with standard errors where they fit, otherwise without,
+        and otherwise the main ones alone; the caption says what is left out. ``*`` marks the best of a
+        column.
     """
     width = width or shutil.get_terminal_size((100, 24)).columns
     table_rows = rows(run)
@@ -206,7 +220,22 @@ def terminal_table(run: Run, width: int | None = None) -> Table:
 
 
 def terminal_text(run: Run, width: int | None = None, *, colour: bool = False) -> str:
-    """``terminal_table`` as text, for printing."""
+    """Return ``terminal_table`` as text.
+
+    Parameters
+    ----------
+    run : Run
+        The comparison.
+    width : int, optional
+        Characters in a line; the width of this terminal where not given.
+    colour : bool
+        Include the escape codes of terminal colours.
+
+    Returns
+    -------
+    str
+        Lines without trailing blanks.
+    """
     width = width or shutil.get_terminal_size((100, 24)).columns
     console = Console(
         file=io.StringIO(), width=width, force_terminal=colour, color_system="standard" if colour else None
@@ -217,16 +246,21 @@ def terminal_text(run: Run, width: int | None = None, *, colour: bool = False) -
 
 
 def markdown_table(run: Run, columns: Sequence[str] | None = None, *, errors: bool = False) -> str:
-    """Write the table in Markdown, the best of each column in bold.
+    """Return the table in Markdown, with the best of each column in bold.
 
     Parameters
     ----------
     run : Run
         The comparison.
     columns : sequence of str, optional
-        Names of measures, or ``cpu_seconds``; all where not given.
+        Names of measures, or ``cpu_seconds``; all columns where not given.
     errors : bool
         Show standard errors.
+
+    Returns
+    -------
+    str
+        Lines of the table.
     """
     chosen = [_by_name(name) for name in columns] if columns is not None else list(COLUMNS)
     lines = ["| " + " | ".join(["source", *(_markdown(column.title) for column in chosen)]) + " |"]

@@ -24,7 +24,7 @@ DEGREE_NAMES = {4: "4 or fewer", 5: "5", 6: "6", 7: "7", 8: "8 or more"}
 
 
 def colour(degree: int) -> str:
-    """Colour of a degree; fewer than 4 and more than 8 share the ends."""
+    """Return the colour of a number of neighbours; below 4 and above 8 take the colours of 4 and 8."""
     return DEGREE_COLOURS[min(max(degree, 4), 8)]
 
 

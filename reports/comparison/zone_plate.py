@@ -1,4 +1,4 @@
-"""Zone plates: what a set makes of a pattern whose frequency grows with the radius."""
+"""Figure of zone plates: a chirp sampled at the points and rebuilt by a filter."""
 
 from __future__ import annotations
 
@@ -10,7 +10,17 @@ from gbnbench.runs.comparison_result import Run, SourceResult
 
 
 def panel(ax: Axes, source: SourceResult, *, exact: bool = False) -> None:
-    """Draw the picture, or say that there is none; exact: pixel for pixel, where the axes are that large."""
+    """Draw the zone plate of a source, or say that there is none.
+
+    Parameters
+    ----------
+    ax : Axes
+        Axes to draw in.
+    source : SourceResult
+        Source to draw.
+    exact : bool
+        Draw pixel for pixel, for axes of at least that many pixels.
+    """
     if source.zone_plate is None:
         style.empty(ax, "a zone plate needs d = 2")
         return
@@ -28,7 +38,20 @@ def panel(ax: Axes, source: SourceResult, *, exact: bool = False) -> None:
 
 @style.styled
 def figure(run: Run, group: style.Group | None = None) -> Figure:
-    """Zone plate of every source's first realization, one pattern, filter and grey scale for all."""
+    """Draw the zone plate of the first realization of every source, with one pattern, filter and grey scale.
+
+    Parameters
+    ----------
+    run : Run
+        The comparison.
+    group : (n, d), optional
+        Draw only the sources of this size and dimension; all sources where not given.
+
+    Returns
+    -------
+    Figure
+        One panel for each source.
+    """
     sources = style.members(run, group)
     pixels = max((len(s.zone_plate) for s in sources if s.zone_plate is not None), default=0)
     side = min(max(pixels / style.DPI, 2.6), 4.2)  # about a pixel of the plate to one of the PNG

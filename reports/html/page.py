@@ -1,31 +1,25 @@
-"""report.html: one self-contained page of a run, that opens offline, prints and is read without scripts."""
+"""Page ``report.html`` of a run: one self-contained file that opens offline, prints and needs no scripts."""
 
 from __future__ import annotations
 
-import base64
-import io
+import json
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from importlib import resources
 from pathlib import Path
-from string import Template
+from typing import Any
 
-import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.image import imsave
+from jinja2 import Environment, FunctionLoader, StrictUndefined
 
 from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.number_text import NOTHING
 from gbnbench.reports import style
 from gbnbench.reports.comparison import gallery, loglog, points, rdf, spectrum, sweep, table, valence
-from gbnbench.reports.comparison.figure_files import png
 from gbnbench.reports.html import notes
-from gbnbench.reports.html.notes import escaped
+from gbnbench.reports.html.pictures import colour_bar, figure_picture, gallery_panel
 from gbnbench.runs.comparison_result import Run, SourceResult
 
-PANEL = 2.5  # inches of a gallery picture, shown at 250 CSS pixels
-ROWS = {
+ALTERNATIVE_TEXTS = {  # of the pictures in each row of the gallery
     "points": "Points, first realization of {name}",
     "spectrum": "Power spectrum of {name}, log10, zero frequency in the middle",
     "radial power": "Radial power of {name} against nu",
@@ -34,6 +28,7 @@ ROWS = {
     "valence": "Voronoi cells of {name} coloured by number of Delaunay neighbours",
     "valence\n(%)": "Share of points of {name} with each number of Delaunay neighbours, percent",
 }
+GROUP_SECTIONS = (("table", "Measures"), ("gallery", "Side by side"), ("loglog", "Log-log"))
 
 
 def write_report(run: Run, path: str | Path) -> None:
@@ -42,33 +37,60 @@ def write_report(run: Run, path: str | Path) -> None:
     Parameters
     ----------
     run : Run
-        Drawn as it is: nothing is measured again.
+        The comparison. Nothing in it is measured again.
     path : path
-        Usually ``report.html`` in the run folder; an older page there is replaced at once.
+        Usually ``report.html`` in the run folder; an older page there is replaced.
     """
     write_whole(Path(path), page(run).encode("utf-8"))
 
 
 def page(run: Run) -> str:
     """Return the page as text; every label, path and setting in it is escaped."""
-    folder = resources.files("gbnbench.reports.html")
     every = style.groups(run)
-    parts = [_group_section(run, group, several=len(every) > 1) for group in every]
-    if sweep.several(run):
-        picture = _figure(sweep.figure(run), "Measures against the number of points, a curve a source")
-        parts.append(f'<section id="sweep"><h2>Against the number of points</h2>{picture}</section>')
-    return Template(folder.joinpath("report.html").read_text(encoding="utf-8")).substitute(
-        css=folder.joinpath("report.css").read_text(encoding="utf-8"),
-        title=escaped(_title(run)),
-        version=escaped(run.manifest.get("version", "")),
-        settings=escaped(style.settings(run)),
-        nav=_nav(every, sweep.several(run)),
-        warnings=_warnings(run),
-        sections="\n".join(parts),
-        undefined=notes.undefined(run),
-        definitions=notes.definitions(),
-        made=notes.made(run.manifest),
+    swept = sweep.several(run)
+    environment = _environment()
+    text = environment.get_template("report.html").render(
+        title=_title(run),
+        version=run.manifest.get("version", ""),
+        settings=style.settings(run),
+        links=_links(every, swept),
+        warnings=[(table.row_label(s, run), warning) for s in run.sources for warning in s.warnings],
+        skipped=[_sentence(source) for source in run.manifest.get("skipped") or []],
+        groups=[_group(run, group, several=len(every) > 1) for group in every],
+        compared=bool(run.verdicts),
+        sweep=figure_picture(sweep.figure(run), "Measures against the number of points, a curve a source")
+        if swept
+        else None,
+        undefined_values=notes.undefined_values(run),
+        provenance=notes.provenance(run.manifest),
+        manifest=json.dumps(run.manifest, indent=2, ensure_ascii=False, default=str),
+        colour_bar=colour_bar(),
     )
+    return text.encode("utf-8", "replace").decode("utf-8")  # odd file names hold lone surrogates
+
+
+def _environment() -> Environment:
+    folder = resources.files("gbnbench.reports.html")
+    environment = Environment(
+        loader=FunctionLoader(lambda name: folder.joinpath(name).read_text(encoding="utf-8")),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.globals.update(
+        columns=table.COLUMNS,
+        marks=table.MARKS,
+        nothing=NOTHING,
+        dashes=style.DASHES,
+        ceiling=f"{spectrum.CEILING:g}",
+        degree_colours=valence.DEGREE_COLOURS,
+        degree_names=valence.DEGREE_NAMES,
+    )
+    environment.tests["nan"] = math.isnan
+    environment.filters["script_number"] = _script_number
+    environment.filters["scaled_error"] = _scaled_error
+    return environment
 
 
 def _title(run: Run) -> str:
@@ -77,189 +99,83 @@ def _title(run: Run) -> str:
     return f"gbnbench: {few}" + (f" and {len(labels) - 4} more" if len(labels) > 4 else "")
 
 
-def _place(group: style.Group) -> str:
+def _anchor(group: style.Group) -> str:
     return f"n{group[0]}-d{group[1]}"
 
 
-def _nav(every: Sequence[style.Group], swept: bool) -> str:
+def _links(every: Sequence[style.Group], swept: bool) -> list[tuple[str, str]]:
+    """Anchor and title of each section."""
     links = []
     for n, d in every:
         mark = f" n={n}, d={d}" if len(every) > 1 else ""
-        for anchor, title in (("table", "Measures"), ("gallery", "Side by side"), ("loglog", "Log-log")):
-            links.append((f"{anchor}-{_place((n, d))}", title + mark))
+        links += [(f"{name}-{_anchor((n, d))}", title + mark) for name, title in GROUP_SECTIONS]
     links += [("sweep", "Against n")] if swept else []
-    links += [("undefined", "Undefined"), ("definitions", "Definitions"), ("made", "What made it")]
-    return "".join(f'<a href="#{anchor}">{title}</a>' for anchor, title in links)
-
-
-def _warnings(run: Run) -> str:
-    said = [(table.row_label(s, run), warning) for s in run.sources for warning in s.warnings]
-    skipped = run.manifest.get("skipped") or []
-    items = [f"<li><strong>{escaped(label)}</strong>: {escaped(warning)}</li>" for label, warning in said]
-    items += [f"<li>left out: {escaped(_sentence(item))}</li>" for item in skipped]
-    if not items:
-        return ""
-    heading = '<h2 id="warnings">Before you trust a row</h2>'
-    return f'<aside class="warnings" aria-labelledby="warnings">{heading}<ul>{"".join(items)}</ul></aside>'
+    return [*links, ("undefined", "Undefined"), ("definitions", "Definitions"), ("made", "What made it")]
 
 
 def _sentence(item: object) -> str:
     return ", ".join(f"{k}: {v}" for k, v in item.items()) if isinstance(item, Mapping) else str(item)
 
 
-def _group_section(run: Run, group: style.Group, several: bool) -> str:
-    place, sources = _place(group), style.members(run, group)
-    mark = f", n = {group[0]}, d = {group[1]}" if several else ""
-    single = any(s.realizations == 1 for s in sources)
-    told = "Under each value its standard error over realizations"
-    told += ", where there are several. " if single else ". "
-    told += (
-        "★ and green: the best of its column in the direction its head gives;"
-        " values that read the same tie. "
-        "– is undefined; point at it, or see below. Point at a head for its definition, press it to sort."
-    )
-    if run.verdicts:
-        told += " ▲ better and ▼ worse than the baseline, beyond three standard errors of the difference."
-    overlay = _figure(loglog.figure(run, group), "Log-log overlay of the radial power of all sources")
-    extra = ""
+def _group(run: Run, group: style.Group, several: bool) -> dict[str, Any]:
+    """Content of the sections of one (n, d)."""
+    sources = style.members(run, group)
+    overlay = figure_picture(loglog.figure(run, group), "Log-log overlay of the radial power of all sources")
+    pairs = None
     if any(source.rdf is not None for source in sources):
-        extra = _figure(rdf.figure(run, group), "Radial distribution functions of all sources")
-        extra = f'<section id="rdf-{place}"><h2>Radial distribution function{mark}</h2>{extra}</section>'
-    return (
-        f'<section id="table-{place}"><h2>Measures{mark}</h2><p class="soft">{told}</p>'
-        f"{_table(run, group)}</section>"
-        f'<section id="gallery-{place}"><h2>Side by side{mark}</h2>{_gallery(run, sources)}</section>'
-        f'<section id="loglog-{place}"><h2>Radial power, log-log{mark}</h2>'
-        "<p>Mean power over each exact shell |f|. Power laws are straight lines; Gaussian blue noise is flat "
-        f"and then curves up.</p>{overlay}</section>{extra}"
-    )
+        pairs = figure_picture(rdf.figure(run, group), "Radial distribution functions of all sources")
+    return {
+        "anchor": _anchor(group),
+        "mark": f", n = {group[0]}, d = {group[1]}" if several else "",
+        "single": any(source.realizations == 1 for source in sources),
+        "rows": _rows(run, group),
+        "gallery": _gallery(run, sources),
+        "loglog": overlay,
+        "rdf": pairs,
+    }
 
 
-def _table(run: Run, group: style.Group) -> str:
-    heads = ['<th scope="col"><button type="button">source</button></th>']
-    for column in table.COLUMNS:
-        arrow = "lower is better" if column.better == "lower" else "higher is better"
-        unit = f"&nbsp;[{escaped(column.unit)}]" if column.unit else ""
-        title = escaped(f"{column.text} {arrow.capitalize()}. Source: {column.source}.")
-        goal = "↓" if column.better == "lower" else "↑"
-        heads.append(
-            f'<th scope="col" title="{title}"><button type="button">{escaped(column.title)}</button>'
-            f'<span class="goal" aria-label="{arrow}">{goal}{unit}</span></th>'
+def _rows(run: Run, group: style.Group) -> list[dict[str, Any]]:
+    strokes = style.strokes(run)
+    return [
+        {
+            "label": table.row_label(row.source, run),
+            "stroke": strokes[row.source.key],
+            "cells": [row.cells[column.name] for column in table.COLUMNS],
+        }
+        for row in table.rows(run, group)
+    ]
+
+
+def _gallery(run: Run, sources: Sequence[SourceResult]) -> dict[str, Any]:
+    strokes = style.strokes(run)
+    lowest = float(spectrum.norm(sources).vmin or spectrum.LOWEST)
+    rows = [
+        (
+            name,
+            [
+                gallery_panel(name, ratio, draw, source, ALTERNATIVE_TEXTS[name].format(name=source.label))
+                for source in sources
+            ],
         )
-    given = style.strokes(run)
-    body = []
-    for order, row in enumerate(table.rows(run, group)):
-        label = escaped(table.row_label(row.source, run))
-        cells = "".join(map(_cell, (row.cells[column.name] for column in table.COLUMNS)))
-        swatch = _swatch(given[row.source.key])
-        body.append(
-            f'<tr data-order="{order}"><th scope="row" title="{label}">{swatch}{label}</th>{cells}</tr>'
-        )
-    return (
-        f'<div class="scroll" tabindex="0" role="region" aria-label="Table of measures">'
-        f'<table class="measures">'
-        f"<thead><tr>{''.join(heads)}</tr></thead><tbody>{''.join(body)}</tbody></table></div>"
-    )
+        for name, ratio, draw in gallery.rows(run, sources)
+    ]
+    remarks = [*map(points.note, sources), *map(spectrum.note, sources)]
+    return {
+        "heads": [(source.label, strokes[source.key]) for source in sources],
+        "rows": rows,
+        "notes": " ".join(dict.fromkeys(filter(None, remarks))),
+        "decades": f"{-math.log10(lowest):.0f}",
+        "plane": any(source.d == 2 for source in sources),
+    }
 
 
-def _cell(cell: table.Cell) -> str:
-    if math.isnan(cell.value):
-        reason = escaped(cell.reason or "undefined")
-        return f'<td data-value=""><abbr title="{reason}">{NOTHING}</abbr></td>'
-    kind = ' class="best"' if cell.best else ""
-    star = '<span aria-label="best"> ★</span>' if cell.best else ""
-    error = f'<span class="se">± {_exponent(cell)}</span>' if cell.error_text else ""
-    verdict = ""
-    if cell.verdict in table.MARKS:
-        verdict = f'<span class="{cell.verdict}">{table.MARKS[cell.verdict]} {cell.verdict}</span>'
-    value = f"{cell.value!r}" if math.isfinite(cell.value) else ("1e999" if cell.value > 0 else "-1e999")
-    return f'<td{kind} data-value="{value}">{_power(cell.text)}{star}{error}{verdict}</td>'
+def _script_number(value: float) -> str:
+    """Write a number so that the page's script reads it back."""
+    return f"{value!r}" if math.isfinite(value) else ("1e999" if value > 0 else "-1e999")
 
 
-def _power(text: str) -> str:
-    mantissa, mark, exponent = text.partition("e")
-    return f"{mantissa}·10<sup>{exponent.replace('-', '−')}</sup>" if mark else text.replace("-", "−")
-
-
-def _exponent(cell: table.Cell) -> str:
-    """Write the standard error with its value's power of ten."""
+def _scaled_error(cell: table.Cell) -> str:
+    """Write the standard error with the power of ten of its value."""
     _, mark, exponent = cell.text.partition("e")
-    return _power(f"{cell.error_text}e{exponent}") if mark else cell.error_text
-
-
-def _swatch(stroke: style.Stroke) -> str:
-    turn = style.DASHES.index(stroke.dash)
-    return f'<span class="swatch dash{turn}" style="border-color:{stroke.colour}"></span>'
-
-
-def _image(content: bytes, alt: str) -> str:
-    return (
-        f'<img alt="{escaped(alt)}" src="data:image/png;base64,{base64.b64encode(content).decode("ascii")}">'
-    )
-
-
-def _figure(figure: Figure, alt: str) -> str:
-    return f"<figure>{_image(png(figure), alt)}</figure>"
-
-
-@style.styled
-def _panel(
-    draw: Callable[[Axes, SourceResult], None], ratio: float, plain: bool, source: SourceResult
-) -> bytes:
-    """One gallery picture: to the edge where it has no axes, else with room for their ticks."""
-    room = 0.02 if plain else 0.27
-    under = 0.02 if plain and ratio == 1.0 else 0.2
-    height = PANEL * ratio if plain else PANEL * ratio + 0.1
-    figure = Figure(figsize=(PANEL, height))
-    ax = figure.add_axes(
-        (room / PANEL, under / height, (PANEL - room - 0.03) / PANEL, (height - under - 0.04) / height)
-    )
-    draw(ax, source)
-    return png(figure, dpi=160)
-
-
-def _gallery(run: Run, sources: Sequence[SourceResult]) -> str:
-    given = style.strokes(run)
-    heads = "".join(
-        f'<th scope="col" title="{escaped(s.label)}">{_swatch(given[s.key])}{escaped(s.label)}</th>'
-        for s in sources
-    )
-    body = []
-    lines = gallery.rows(run, sources)
-    for name, ratio, draw in lines:
-        plain = name not in ("radial power", "anisotropy\n(dB)")
-        cells = [
-            f"<td>{_image(_panel(draw, ratio, plain, s), ROWS[name].format(name=s.label))}</td>"
-            for s in sources
-        ]
-        body.append(f'<tr><th scope="row">{escaped(name)}</th>{"".join(cells)}</tr>')
-    said = [*map(points.note, sources), *map(spectrum.note, sources)]
-    told = " ".join(dict.fromkeys(filter(None, said)))
-    told = f'<p class="soft">{told}</p>' if told else ""
-    return (
-        f"{_keys(sources)}{told}"
-        f'<div class="scroll" tabindex="0" role="region" aria-label="Gallery, a column a source">'
-        f'<table class="gallery"><thead><tr><td></td>{heads}</tr></thead>'
-        f"<tbody>{''.join(body)}</tbody></table></div>"
-    )
-
-
-def _keys(sources: Sequence[SourceResult]) -> str:
-    """Say the colours of spectrum and valence in words."""
-    scale = spectrum.norm(sources)
-    stream = io.BytesIO()
-    imsave(stream, np.tile(np.linspace(0, 1, 256), (4, 1)), cmap=spectrum.palette(), format="png")
-    bar = _image(stream.getvalue(), "colour scale of the spectra, dark to bright")
-    low, high = (
-        f"10<sup>−{-math.log10(float(scale.vmin or spectrum.LOWEST)):.0f}</sup>",
-        f"{spectrum.CEILING:g}",
-    )
-    parts = [f"<span>power, log10: {low} {bar} {high}, DC left out</span>"]
-    if any(s.d == 2 for s in sources):
-        parts.append("<span>valence:</span>")
-        parts += [
-            f'<span><i style="background:{paint}"></i>{valence.DEGREE_NAMES[k]}</span>'
-            for k, paint in valence.DEGREE_COLOURS.items()
-        ]
-    parts.append("<span>dashed: isotropic noise over M realizations, −10 log10(M) dB</span>")
-    return f'<div class="legend">{"".join(parts)}</div>'
+    return f"{cell.error_text}e{exponent}" if mark else cell.error_text

@@ -1,4 +1,4 @@
-"""Variance of integration against n, log-log, beside the N^-1 of random sampling (Fig. 9 of the paper)."""
+"""Figure of the variance of integration against n in log-log scale (Ahmed, Ren & Wonka 2022, Fig. 9)."""
 
 from __future__ import annotations
 
@@ -31,16 +31,16 @@ SLOPES = (
 
 
 def strokes(study: IntegrationStudy) -> dict[str, style.Stroke]:
-    """Source label -> stroke, the same in every panel."""
+    """Assign each source label a stroke that is the same in every panel."""
     labels = dict.fromkeys(study.variance["source"])
-    given = {}
+    by_source = {}
     for k, label in enumerate(labels):
         turn, colour = divmod(k, len(style.COLOURS))
-        given[str(label)] = style.Stroke(style.COLOURS[colour], style.DASHES[turn % len(style.DASHES)])
-    return given
+        by_source[str(label)] = style.Stroke(style.COLOURS[colour], style.DASHES[turn % len(style.DASHES)])
+    return by_source
 
 
-def panel(ax: Axes, part: pd.DataFrame, given: dict[str, style.Stroke]) -> None:
+def panel(ax: Axes, part: pd.DataFrame, by_source: dict[str, style.Stroke]) -> None:
     """Draw one family in one dimension.
 
     Parameters
@@ -49,13 +49,13 @@ def panel(ax: Axes, part: pd.DataFrame, given: dict[str, style.Stroke]) -> None:
         Empty.
     part : DataFrame
         Rows of ``IntegrationStudy.variance``.
-    given : mapping
+    by_source : mapping
         Source label -> stroke.
     """
     ax.set_xscale("log", base=2)
     ax.set_yscale("log")
     for label, rows in part.groupby("source", sort=False):
-        stroke, line = given[str(label)], rows[rows["variance"] > 0].sort_values("n")
+        stroke, line = by_source[str(label)], rows[rows["variance"] > 0].sort_values("n")
         ax.plot(
             line["n"],
             line["variance"],
@@ -105,7 +105,17 @@ def _apart(sizes: Any) -> list[float]:
 
 
 def guide_line(ax: Axes, sizes: Any, part: pd.DataFrame) -> None:
-    """Draw 1/n through the random source's first variance, else through the largest there."""
+    """Draw 1/n through the first variance of random sampling, or through the largest first one without it.
+
+    Parameters
+    ----------
+    ax : Axes
+        Axes to draw in.
+    sizes : (sizes,) float64
+        Numbers of points, ascending.
+    part : DataFrame
+        Rows of ``IntegrationStudy.variance`` that the panel shows, with positive variances.
+    """
     first = part[part["n"] == part["n"].min()]
     anchor = first[first["source"] == "random"] if (first["source"] == "random").any() else first
     row = anchor.loc[anchor["variance"].idxmax()]
@@ -115,10 +125,10 @@ def guide_line(ax: Axes, sizes: Any, part: pd.DataFrame) -> None:
 
 @style.styled
 def figure(study: IntegrationStudy) -> Figure:
-    """Draw a panel for each family and dimension of a study."""
+    """Draw one panel for each family of integrands and dimension of a study."""
     table = study.variance
     parts = list(table.groupby(["integrand", "d"], sort=False))
-    given = strokes(study)
+    by_source = strokes(study)
     shifts = int(table["shifts"].max())
     several = bool(len(study.slopes))
     caption = CAPTION.format(
@@ -139,12 +149,19 @@ def figure(study: IntegrationStudy) -> Figure:
         right=style.legend_room(["x" * longest]),
     )  # fmt: skip
     for (ax,), (key, part) in zip(sheet.cells, parts, strict=True):
-        panel(ax, part, given)
+        panel(ax, part, by_source)
         ax.set_title(f"{style.shown(str(key[0]), 40)}, d = {key[1]}", loc="left")
         ax.set_xlabel("points n")
         ax.set_ylabel("variance")
         handles = [
-            Line2D([], [], color=given[label].colour, linestyle=given[label].dash, marker="o", markersize=2.6)
+            Line2D(
+                [],
+                [],
+                color=by_source[label].colour,
+                linestyle=by_source[label].dash,
+                marker="o",
+                markersize=2.6,
+            )
             for label in dict.fromkeys(part["source"].astype(str))
         ]
         style.beside(ax, handles, keys[key])

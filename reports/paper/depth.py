@@ -1,4 +1,4 @@
-"""Our own figure: what depth costs in order, and what it buys in integration."""
+"""Figure ``depth``, not in the paper: what depth costs in order, and what it gains in integration."""
 
 from __future__ import annotations
 
@@ -56,19 +56,32 @@ def needs(ask: Ask) -> Mapping[str, DataRequest]:
             (BESIDE, _gbn(gradients[1]), "deep"), sizes, (2,), ask.pick(2, 8, 100), (FAMILY,),
             ask.pick(2, 20, 100),
         ),
-        **shared.given(ask, ask.sets),
+        **shared.user_set_requests(ask, ask.sets),
     }  # fmt: skip
 
 
 def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
-    """Draw spectra and integration above, order against the noise floor below."""
+    """Draw spectra and variances of integration above measures of order against the noise floor.
+
+    Parameters
+    ----------
+    data : mapping
+        Data under the names that ``needs`` gives them.
+    ask : Ask
+        Scale, sets of the user and seed.
+
+    Returns
+    -------
+    Drawing
+        The figure, as wide as the page, with its caption.
+    """
     n, gradients = shared.size(ask), _gradients(ask)
     gbn = [
-        shared.made(data["long" if k == gradients[-1] else "sets"], _gbn(k), n, f"GBN, {k:,}")
+        shared.generated_column(data["long" if k == gradients[-1] else "sets"], _gbn(k), n, f"GBN, {k:,}")
         for k in gradients
     ]
-    deep = [shared.made(data["sets"], text, n) for text in _deep(ask)]
-    theirs = shared.yours(data, ask.sets, n)
+    deep = [shared.generated_column(data["sets"], text, n) for text in _deep(ask)]
+    theirs = shared.user_columns(data, ask.sets, n)
     table = data["study"].variance
 
     def paint(panel: SubFigure) -> None:
@@ -106,11 +119,11 @@ def _spectra(ax: Axes, gbn: Mapping[int, Column], deep: Column, theirs: Sequence
 
 
 def _integration(ax: Axes, table: Any) -> None:
-    given = {label: shared.stroke(label.partition("[")[0]) for label in table["source"].unique()}
-    variance.panel(ax, table, given)
+    strokes = {label: shared.stroke(label.partition("[")[0]) for label in table["source"].unique()}
+    variance.panel(ax, table, strokes)
     ax.set_xlabel("points n")
     ax.set_ylabel("variance of the integral")
-    for label, line in given.items():
+    for label, line in strokes.items():
         rows = table[table["source"] == label].sort_values("n")
         ax.annotate(
             shared.title_of(label), (float(rows["n"].iloc[-1]), float(rows["variance"].iloc[-1])),
@@ -179,7 +192,7 @@ def _caption(
         if steep
         else ""
     )
-    given = f" Also {shared.listed([one.title for one in theirs])}, of given files." if theirs else ""
+    also = f" Also {shared.listed([one.title for one in theirs])}, of given files." if theirs else ""
     return (
         "Depth against order. Gaussian Blue Noise (GBN) becomes deeper by longer optimisation (gradients "
         "of Nesterov's method in the labels; 320 do the work of the paper's 10,000 steps) and more ordered "
@@ -194,7 +207,7 @@ def _caption(
         f"{longest.title.partition(', ')[2]} gradients GBN's floor goes from {of(usual, 'noise_floor')} to "
         f"{of(longest, 'noise_floor')}, its v6 from {of(usual, 'valence6')} to {of(longest, 'valence6')}; "
         f"deep has {of(last, 'noise_floor')} and {of(last, 'valence6')}. "
-        f"{shared.counted([*gbn, *deep])[0].upper()}{shared.counted([*gbn, *deep])[1:]}; d = 2.{given}"
+        f"{shared.counted([*gbn, *deep])[0].upper()}{shared.counted([*gbn, *deep])[1:]}; d = 2.{also}"
     )
 
 

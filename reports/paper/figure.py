@@ -1,4 +1,4 @@
-"""What a figure of the paper is here: what it asks for, and how it is drawn from what it is given."""
+"""Definition of a figure of the paper: the data it needs, the function that draws it, and its page."""
 
 from __future__ import annotations
 
@@ -19,16 +19,17 @@ COLUMN, PAGE = 3.33, 7.0  # inches: one column of the journal, and both
 
 @dataclass(frozen=True)
 class Ask:
-    """What the user asked of all figures.
+    """Settings of the user for all figures.
 
     Attributes
     ----------
     scale : {"tiny", "quick", "full"}
-        Counts for tests (seconds a figure), for minutes in all, or the paper's.
+        Size of the data: for tests (seconds for a figure), for minutes in all, or the paper's.
     sets : mapping
-        Name of a method that has no generator here, in lower case such as ``bnot`` -> its file or folder.
+        Name in lower case of a method without a generator here, such as ``bnot`` -> file or folder of its
+        sets.
     seed : int
-        Of everything.
+        Seed of all data.
     """
 
     scale: Scale
@@ -36,7 +37,18 @@ class Ask:
     seed: int = 0
 
     def pick(self, tiny: Any, quick: Any, full: Any) -> Any:
-        """One of three by scale."""
+        """Return the value for this scale.
+
+        Parameters
+        ----------
+        tiny, quick, full : any
+            Values for the three scales.
+
+        Returns
+        -------
+        any
+            The one of them that belongs to ``scale``.
+        """
         return {"tiny": tiny, "quick": quick, "full": full}[self.scale]
 
 
@@ -47,12 +59,12 @@ class Drawing:
     Attributes
     ----------
     width, height : float
-        Inches, without the caption; ``COLUMN`` or ``PAGE`` wide.
+        Size in inches without the caption; the width is ``COLUMN`` or ``PAGE``.
     paint : callable
-        Draws into a SubFigure of that size whose layout is constrained: use ``panel.subplots`` or
-        ``panel.add_gridspec`` and leave the placing to matplotlib.
+        Draws into a SubFigure of that size with constrained layout. It uses ``panel.subplots`` or
+        ``panel.add_gridspec`` and leaves the placing to matplotlib.
     caption : str
-        What is seen, with n, d, sets and settings of everything in it; whole sentences.
+        Whole sentences that explain the figure, with n, d, number of sets and settings of all that it shows.
     """
 
     width: float
@@ -63,20 +75,20 @@ class Drawing:
 
 @dataclass(frozen=True)
 class PaperFigure:
-    """One figure.
+    """A figure of the paper, or one of this package beside them.
 
     Attributes
     ----------
     name : str
-        What the user types: the paper's number, or a word for our own.
+        Name that the user types: the paper's number, or a word for a figure of this package.
     title : str
-        A few words.
+        Title in a few words.
     paper : str
-        What the paper's figure shows and says, in our words; empty for our own.
+        Summary of the paper's figure and of what the paper says of it; empty for a figure of this package.
     needs : callable
-        Ask -> what it is drawn from, by names of its own choice.
+        Ask -> requests for the data, under names that the figure chooses.
     draw : callable
-        (data by the same names, ask) -> Drawing. Computes nothing: it selects, scales and draws.
+        (data under the same names, Ask) -> Drawing. It selects, scales and draws, and computes nothing.
     """
 
     name: str
@@ -90,7 +102,7 @@ SIGNS = {"sigma": "σ", "nu": "ν", "pi": "π", "epsilon": "ε", "psi6": "ψ6"}
 
 
 def signs(text: str) -> str:
-    """Set the words for Greek letters, and squares, as signs; not those within a generator's settings.
+    """Write names of Greek letters and squares in a caption as signs, except within a generator's settings.
 
     Examples
     --------
@@ -102,18 +114,23 @@ def signs(text: str) -> str:
 
 
 def compose(drawing: Drawing, heading: str, foot: str, captions: bool = True) -> Figure:
-    """Put a drawing and its caption on one page; call it under ``style.styled``.
+    """Put a drawing and its caption on one page, to be called under ``style.styled``.
 
     Parameters
     ----------
     drawing : Drawing
-        What is painted.
+        Drawing to paint.
     heading : str
-        In bold before the caption, such as ``Figure 3.``
+        Text in front of the caption, such as ``Figure 3.``
     foot : str
-        After the caption: seed, device, version.
+        Text after the caption: seed, device, version.
     captions : bool
-        Without, the drawing alone is painted, for a text that brings its own caption.
+        Whether the caption stands in the picture.
+
+    Returns
+    -------
+    Figure
+        The page.
     """
     if not captions:
         figure = Figure(figsize=(drawing.width, drawing.height), layout="constrained")

@@ -54,29 +54,44 @@ def needs(ask: Ask) -> Mapping[str, DataRequest]:
             if _long_n(ask) != shared.size(ask)
             else {}
         ),
-        **shared.given(ask, shared.shown_methods(ask, PAPER)),
+        **shared.user_set_requests(ask, shared.methods_with_sets(ask, PAPER)),
     }
 
 
 def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
-    """Points, spectrum and its middle, a column a method; beside or below them the radial power."""
+    """Draw points, spectrum and the middle of the spectrum for each method, and the radial power of all.
+
+    Parameters
+    ----------
+    data : mapping
+        Data under the names that ``needs`` gives them.
+    ask : Ask
+        Scale, sets of the user and seed.
+
+    Returns
+    -------
+    Drawing
+        The figure, as wide as the page, with its caption.
+    """
     n, text, long_n = shared.size(ask), _long(ask)[0], _long_n(ask)
-    methods = shared.shown_methods(ask, PAPER)
+    methods = shared.methods_with_sets(ask, PAPER)
     early, late = (
-        shared.yours(data, [m for m in methods if (m in BEFORE_FPO) is first], n) for first in (True, False)
+        shared.user_columns(data, [m for m in methods if (m in BEFORE_FPO) is first], n)
+        for first in (True, False)
     )
-    long = shared.made(data["long"], text, n, "GBN, 1M")
+    long = shared.generated_column(data["long"], text, n, "GBN, 1M")
     gallery = [
         *early,
-        shared.made(data["classic"], "fpo", n),
+        shared.generated_column(data["classic"], "fpo", n),
         *late,
-        shared.made(data["classic"], "gbn", n),
+        shared.generated_column(data["classic"], "gbn", n),
         long,
     ]
     strata, sobol, fpo, gbn = (
-        shared.made(data["large"], name, _large(ask)) for name in ("jittered", "sobol", "fpo", "gbn")
+        shared.generated_column(data["large"], name, _large(ask))
+        for name in ("jittered", "sobol", "fpo", "gbn")
     )
-    longest = shared.made(data.get("large-long", data["long"]), text, long_n, "GBN, 1M")
+    longest = shared.generated_column(data.get("large-long", data["long"]), text, long_n, "GBN, 1M")
     lines = [sobol, strata, *early, fpo, *late, gbn, longest]
     beside = len(gallery) <= NARROW
     wide = 1.12 if beside else min(1.5, (PAGE - 0.5) / len(gallery) - 0.04)
@@ -162,7 +177,8 @@ def _caption(gallery: Sequence[Column], lines: Sequence[Column], ask: Ask) -> st
         f"Residuals in dB of the exponential and of the power law fitted to each: {fits}. GBN took 320 "
         "gradients of Nesterov's method, the work of the paper's 10,000 steps of descent; GBN, 1M, takes "
         f"{gradients:,} in place of its million steps (k gradients do the work of about k^2/9). Pictures: "
-        f"{shared.counted(gallery)}; plot: {shared.counted(lines)}; d = 2. {shared.absent(ask, PAPER)}"
+        f"{shared.counted(gallery)}; plot: {shared.counted(lines)}; d = 2. "
+        f"{shared.missing_sets_note(ask, PAPER)}"
     ).rstrip()
 
 

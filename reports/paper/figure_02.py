@@ -22,17 +22,30 @@ def _wide(ask: Ask) -> tuple[str, int]:
 
 
 def needs(ask: Ask) -> Mapping[str, DataRequest]:
-    """Both settings, many sets each."""
+    """Ask for many sets of both settings."""
     count = ask.pick(2, 32, 1000)
     return {"sets": ComparisonRequest((NARROW, _wide(ask)[0]), (shared.size(ask),), (2,), count)}
 
 
 def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
-    """Points over spectra, and both radial powers in one plot."""
+    """Draw points and spectra of two settings, and their radial powers in one plot.
+
+    Parameters
+    ----------
+    data : mapping
+        Data under the names that ``needs`` gives them.
+    ask : Ask
+        Scale, sets of the user and seed.
+
+    Returns
+    -------
+    Drawing
+        The figure, as wide as a column, with its caption.
+    """
     text, gradients = _wide(ask)
     run, n = data["sets"], shared.size(ask)
-    narrow = shared.made(run, NARROW, n, "σ = 0.5, 30 steps")
-    wide = shared.made(run, text, n, f"σ = 1.1, {gradients:,} gradients")
+    narrow = shared.generated_column(run, NARROW, n, "σ = 0.5, 30 steps")
+    wide = shared.generated_column(run, text, n, f"σ = 1.1, {gradients:,} gradients")
     both = (narrow, wide)
     strokes = (style.Stroke(style.FAINT, "-"), shared.stroke("gbn"))
     low = shared.lowest(one.source.radial for one in both)

@@ -31,7 +31,24 @@ GRADIENTS = 320
 
 
 def shells_of(source: str, n: int, d: int, seed: int, k: int) -> dict[str, NDArray[Any]]:
-    """Exact shells of realization k of a generator, without a cube, as far as nu = 2."""
+    """Compute the exact shells of one realization up to nu = 2, without storing the cube of frequencies.
+
+    Parameters
+    ----------
+    source : str
+        Generator with its settings, as typed.
+    n, d : int
+        Number of points and dimension.
+    seed : int
+        Seed of all realizations.
+    k : int
+        Number of the realization.
+
+    Returns
+    -------
+    dict
+        Arrays (shells,): ``frequency``, ``nu``, ``power`` and ``count`` of frequencies.
+    """
     found = shells(find(source)(n, d, realization_rng(seed, k)))
     return {"frequency": found.frequency, "nu": found.nu, "power": found.power, "count": found.count}
 
@@ -50,7 +67,20 @@ def needs(ask: Ask) -> Mapping[str, DataRequest]:
 
 
 def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
-    """Draw one curve a sigma with its ideal profile, and one a dimension."""
+    """Draw the radial power for each sigma with its ideal profile, and for each dimension.
+
+    Parameters
+    ----------
+    data : mapping
+        Data under the names that ``needs`` gives them.
+    ask : Ask
+        Scale, sets of the user and seed.
+
+    Returns
+    -------
+    Drawing
+        The figure, as wide as the page, with its caption.
+    """
     run: Run = data["sigmas"]
     by_sigma = dict(zip(SIGMAS, run.sources, strict=True))
     by_dimension = _means(data["dimensions"])
@@ -101,7 +131,20 @@ def _means(pieces: Mapping[str, Mapping[str, NDArray[Any]]]) -> dict[int, Radial
 
 
 def level(nu: FloatArray, power: FloatArray, c: float) -> float:
-    """Epsilon of epsilon exp(c nu^2) through the shells up to nu = 0.25, in the geometric mean."""
+    """Return the epsilon of the profile epsilon exp(c nu^2) that fits the low shells.
+
+    Parameters
+    ----------
+    nu, power : (shells,) float64
+        Radial power on exact shells.
+    c : float
+        Steepness of the profile.
+
+    Returns
+    -------
+    float
+        Geometric mean over the shells up to nu = 0.25, or the first where all are beyond.
+    """
     low = nu <= max(0.25, float(nu[0]))
     return math.exp(float(np.mean(np.log(power[low]) - c * nu[low] ** 2)))
 

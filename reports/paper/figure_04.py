@@ -32,7 +32,21 @@ BOTTOM = 1e-9
 
 
 def transforms(cutoff: str, count: int) -> dict[str, FloatArray]:
-    """Kernel of width 1 on the line and its transform over the whole Gaussian's at 0."""
+    """Compute a Gaussian kernel of width 1 on the line, cut off at some distance, with its Fourier transform.
+
+    Parameters
+    ----------
+    cutoff : str
+        Key of ``CUTOFFS``.
+    count : int
+        Number of samples.
+
+    Returns
+    -------
+    dict
+        Arrays (count,): ``x`` and ``kernel``, ``nu`` and ``transform``, this over the uncut kernel's
+        transform at 0.
+    """
     t = CUTOFFS[cutoff]
     x = np.linspace(-REACH, REACH, count)
     nu = np.linspace(0, NU, count)
@@ -51,7 +65,20 @@ def needs(ask: Ask) -> Mapping[str, DataRequest]:
 
 
 def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:  # noqa: ARG001 - as every figure's
-    """Draw kernels, transforms, and the transforms' absolute values in log scale."""
+    """Draw the kernels, their transforms, and the absolute values of these in log scale.
+
+    Parameters
+    ----------
+    data : mapping
+        Data under the names that ``needs`` gives them.
+    ask : Ask
+        Scale, sets of the user and seed.
+
+    Returns
+    -------
+    Drawing
+        The figure, as wide as the page, with its caption.
+    """
     kernels: dict[str, dict[str, FloatArray]] = data["kernels"]
 
     def paint(panel: SubFigure) -> None:

@@ -26,7 +26,7 @@ STROKES = (
 
 
 def needs(ask: Ask) -> Mapping[str, DataRequest]:
-    """One setting for each cut-off, the whole kernel, and centroidal tessellations."""
+    """Ask for sets at each cut-off, of the whole kernel, and of centroidal tessellations."""
     cut = tuple(f"gbn[cutoff={cutoff}]" for cutoff in CUTOFFS)
     return {
         "cut": ComparisonRequest(cut, (shared.size(ask),), (2,), shared.sets(ask)),
@@ -36,12 +36,28 @@ def needs(ask: Ask) -> Mapping[str, DataRequest]:
 
 
 def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
-    """Points, spectrum and radial power, a column each."""
+    """Draw points, spectrum and radial power for each cut-off.
+
+    Parameters
+    ----------
+    data : mapping
+        Data under the names that ``needs`` gives them.
+    ask : Ask
+        Scale, sets of the user and seed.
+
+    Returns
+    -------
+    Drawing
+        The figure, as wide as the page, with its caption.
+    """
     n = shared.size(ask)
     columns = [
-        shared.made(data["cvt"], "lloyd", n, "CVT"),
-        *(shared.made(data["cut"], f"gbn[cutoff={cutoff}]", n, f"cut at {cutoff}σ") for cutoff in CUTOFFS),
-        shared.made(data["whole"], "gbn", n, "whole"),
+        shared.generated_column(data["cvt"], "lloyd", n, "CVT"),
+        *(
+            shared.generated_column(data["cut"], f"gbn[cutoff={cutoff}]", n, f"cut at {cutoff}σ")
+            for cutoff in CUTOFFS
+        ),
+        shared.generated_column(data["whole"], "gbn", n, "whole"),
     ]
     strokes = [columns[0].stroke, *STROKES]
     low = shared.lowest(one.source.radial for one in columns)

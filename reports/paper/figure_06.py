@@ -20,7 +20,20 @@ SIGMA = 1.0
 
 
 def profile(points: int, count: int) -> dict[str, FloatArray]:
-    """Energy of two points against their distance in box sides, over that at 0."""
+    """Compute the energy of two points against their distance along an axis.
+
+    Parameters
+    ----------
+    points : int
+        Points along an axis of the box.
+    count : int
+        Number of samples.
+
+    Returns
+    -------
+    dict
+        Arrays (count,): ``u``, the distance in box sides, and ``energy`` over its value at 0.
+    """
     u = np.linspace(-0.5, 0.5, count)
     return {"u": u, "energy": energy_profile(u * points, float(points), SIGMA)}
 
@@ -32,7 +45,20 @@ def needs(ask: Ask) -> Mapping[str, DataRequest]:
 
 
 def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:  # noqa: ARG001 - as every figure's
-    """Draw all profiles in one panel, each labelled at its curve."""
+    """Draw all energy profiles in one plot.
+
+    Parameters
+    ----------
+    data : mapping
+        Data under the names that ``needs`` gives them.
+    ask : Ask
+        Scale, sets of the user and seed.
+
+    Returns
+    -------
+    Drawing
+        The figure, as wide as a column, with its caption.
+    """
     profiles: dict[str, dict[str, FloatArray]] = data["profiles"]
     colours = family(len(profiles))[::-1]
 

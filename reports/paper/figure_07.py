@@ -36,21 +36,36 @@ LOOKS: dict[str, dict[str, Any]] = {
 
 
 def gradients(steps: int) -> int:
-    """Gradients of Nesterov's method that do the work of so many steps of descent: k do that of k^2 / 9."""
+    """Return how many gradients of Nesterov's method do the work of these steps of descent."""
     return max(1, round(3 * math.sqrt(steps)))
 
 
 def evolution(
     method: str, counts: Sequence[int], n: int, seed: int, first: int, sets: int
 ) -> dict[str, FloatArray]:
-    """Spectra of some realizations in 2D after each count of evaluations, and what they cost and bring.
+    """Compute mean spectra in 2D after several numbers of evaluations of the energy, and their depth.
+
+    Parameters
+    ----------
+    method : {"descent", "nesterov"}
+        The paper's gradient descent, or Nesterov's method.
+    counts : sequence of int
+        Evaluations after which spectra are taken.
+    n : int
+        Number of points.
+    seed : int
+        Seed of all realizations.
+    first : int
+        Number of the first realization.
+    sets : int
+        Number of realizations.
 
     Returns
     -------
     dict
-        nu of the shells; power, and the same filtered by the kernel and by Eq. 14's width, (counts, shells);
-        floor and c, (counts,), of the mean spectra; excess, (evaluations,), mean energy a point above that of
-        a uniform density.
+        nu of the shells; power, and the same filtered by the kernel and by Eq. 14's width, (counts,
+        shells); floor and c of the mean spectra, (counts,); excess, (evaluations,), mean energy a point
+        above that of a uniform density.
     """
     trace, most = Trace(keep_at=counts), max(counts)
     descent = GaussianBlueNoise(iterations=most)
@@ -86,7 +101,20 @@ def needs(ask: Ask) -> Mapping[str, DataRequest]:
 
 
 def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
-    """Draw rows: descent, Nesterov's method. Columns: raw, filtered; then excess energy and noise floor."""
+    """Draw raw and filtered spectra of descent above those of Nesterov's method, and their progress beside.
+
+    Parameters
+    ----------
+    data : mapping
+        Data under the names that ``needs`` gives them.
+    ask : Ask
+        Scale, sets of the user and seed.
+
+    Returns
+    -------
+    Drawing
+        The figure, as wide as the page, with its caption.
+    """
     counts = _counts(ask)
     found = {method: _mean(data["evolution"], method) for method in METHODS}
     colours = axes.family(len(counts["descent"]))[::-1]

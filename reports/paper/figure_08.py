@@ -21,22 +21,35 @@ ROWS = ("points", "spectrum", "radial\npower", "zone plate", "valence")
 def needs(ask: Ask) -> Mapping[str, DataRequest]:
     """Ask for generators that are commonly compared, and the user's sets."""
     strata = ComparisonRequest(("jittered",), (shared.size(ask),), (2,), shared.sets(ask))
-    methods = shared.shown_methods(ask, PAPER)
+    methods = shared.methods_with_sets(ask, PAPER)
     return {
         "strata": strata, "relaxed": shared.relaxed(ask), "classic": shared.classic(ask),
-        **shared.given(ask, methods),
+        **shared.user_set_requests(ask, methods),
     }  # fmt: skip
 
 
 def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
-    """Five rows: points, spectrum, radial power, zone plate and valence."""
+    """Draw points, spectrum, radial power, zone plate and valence for each method.
+
+    Parameters
+    ----------
+    data : mapping
+        Data under the names that ``needs`` gives them.
+    ask : Ask
+        Scale, sets of the user and seed.
+
+    Returns
+    -------
+    Drawing
+        The figure, as wide as the page, with its caption.
+    """
     n = shared.size(ask)
     columns = [
-        shared.made(data["strata"], "jittered", n),
-        shared.made(data["relaxed"], "lloyd", n),
-        *shared.yours(data, shared.shown_methods(ask, PAPER), n),
-        shared.made(data["classic"], "fpo", n),
-        shared.made(data["classic"], "gbn", n),
+        shared.generated_column(data["strata"], "jittered", n),
+        shared.generated_column(data["relaxed"], "lloyd", n),
+        *shared.user_columns(data, shared.methods_with_sets(ask, PAPER), n),
+        shared.generated_column(data["classic"], "fpo", n),
+        shared.generated_column(data["classic"], "gbn", n),
     ]
     top = 0.5 + max(float(one.source.radial.power.max()) for one in columns)
     wide = (PAGE - 0.35) / len(columns) - 0.06
@@ -83,7 +96,7 @@ def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
         f"neighbours, in percent: {each('valence6', 100, '.0f')}. Noise floor, mean power up to a nu of "
         f"0.25: {floors}. {shared.counted(columns)}, d = 2; GBN is at sigma = 1 with 320 gradients of "
         f"Nesterov's method, the work of the paper's 10,000 steps. "
-        + shared.absent(ask, PAPER, "of the state of the art")
+        + shared.missing_sets_note(ask, PAPER, "of the state of the art")
     ).rstrip()
     height = 0.88 + 4.62 * wide
     return Drawing(PAGE, height, paint, caption)

@@ -40,7 +40,14 @@ MARK = 512  # points of the nominal grid that the Gaussians' width is that of
 
 
 def pictures(seed: int, pixels: int) -> Arrays:
-    """First integrand of each family in the plane.
+    """Compute pictures of the first integrand of each family in the plane.
+
+    Parameters
+    ----------
+    seed : int
+        Seed of the integrands.
+    pixels : int
+        Pixels along a side.
 
     Returns
     -------
@@ -61,22 +68,35 @@ def needs(ask: Ask) -> Mapping[str, DataRequest]:
         sets = ask.pick(2, 8, 1000 if d == 2 else 100)
         requests[f"d{d}"] = IntegrationRequest(sources, SIZES[ask.scale][d], (d,), sets, FAMILIES, instances)
     for name, path in ask.sets.items():
-        requests[_given(name)] = IntegrationRequest((path,), (1,), (1,), 1, FAMILIES, instances)
+        requests[_user_study(name)] = IntegrationRequest((path,), (1,), (1,), 1, FAMILIES, instances)
     return requests
 
 
 def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
-    """Draw a row a family, a column a dimension."""
+    """Draw the variance against n, with a row for each family of integrands and a column for each dimension.
+
+    Parameters
+    ----------
+    data : mapping
+        Data under the names that ``needs`` gives them.
+    ask : Ask
+        Scale, sets of the user and seed.
+
+    Returns
+    -------
+    Drawing
+        The figure, as wide as the page, with its caption.
+    """
     tables = {d: _table(data, ask, d) for d in DIMENSIONS}
     labels = list(dict.fromkeys(label for table in tables.values() for label in table["source"]))
-    given = {label: stroke(label) for label in labels}
+    strokes = {label: stroke(label) for label in labels}
 
     def paint(panel: SubFigure) -> None:
         axes = panel.subplots(len(FAMILIES), len(DIMENSIONS), squeeze=False)
         for row, family in enumerate(FAMILIES):
             for column, d in enumerate(DIMENSIONS):
                 ax, table = axes[row, column], tables[d]
-                variance.panel(ax, table[table["integrand"] == family], given)
+                variance.panel(ax, table[table["integrand"] == family], strokes)
                 letter = "ab"[row]
                 ax.set_title(f"({letter}) {TITLES[family]}, {d}D", loc="left")
                 if row == len(FAMILIES) - 1:
@@ -88,7 +108,9 @@ def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
             if min(SIZES[ask.scale][d]) < MARK < max(SIZES[ask.scale][d]):
                 axes[0, column].axvline(MARK, color="#9aa3af", linewidth=0.6, linestyle=(0, (2, 2)), zorder=0)
         handles = [
-            Line2D([], [], color=given[label].colour, linestyle=given[label].dash, marker="o", markersize=2.6)
+            Line2D(
+                [], [], color=strokes[label].colour, linestyle=strokes[label].dash, marker="o", markersize=2.6
+            )
             for label in labels
         ]
         names = [title_of(label) for label in labels]
@@ -99,7 +121,7 @@ def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
     return Drawing(PAGE, 4.4, paint, _caption(data, ask))
 
 
-def _given(name: str) -> str:
+def _user_study(name: str) -> str:
     """Key of the study of a method that the user has sets of."""
     return f"sets of {name}"
 
@@ -108,7 +130,7 @@ def _table(data: Mapping[str, Any], ask: Ask, d: int) -> pd.DataFrame:
     """All variances in one dimension, the user's sets under their method's name."""
     parts = [data[f"d{d}"].variance]
     for name in ask.sets:
-        theirs = data[_given(name)].variance
+        theirs = data[_user_study(name)].variance
         parts.append(theirs[theirs["d"] == d].assign(source=name))
     table: pd.DataFrame = pd.concat(parts, ignore_index=True)
     return table

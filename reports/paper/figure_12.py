@@ -26,20 +26,48 @@ def needs(ask: Ask) -> Mapping[str, DataRequest]:
     """Ask for truncated energies, a band emptied by Gauss-Newton, and the user's sets of Heck's step."""
     sources = (*(f"gbn[edge={edge}]" for edge in EDGES), f"stealthy[edge={EDGES[-1]}]")
     run = ComparisonRequest(sources, (shared.size(ask),), (2,), shared.sets(ask))
-    return {"sets": run, **shared.given(ask, PAPER)}
+    return {"sets": run, **shared.user_set_requests(ask, PAPER)}
 
 
 def band(radial: RadialPower, edge: float) -> float:
-    """Highest radial power below an edge."""
+    """Return the highest radial power below an edge.
+
+    Parameters
+    ----------
+    radial : RadialPower
+        Radial power on exact shells.
+    edge : float
+        Edge in nu; the shell at the edge is left out.
+
+    Returns
+    -------
+    float
+        Power over that of white noise.
+    """
     return float(radial.power[radial.nu < edge * (1 - 1e-9)].max())
 
 
 def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
-    """Points, spectrum and radial power in log scale, a column each."""
+    """Draw points, spectrum and radial power in log scale for each way to step blue noise.
+
+    Parameters
+    ----------
+    data : mapping
+        Data under the names that ``needs`` gives them.
+    ask : Ask
+        Scale, sets of the user and seed.
+
+    Returns
+    -------
+    Drawing
+        The figure, as wide as the page, with its caption.
+    """
     n = shared.size(ask)
-    cut = [shared.made(data["sets"], f"gbn[edge={e}]", n, f"harmonics to {e}") for e in EDGES]
-    newton = shared.made(data["sets"], f"stealthy[edge={EDGES[-1]}]", n, f"stealthy to {EDGES[-1]}")
-    theirs = [replace(one, title="Step") for one in shared.yours(data, PAPER, n)]
+    cut = [shared.generated_column(data["sets"], f"gbn[edge={e}]", n, f"harmonics to {e}") for e in EDGES]
+    newton = shared.generated_column(
+        data["sets"], f"stealthy[edge={EDGES[-1]}]", n, f"stealthy to {EDGES[-1]}"
+    )
+    theirs = [replace(one, title="Step") for one in shared.user_columns(data, PAPER, n)]
     columns, edges = [*cut, newton, *theirs], [*EDGES, EDGES[-1], None]
     wide = (PAGE - 0.4) / len(columns) - 0.1
 

@@ -27,7 +27,26 @@ N, NU = 64, 2.0
 
 
 def line_sets(gradients: int, n: int, seed: int, first: int, sets: int) -> dict[str, FloatArray]:
-    """Draw sets of the line together, which one by one cost ten times as much; points and mean power."""
+    """Draw sets on the line in one call, which is ten times faster than one by one, with their mean power.
+
+    Parameters
+    ----------
+    gradients : int
+        Gradients of Nesterov's method.
+    n : int
+        Number of points.
+    seed : int
+        Seed of all realizations.
+    first : int
+        Number of the first realization.
+    sets : int
+        Number of realizations.
+
+    Returns
+    -------
+    dict
+        ``points``, (sets, n), and the arrays (shells,) ``nu`` and ``power``.
+    """
     rngs = [realization_rng(seed, first + k) for k in range(sets)]
     points = GaussianBlueNoise(edge=EDGE, gradients=gradients).draw(n, 1, rngs, Monitor())
     found = shells(points)
@@ -47,7 +66,20 @@ def _gradients(ask: Ask) -> int:
 
 
 def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
-    """Draw two sets as beads on a circle, then their mean periodogram in linear and in log scale."""
+    """Draw two sets as beads on circles, and their mean periodogram in linear and in log scale.
+
+    Parameters
+    ----------
+    data : mapping
+        Data under the names that ``needs`` gives them.
+    ask : Ask
+        Scale, sets of the user and seed.
+
+    Returns
+    -------
+    Drawing
+        The figure, as wide as the page, with its caption.
+    """
     pieces: Mapping[str, Mapping[str, FloatArray]] = data["line"]
     blocks = [pieces[key] for key in sorted(pieces)]
     nu, power = blocks[0]["nu"], np.mean([block["power"] for block in blocks], axis=0)

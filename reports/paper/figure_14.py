@@ -17,17 +17,30 @@ PAPER = ("bnot",)
 
 
 def needs(ask: Ask) -> Mapping[str, DataRequest]:
-    """Owen-scrambled Sobol sets, many of them, and GBN or the user's BNOT."""
+    """Ask for many Owen-scrambled Sobol sets, and for GBN or the user's BNOT."""
     many = ComparisonRequest(("sobol",), (shared.size(ask),), (2,), ask.pick(4, 160, 1000))
-    return {"sobol": many, "classic": shared.classic(ask), **shared.given(ask, PAPER)}
+    return {"sobol": many, "classic": shared.classic(ask), **shared.user_set_requests(ask, PAPER)}
 
 
 def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
-    """Exact shells over annuli, a column an example."""
+    """Draw the radial power on exact shells above that over annuli, for each example.
+
+    Parameters
+    ----------
+    data : mapping
+        Data under the names that ``needs`` gives them.
+    ask : Ask
+        Scale, sets of the user and seed.
+
+    Returns
+    -------
+    Drawing
+        The figure, as wide as the page, with its caption.
+    """
     n = shared.size(ask)
     examples = [
-        *(shared.yours(data, PAPER, n) or [shared.made(data["classic"], "gbn", n)]),
-        shared.made(data["sobol"], "sobol", n),
+        *(shared.user_columns(data, PAPER, n) or [shared.generated_column(data["classic"], "gbn", n)]),
+        shared.generated_column(data["sobol"], "sobol", n),
     ]
     exact = [one.source.radial for one in examples]
     rings = [radial(one.source.spectrum, by="annuli", width=WIDTH) for one in examples]

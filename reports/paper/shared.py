@@ -1,4 +1,4 @@
-"""What figures share: requests that two of them make, a name and stroke for each method, parts of plots."""
+"""Parts that several figures of the paper share: requests for data, names and strokes of methods, panels."""
 
 from __future__ import annotations
 
@@ -62,11 +62,11 @@ class Column:
     Attributes
     ----------
     title : str
-        As it is drawn.
+        Name of the method in the figure.
     source : SourceResult
-        What was measured.
+        Its sets and their measures.
     stroke : Stroke
-        Colour and dash.
+        Colour and dash of its curves.
     """
 
     title: str
@@ -75,42 +75,83 @@ class Column:
 
 
 def size(ask: Ask) -> int:
-    """Count the points of a set in the galleries."""
+    """Return the number of points of a set in the galleries."""
     n: int = ask.pick(100, 1024, 1024)
     return n
 
 
 def sets(ask: Ask) -> int:
-    """Count the sets of each method in the galleries."""
+    """Return the number of sets of each method in the galleries."""
     count: int = ask.pick(2, 16, 1000)
     return count
 
 
 def classic(ask: Ask) -> ComparisonRequest:
-    """FPO and GBN, as figures 1 and 8 show them."""
+    """Return the request for FPO and GBN that figures 1 and 8 make."""
     return ComparisonRequest(("fpo", "gbn"), (size(ask),), (2,), sets(ask))
 
 
 def relaxed(ask: Ask) -> ComparisonRequest:
-    """Lloyd's method, as figures 5 and 8 show it."""
+    """Return the request for Lloyd's method that figures 5 and 8 make."""
     return ComparisonRequest(("lloyd",), (size(ask),), (2,), sets(ask))
 
 
-def shown_methods(ask: Ask, paper: Sequence[str]) -> tuple[str, ...]:
-    """Methods that the user has sets of: the paper's in its order, then those nobody here knows."""
+def methods_with_sets(ask: Ask, paper: Sequence[str]) -> tuple[str, ...]:
+    """List the methods without a generator whose sets the user gave for a figure.
+
+    Parameters
+    ----------
+    ask : Ask
+        Scale, sets of the user and seed.
+    paper : sequence of str
+        Methods of the paper's figure, in its order.
+
+    Returns
+    -------
+    tuple of str
+        Those of the paper first, then methods that the paper does not name.
+    """
     return (
         *(name for name in paper if name in ask.sets),
         *(name for name in ask.sets if name not in NAMES),
     )
 
 
-def given(ask: Ask, methods: Iterable[str]) -> dict[str, ComparisonRequest]:
-    """Return a request for each of these methods that the user has sets of; the same in every figure."""
+def user_set_requests(ask: Ask, methods: Iterable[str]) -> dict[str, ComparisonRequest]:
+    """Return requests for the user's sets of these methods, equal in every figure so that they are shared.
+
+    Parameters
+    ----------
+    ask : Ask
+        Scale, sets of the user and seed.
+    methods : iterable of str
+        Names of methods.
+
+    Returns
+    -------
+    dict
+        Method -> request, for the methods that the user gave sets of.
+    """
     return {name: ComparisonRequest((ask.sets[name],)) for name in methods if name in ask.sets}
 
 
-def absent(ask: Ask, methods: Iterable[str], whose: str = "of the paper") -> str:
-    """Sentence about the methods that the user has no sets of; empty where there is none."""
+def missing_sets_note(ask: Ask, methods: Iterable[str], whose: str = "of the paper") -> str:
+    """Name the methods without sets in a sentence for the caption.
+
+    Parameters
+    ----------
+    ask : Ask
+        Scale, sets of the user and seed.
+    methods : iterable of str
+        Methods that the figure could show.
+    whose : str
+        Words after their names.
+
+    Returns
+    -------
+    str
+        The sentence, empty where the user gave sets of all.
+    """
     names = [name for name in methods if name not in ask.sets]
     if not names:
         return ""
@@ -121,15 +162,47 @@ def absent(ask: Ask, methods: Iterable[str], whose: str = "of the paper") -> str
     )
 
 
-def made(run: Run, text: str, n: int, title: str | None = None) -> Column:
-    """Pick what a generator, as typed, made of n points in the plane."""
+def generated_column(run: Run, text: str, n: int, title: str | None = None) -> Column:
+    """Select the plane sets of a generator from a run.
+
+    Parameters
+    ----------
+    run : Run
+        The comparison.
+    text : str
+        Generator with its settings, as typed.
+    n : int
+        Number of points.
+    title : str, optional
+        Title of the column; the name of the method where not given.
+
+    Returns
+    -------
+    Column
+        The column of the figure.
+    """
     label = specification(find(text))
     (source,) = (s for s in run.sources if (s.label, s.n, s.d) == (label, n, 2))
     return Column(title or title_of(label), source, stroke(label))
 
 
-def yours(data: Mapping[str, Any], methods: Iterable[str], n: int) -> list[Column]:
-    """Pick the user's plane sets of these methods: of n points, or else the most."""
+def user_columns(data: Mapping[str, Any], methods: Iterable[str], n: int) -> list[Column]:
+    """Select the user's plane sets of these methods.
+
+    Parameters
+    ----------
+    data : mapping
+        Data under the names that ``needs`` gives them.
+    methods : iterable of str
+        Names of methods; those without plane sets are left out.
+    n : int
+        Preferred number of points; otherwise the largest sets are taken.
+
+    Returns
+    -------
+    list of Column
+        One column for each method that has plane sets.
+    """
     found = []
     for name in methods:
         flat = [source for source in data[name].sources if source.d == 2] if name in data else []
@@ -140,13 +213,13 @@ def yours(data: Mapping[str, Any], methods: Iterable[str], n: int) -> list[Colum
 
 
 def title_of(label: str) -> str:
-    """Name of a method as drawn, of a generator's text or of the user's sets."""
+    """Return the name of a method for a figure, from a generator's text or from the name of user's sets."""
     name = label.partition("[")[0]
     return style.shown(NAMES.get(name, name), 14)
 
 
 def stroke(label: str) -> style.Stroke:
-    """Colour and dash of a method, the same in every figure; settings of its own change the dash.
+    """Return the stroke of a method in every figure; a method with settings of its own has another dash.
 
     Examples
     --------
@@ -161,12 +234,12 @@ def stroke(label: str) -> style.Stroke:
 
 
 def listed(words: Sequence[str]) -> str:
-    """Join words as in a sentence: a, b and c."""
+    """Join words as in a sentence, such as ``a, b and c``."""
     return " and ".join(filter(None, [", ".join(words[:-1]), *words[-1:]]))
 
 
 def counted(columns: Sequence[Column]) -> str:
-    """How many sets of how many points: ``16 sets of 1,024 points (BNOT: 4 of 1,024)``."""
+    """Say how many sets of how many points are shown: ``16 sets of 1,024 points (BNOT: 4 of 1,024)``."""
     counts = Counter((one.source.n, one.source.realizations) for one in columns)
     most = counts.most_common(1)[0][0]
     usual = next(one.source for one in columns if (one.source.n, one.source.realizations) == most)
@@ -184,17 +257,37 @@ def _sets(count: int) -> str:
 
 
 def rounded(value: float) -> str:
-    """Two digits for a caption: 1.2e-09, 0.31."""
+    """Format a number for a caption with two digits, such as 1.2e-09 or 0.31."""
     return f"{value:.1e}" if value and not 0.01 <= abs(value) < 1000 else f"{value:.2g}"
 
 
 def heading(ax: Axes, letter: str, title: str) -> None:
-    """Panel's letter and name above it."""
+    """Write a panel's letter and title above it.
+
+    Parameters
+    ----------
+    ax : Axes
+        Axes of the panel.
+    letter : str
+        Letter of the panel, without brackets.
+    title : str
+        Title of the panel.
+    """
     ax.set_title(f"({letter}) {title}", loc="left", size=7.5, pad=2.5)
 
 
 def scatter(ax: Axes, source: SourceResult, inches: float) -> None:
-    """First set in the unit square, in an axes about so wide."""
+    """Draw the first set of a source in the unit square.
+
+    Parameters
+    ----------
+    ax : Axes
+        Axes to draw in.
+    source : SourceResult
+        Source to draw.
+    inches : float
+        Approximate width of the axes, which sets the size of the dots.
+    """
     x = source.points[0]
     diameter = min(max(0.36 * 72 * inches / math.sqrt(len(x)), 0.55), 4.0)
     ax.plot(
@@ -206,13 +299,35 @@ def scatter(ax: Axes, source: SourceResult, inches: float) -> None:
 
 
 def power_map(ax: Axes, source: SourceResult, reach: float, limits: tuple[float, float] = POWER) -> None:
-    """Spectrum in log10 within so many nu of its centre."""
+    """Draw the middle of a spectrum in log10.
+
+    Parameters
+    ----------
+    ax : Axes
+        Axes to draw in.
+    source : SourceResult
+        Source to draw.
+    reach : float
+        Half the side of the square that is shown, in nu.
+    limits : (float, float)
+        Range of the colour scale.
+    """
     spectrum.panel(ax, source, LogNorm(*limits, clip=True), ticks=False)
     ax.set(xlim=(-reach, reach), ylim=(-reach, reach))
 
 
 def power_bar(axes: Sequence[Axes], limits: tuple[float, float] = POWER, **where: Any) -> None:
-    """Colour bar of ``power_map`` beside these axes."""
+    """Draw the colour bar of ``power_map`` beside axes.
+
+    Parameters
+    ----------
+    axes : sequence of Axes
+        Axes that the bar belongs to.
+    limits : (float, float)
+        Range of the colour scale.
+    **where : any
+        Further arguments of ``Figure.colorbar``, such as ``location``.
+    """
     figure = axes[0].figure
     low, high = (round(math.log10(limit)) for limit in limits)
     step = max(1, -(-(high - low) // 5))
@@ -226,18 +341,42 @@ def power_bar(axes: Sequence[Axes], limits: tuple[float, float] = POWER, **where
 
 
 def curve(ax: Axes, radial: RadialPower, line: style.Stroke, label: str | None = None, **more: Any) -> None:
-    """Radial power on its shells; what is 0 to rounding leaves a gap in log scale."""
+    """Draw radial power on its shells; in log scale a power of 0 leaves a gap.
+
+    Parameters
+    ----------
+    ax : Axes
+        Axes to draw in.
+    radial : RadialPower
+        Radial power to draw.
+    line : Stroke
+        Colour and dash.
+    label : str, optional
+        Name in the legend.
+    **more : any
+        Further arguments of ``Axes.plot``.
+    """
     settings = {"linewidth": 0.9, "rasterized": len(radial.nu) > 6000} | more
     ax.plot(radial.nu, radial.power, color=line.colour, linestyle=line.dash, label=label, **settings)
 
 
 def white(ax: Axes) -> None:
-    """Line at 1, white noise's power."""
+    """Draw the line at 1, the power of white noise."""
     ax.axhline(1, color="#a3acb9", linewidth=0.8, zorder=1)
 
 
 def log_nu(ax: Axes, low: float, high: float = 2.0, marks: Sequence[float] = MARKS) -> None:
-    """Make a log axis of nu with few ticks."""
+    """Make the x axis a log axis of nu with few ticks.
+
+    Parameters
+    ----------
+    ax : Axes
+        Axes to draw in.
+    low, high : float
+        Range of nu.
+    marks : sequence of float
+        Values that get a tick where they lie in the range.
+    """
     ax.set_xscale("log")
     ax.set_xlim(low, high)
     ax.xaxis.set_major_locator(FixedLocator([mark for mark in marks if low <= mark <= high]))
@@ -247,7 +386,17 @@ def log_nu(ax: Axes, low: float, high: float = 2.0, marks: Sequence[float] = MAR
 
 
 def log_power(ax: Axes, low: float, high: float, ticks: int = 7) -> None:
-    """Make a log axis of power with about so many ticks and a quiet grid."""
+    """Make the y axis a log axis of power with few ticks and a faint grid.
+
+    Parameters
+    ----------
+    ax : Axes
+        Axes to draw in.
+    low, high : float
+        Range of power.
+    ticks : int
+        Approximate number of ticks.
+    """
     ax.set_yscale("log")
     ax.set_ylim(low, high)
     first, last = math.ceil(math.log10(low) - 1e-9), math.floor(math.log10(high) + 1e-9)
@@ -259,6 +408,19 @@ def log_power(ax: Axes, low: float, high: float, ticks: int = 7) -> None:
 
 
 def lowest(radials: Iterable[RadialPower], floor: float = 1e-32) -> float:
-    """Power of ten below all of these, at least ``floor``."""
+    """Return a power of ten below all radial powers.
+
+    Parameters
+    ----------
+    radials : iterable of RadialPower
+        Curves of a plot.
+    floor : float
+        Smallest value to return; powers below it are taken for rounding.
+
+    Returns
+    -------
+    float
+        Lower end for the power axis.
+    """
     least = min(float(r.power[r.power > floor].min(initial=1.0)) for r in radials)
     return max(floor, 10.0 ** math.floor(math.log10(least)))

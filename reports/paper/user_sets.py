@@ -1,4 +1,4 @@
-"""Sets that the user gives for methods without a generator here: refused where no figure can show them."""
+"""Check of the user's sets of methods without a generator: sets that no figure can show are refused."""
 
 from __future__ import annotations
 
@@ -17,20 +17,20 @@ ANY_DIMENSION = ("9",)  # figures that show sets of the plane and others
 
 
 def check_sets(figures: Sequence[PaperFigure], ask: Ask) -> None:
-    """Refuse sets that would be read and not be seen.
+    """Refuse sets that no figure would show.
 
     Parameters
     ----------
     figures : sequence of PaperFigure
-        Those to be made.
+        Figures to be made.
     ask : Ask
-        With the sets.
+        Settings with the sets.
 
     Raises
     ------
     InputError
-        If a name is that of a generator here, or nearly that of a method of the paper; if no figure asked for
-        shows the method; or if its sets are of dimensions that none of them shows.
+        If a method has a generator here, if its name is close to that of a method of the paper, if none
+        of the figures shows the method, or if they show it in other dimensions than those of its sets.
     """
     for name, path in ask.sets.items():
         if name in GENERATORS:

@@ -226,13 +226,13 @@ def test_sets_of_another_size_are_taken_where_there_are_none_of_this_one(tmp_pat
         save(tmp_path / f"{n}.npy", np.random.default_rng(n).random((n, 2)))
     save(tmp_path / "solid.npy", np.random.default_rng(1).random((20, 3)))
     ask = Ask("tiny", {"kdm": str(tmp_path)})
-    request = shared.given(ask, ("bnot", "kdm"))["kdm"]
+    request = shared.user_set_requests(ask, ("bnot", "kdm"))["kdm"]
     run = obtain(request, tmp_path / "run", 0, 1, Progress())
     assert sorted((s.n, s.d) for s in run.sources) == [(20, 3), (30, 2), (50, 2)]
-    assert [c.source.n for c in shared.yours({"kdm": run}, ("bnot", "kdm"), 30)] == [30]
-    assert [c.source.n for c in shared.yours({"kdm": run}, ("kdm",), 100)] == [50]
+    assert [c.source.n for c in shared.user_columns({"kdm": run}, ("bnot", "kdm"), 30)] == [30]
+    assert [c.source.n for c in shared.user_columns({"kdm": run}, ("kdm",), 100)] == [50]
     only_solid = type(run)({}, tuple(s for s in run.sources if s.d == 3))
-    assert shared.yours({"kdm": only_solid}, ("kdm",), 20) == []
+    assert shared.user_columns({"kdm": only_solid}, ("kdm",), 20) == []
 
 
 @pytest.mark.parametrize(

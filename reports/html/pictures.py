@@ -1,0 +1,103 @@
+"""Pictures of the page as PNG with their alternative texts."""
+
+from __future__ import annotations
+
+import base64
+import io
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.image import imsave
+
+from gbnbench.reports import style
+from gbnbench.reports.comparison import spectrum
+from gbnbench.reports.comparison.figure_files import png
+from gbnbench.runs.comparison_result import SourceResult
+
+PANEL = 2.5  # inches of a gallery picture, shown at 250 CSS pixels
+WITH_AXES = ("radial power", "anisotropy\n(dB)")  # rows of the gallery whose panels need room for ticks
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A picture within the page.
+
+    Attributes
+    ----------
+    alt : str
+        Text for readers who do not see the picture.
+    content : bytes
+        The picture as PNG.
+    """
+
+    alt: str
+    content: bytes
+
+    @property
+    def base64(self) -> str:
+        """The PNG in base64, for a data address."""
+        return base64.b64encode(self.content).decode("ascii")
+
+
+def figure_picture(figure: Figure, alt: str) -> Picture:
+    """Render a figure for the page.
+
+    Parameters
+    ----------
+    figure : Figure
+        Figure to render.
+    alt : str
+        Text for readers who do not see it.
+
+    Returns
+    -------
+    Picture
+        The figure at the resolution of all PNG files.
+    """
+    return Picture(alt, png(figure))
+
+
+@style.styled
+def gallery_panel(
+    row: str, ratio: float, draw: Callable[[Axes, SourceResult], None], source: SourceResult, alt: str
+) -> Picture:
+    """Draw a panel of the gallery, to its edge or with room for the ticks of its axes.
+
+    Parameters
+    ----------
+    row : str
+        Title of its row.
+    ratio : float
+        Height of the panel over its width.
+    draw : callable
+        Function that draws a source into axes.
+    source : SourceResult
+        Source to draw.
+    alt : str
+        Text for readers who do not see it.
+
+    Returns
+    -------
+    Picture
+        The panel.
+    """
+    plain = row not in WITH_AXES
+    room = 0.02 if plain else 0.27
+    under = 0.02 if plain and ratio == 1.0 else 0.2
+    height = PANEL * ratio if plain else PANEL * ratio + 0.1
+    figure = Figure(figsize=(PANEL, height))
+    ax = figure.add_axes(
+        (room / PANEL, under / height, (PANEL - room - 0.03) / PANEL, (height - under - 0.04) / height)
+    )
+    draw(ax, source)
+    return Picture(alt, png(figure, dpi=160))
+
+
+def colour_bar() -> Picture:
+    """Draw the colour scale of the spectra."""
+    stream = io.BytesIO()
+    imsave(stream, np.tile(np.linspace(0, 1, 256), (4, 1)), cmap=spectrum.palette(), format="png")
+    return Picture("colour scale of the spectra, dark to bright", stream.getvalue())
