@@ -1,1 +1,1 @@
-"""What gbnbench costs and how exact it is, beside its rivals; kept results stay in the checkout."""
+"""Benchmarks of speed and exactness beside rivals; the results that are kept stay in the checkout."""

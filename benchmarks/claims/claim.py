@@ -1,4 +1,4 @@
-"""What a claim of the paper is, and the rows that measuring it gives."""
+"""A claim of the paper, and the rows that measuring it gives."""
 
 from __future__ import annotations
 
@@ -91,14 +91,46 @@ def reported(
     sets: int = 0,
     holds: str = BESIDE,
 ) -> Row:
-    """Make a row, its n, d and count of sets those of drawn sets where these are given."""
+    """Make a row of the table of claims.
+
+    Parameters
+    ----------
+    name, quantity : str
+        The row, and what was measured.
+    paper : str
+        What the paper says of it.
+    measured, error : float
+        The value and its standard error.
+    of : Drawn, optional
+        Sets that were measured; n, d and their number are taken from them.
+    n, d, sets : int
+        Points in a set, dimension and number of sets, where there are no drawn sets.
+    holds : str
+        The verdict.
+
+    Returns
+    -------
+    Row
+    """
     if of is not None:
         sets, n, d = of.x.shape
     return Row(name, quantity, paper, measured, error, n, d, sets, holds)
 
 
 def holds(condition: bool, otherwise: str = NO) -> str:
-    """Return the verdict of a criterion."""
+    """Return the verdict of a criterion.
+
+    Parameters
+    ----------
+    condition : bool
+        Whether the criterion is met.
+    otherwise : str
+        The verdict where it is not.
+
+    Returns
+    -------
+    str
+    """
     return YES if condition else otherwise
 
 

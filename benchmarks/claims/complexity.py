@@ -19,13 +19,37 @@ WIDTH = 4.0  # sigmas a side of the kernels timed by dimension: the same polynom
 
 
 def gradient(evaluate: EnergyEvaluation, n: int, d: int) -> Call:
-    """Return a call that finds one gradient of one random set."""
+    """Prepare a call that computes one gradient of one random set.
+
+    Parameters
+    ----------
+    evaluate : EnergyEvaluation
+        The evaluation of the energy.
+    n, d : int
+        Points in a set, and dimension.
+
+    Returns
+    -------
+    callable
+    """
     x = np.random.default_rng(SEED).random((1, n, d))
     return lambda: evaluate(x)
 
 
 def exponent(sizes: list[int], seconds: list[float]) -> tuple[float, float]:
-    """Slope of ln seconds over ln size and its standard error."""
+    """Fit the slope of ln seconds over ln size.
+
+    Parameters
+    ----------
+    sizes : list of int
+        Sizes.
+    seconds : list of float
+        The time that each took.
+
+    Returns
+    -------
+    slope, standard_error : float
+    """
     x, y = np.log(sizes), np.log(seconds)
     (slope, at), *_ = np.polyfit(x, y, 1, full=True)
     rest = y - slope * x - at

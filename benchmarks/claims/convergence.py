@@ -244,7 +244,20 @@ def repeated(_: Sets) -> Iterator[Row]:
 
 
 def hessian_of(x: FloatArray, h: float = 1e-4) -> FloatArray:
-    """Hessian of the energy at one set (n, d), in spacings, by central differences of the gradient."""
+    """Compute the Hessian of the energy at one set by central differences of the gradient.
+
+    Parameters
+    ----------
+    x : (n, d) float64
+        The set.
+    h : float
+        Half the step of the differences, in spacings.
+
+    Returns
+    -------
+    (n d, n d) float64
+        In units of spacings.
+    """
     n, d = x.shape
     energy = energy_evaluation(n, d, 1.0, "double")
     side = n ** (1 / d)

@@ -22,7 +22,25 @@ EXACT = 1e-9
 
 
 def sampled_variance(u: FloatArray, a: FloatArray, sigma: float) -> float:
-    """Variance over the torus of sum over k of a_k exp(-a_k |x - u_k|^2 / 2 sigma^2), sampled on a grid."""
+    """Compute the variance of a sum of Gaussians over the torus by sampling it on a grid.
+
+    Parameters
+    ----------
+    u : (n, d) float64
+        Centres u_k.
+    a : (n,) float64
+        Amplitudes a_k.
+    sigma : float
+        Width of a kernel whose amplitude is 1.
+
+    Returns
+    -------
+    float
+
+    Notes
+    -----
+    The sum is sum over k of a_k exp(-a_k |x - u_k|^2 / (2 sigma^2)).
+    """
     axis = np.arange(GRID) * SIDE / GRID
     total = np.zeros((GRID, GRID))
     for (x, y), weight in zip(u, a, strict=True):
@@ -32,7 +50,21 @@ def sampled_variance(u: FloatArray, a: FloatArray, sigma: float) -> float:
 
 
 def printed_variance(u: FloatArray, a: FloatArray, sigma: float) -> float:
-    """Eq. (47), its squared distance over all periods; Eq. (1) where every a is 1."""
+    """Compute the variance as Eq. (47) prints it, its squared distances over all periods.
+
+    Parameters
+    ----------
+    u : (n, d) float64
+        Centres.
+    a : (n,) float64
+        Amplitudes; Eq. (1) is the case in which every one is 1.
+    sigma : float
+        Width of a kernel whose amplitude is 1.
+
+    Returns
+    -------
+    float
+    """
     total = 0.0
     for k, point in enumerate(u):
         both = a[k] * a / (a[k] + a)
@@ -176,7 +208,20 @@ def balance(_: Sets) -> Iterator[Row]:
 
 
 def outermost(u: FloatArray, side: float) -> FloatArray:
-    """Distance from each face to the nearest point of each strip, a spacing wide, that stands on it."""
+    """Measure how far the outermost points stand from the faces of the box.
+
+    Parameters
+    ----------
+    u : (n, d) float64
+        Points, in spacings.
+    side : float
+        Side of the box, in spacings.
+
+    Returns
+    -------
+    (strips,) float64
+        Distance from each face to the nearest point of each strip, one spacing wide, that stands on it.
+    """
     count = math.floor(side)
     found = []
     for axis in (0, 1):

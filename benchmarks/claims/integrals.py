@@ -31,31 +31,110 @@ AGREES = 3.0  # joint standard errors
 
 @lru_cache(maxsize=8)
 def integrands(family: Gaussians | HalfSpaces, d: int, further: int = 0) -> tuple[Integrand, ...]:
-    """Draw the integrands that all sets of a dimension are tried on; others in each further draw."""
+    """Draw the integrands that all sets of a dimension are tried on.
+
+    Parameters
+    ----------
+    family : Gaussians or HalfSpaces
+        The family of integrands.
+    d : int
+        Dimension.
+    further : int
+        Number of the draw; every number gives other integrands.
+
+    Returns
+    -------
+    tuple of Integrand
+    """
     rng = np.random.default_rng([SEED, d, further] if further else [SEED, d])
     return tuple(family.draw(d, rng) for _ in range(INSTANCES))
 
 
 def draw(sets: Sets, generator: str, n: int, d: int) -> Drawn:
-    """Draw sets for integration: few of those that cost much."""
+    """Draw sets for integration, few of those that cost much.
+
+    Parameters
+    ----------
+    sets : Sets
+        The sets that are drawn once and shared.
+    generator : str
+        The generator, with its settings.
+    n, d : int
+        Points in a set, and dimension.
+
+    Returns
+    -------
+    Drawn
+    """
     many = 64 if generator != FAST else 8 if n <= 2048 else 4 if n <= 4096 else 2
     return sets.draw(generator, n=n, d=d, sets=many)
 
 
 def errors(sets: Sets, family: Gaussians | HalfSpaces, generator: str, n: int, d: int) -> FloatArray:
-    """Estimates less integrals, (integrands, sets)."""
+    """Estimate every integral with every set.
+
+    Parameters
+    ----------
+    sets : Sets
+        The sets that are drawn once and shared.
+    family : Gaussians or HalfSpaces
+        The family of integrands.
+    generator : str
+        The generator, with its settings.
+    n, d : int
+        Points in a set, and dimension.
+
+    Returns
+    -------
+    (integrands, sets) float64
+        Estimates less integrals.
+    """
     return estimate_errors(integrands(family, d), draw(sets, generator, n, d).x)
 
 
 def variance(sets: Sets, family: Gaussians | HalfSpaces, generator: str, n: int, d: int) -> Variance:
-    """Variance of the estimates."""
+    """Compute the variance of the estimates.
+
+    Parameters
+    ----------
+    sets : Sets
+        The sets that are drawn once and shared.
+    family : Gaussians or HalfSpaces
+        The family of integrands.
+    generator : str
+        The generator, with its settings.
+    n, d : int
+        Points in a set, and dimension.
+
+    Returns
+    -------
+    Variance
+    """
     return variance_of(errors(sets, family, generator, n, d))
 
 
 def slope(
     sets: Sets, family: Gaussians | HalfSpaces, generator: str, d: int, sizes: tuple[int, ...]
 ) -> Slope:
-    """Exponent of the variance in n."""
+    """Fit the exponent of the variance in n.
+
+    Parameters
+    ----------
+    sets : Sets
+        The sets that are drawn once and shared.
+    family : Gaussians or HalfSpaces
+        The family of integrands.
+    generator : str
+        The generator, with its settings.
+    d : int
+        Dimension.
+    sizes : tuple of int
+        Numbers of points.
+
+    Returns
+    -------
+    Slope
+    """
     return slope_of(sizes, [errors(sets, family, generator, n, d) for n in sizes])
 
 
@@ -221,7 +300,23 @@ def half_spaces(sets: Sets) -> Iterator[Row]:
 
 
 def redrawn(sets: Sets, generator: str, d: int, further: int = AGAIN) -> list[float]:
-    """Exponents of the half space's variance from further draws, 64 sets and 60 half spaces each."""
+    """Repeat the exponent of the half spaces' variance on further draws, 64 sets and 60 half spaces each.
+
+    Parameters
+    ----------
+    sets : Sets
+        The sets that are drawn once and shared.
+    generator : str
+        The generator, with its settings.
+    d : int
+        Dimension.
+    further : int
+        Number of further draws.
+
+    Returns
+    -------
+    list of float
+    """
     many = 64
     drawn = [sets.draw(generator, n=n, d=d, sets=(further + 1) * many).x for n in SIZES[d]]
     return [

@@ -37,10 +37,21 @@ def cell(text: str) -> str:
 def filled(claim: Claim, table: Table) -> str:
     """Return a claim's note with the measured numbers in it.
 
+    Parameters
+    ----------
+    claim : Claim
+        The claim.
+    table : Table
+        The measured rows.
+
+    Returns
+    -------
+    str
+
     Raises
     ------
     InputError
-        If it names a row that the table does not have.
+        If the note names a row that the table does not have.
     """
 
     def measured(match: re.Match[str]) -> str:
@@ -56,7 +67,19 @@ def filled(claim: Claim, table: Table) -> str:
 
 
 def of_claim(name: str, table: Table) -> str:
-    """Return a claim's verdict, or that it was not measured."""
+    """Return a claim's verdict, or say that it was not measured.
+
+    Parameters
+    ----------
+    name : str
+        The claim's name.
+    table : Table
+        The measured rows.
+
+    Returns
+    -------
+    str
+    """
     return verdict(cells["holds"] for cells in table[name]) if name in table else "not measured"
 
 
@@ -74,7 +97,19 @@ def line(cells: dict[str, str]) -> str:
 
 
 def section(claim: Claim, table: Table) -> Iterator[str]:
-    """Give the lines of one claim."""
+    """Yield the lines of the page that are about one claim.
+
+    Parameters
+    ----------
+    claim : Claim
+        The claim.
+    table : Table
+        The measured rows.
+
+    Returns
+    -------
+    iterator of str
+    """
     yield f"### `{claim.name}`: {of_claim(claim.name, table)}\n"
     yield f"> {claim.says} ({claim.place})\n"
     if claim.name in table:
@@ -107,7 +142,19 @@ def page(table: Table) -> str:
 
 
 def anchor(claim: Claim, found: str) -> str:
-    """Return the address that a heading gets: lower case, its marks left out."""
+    """Return the address that a heading gets: in lower case, its marks left out.
+
+    Parameters
+    ----------
+    claim : Claim
+        The claim.
+    found : str
+        Its verdict, which stands in the heading.
+
+    Returns
+    -------
+    str
+    """
     return f"{claim.name}-{found.replace(' ', '-')}"
 
 

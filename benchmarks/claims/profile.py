@@ -19,7 +19,20 @@ SIDE = 16.0  # spacings of the torus whose kernel is transformed
 
 
 def over(high: Drawn, low: Drawn, measure: str) -> tuple[float, float]:
-    """Return the orders of magnitude between two measures, and their standard error."""
+    """Compare a measure of two groups of sets.
+
+    Parameters
+    ----------
+    high, low : Drawn
+        The sets whose measure is divided, and those by which it is.
+    measure : str
+        Name of the measure.
+
+    Returns
+    -------
+    orders, standard_error : float
+        Decimal logarithm of the ratio.
+    """
     ratio = high.measures[measure] / low.measures[measure]
     errors = [s.measures.standard_error[measure] / s.measures[measure] for s in (high, low)]
     return math.log10(ratio), math.hypot(*np.nan_to_num(errors)) / math.log(10)

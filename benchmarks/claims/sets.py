@@ -93,11 +93,35 @@ class Sets:
         self._traces: dict[tuple[int, ...], Trace] = {}
 
     def few(self, count: int, least: int = 2) -> int:
-        """Return so many, or their share where less is done."""
+        """Return a count, or the share of it that is taken where less is done.
+
+        Parameters
+        ----------
+        count : int
+            The count of a whole measurement.
+        least : int
+            The smallest that is returned.
+
+        Returns
+        -------
+        int
+        """
         return max(least, round(self._share * count)) if self._share < 1 else count
 
     def draw(self, spec: str, n: int = 1024, d: int = 2, sets: int = 4) -> Drawn:
-        """Draw sets of a generator."""
+        """Draw sets of a generator, once for all claims.
+
+        Parameters
+        ----------
+        spec : str
+            The generator, with its settings.
+        n, d, sets : int
+            Points in a set, dimension, number of sets.
+
+        Returns
+        -------
+        Drawn
+        """
         sets = self.few(sets)
         if self._share < 1:
             generator = find(spec)
@@ -113,7 +137,19 @@ class Sets:
         return self._drawn[key]
 
     def evolution(self, stops: tuple[int, ...], n: int = 1024, sets: int = 4) -> Trace:
-        """Trace of the paper's descent in the plane, the points kept after so many steps."""
+        """Follow the paper's descent in the plane.
+
+        Parameters
+        ----------
+        stops : tuple of int
+            Steps after which the points are kept.
+        n, sets : int
+            Points in a set, number of sets.
+
+        Returns
+        -------
+        Trace
+        """
         key = (n, self.few(sets), *(self.few(stop, 1) for stop in stops))
         if key not in self._traces:
             trace = Trace(keep_at=key[2:])

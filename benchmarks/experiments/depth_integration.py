@@ -76,6 +76,8 @@ def measured(
         Points.
     shifts : int
         Random toroidal shifts of each set for each integrand.
+    rng : numpy.random.Generator
+        Source of the shifts.
 
     Returns
     -------
@@ -94,10 +96,26 @@ def measured(
 
 
 def predicted(energy: Callable[[NDArray[np.int64]], FloatArray], x: FloatArray, fmax: int) -> float:
-    """Variance that the power spectra foretell: sum over f != 0, |f_a| <= fmax, of |transform|^2 P / n.
+    """Compute the variance that the power spectra predict.
 
-    Exact over all shifts where the integrand's spectrum ends within the cube (Durand 2011; Pilleboue et al.
-    2015).
+    Parameters
+    ----------
+    energy : callable
+        Squared modulus of the transform of the integrand at frequencies.
+    x : (sets, n, d) float64
+        Points.
+    fmax : int
+        Largest harmonic on each axis.
+
+    Returns
+    -------
+    float
+        Sum over f != 0, |f_a| <= fmax, of |transform|^2 P / n.
+
+    Notes
+    -----
+    Exact over all shifts where the spectrum of the integrand ends within the cube (Durand 2011; Pilleboue
+    et al. 2015).
     """
     _, n, d = x.shape
     power = each_power(x, fmax)[1].power.ravel()
@@ -111,7 +129,19 @@ def rows(
     sets: int = SETS,
     shifts: int = SHIFTS,
 ) -> Iterator[dict[str, Any]]:
-    """One row a case, source and family of integrands."""
+    """Yield one row for each case, source and family of integrands.
+
+    Parameters
+    ----------
+    cases : tuple
+        n, d, settings of the families and number of integrands of each case.
+    sets, shifts : int
+        Number of sets, and of random shifts of each.
+
+    Returns
+    -------
+    iterator of dict
+    """
     for n, d, edges, fmax in cases:
         for pattern in SOURCES:
             source = pattern.format(**edges)

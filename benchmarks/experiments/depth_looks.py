@@ -1,4 +1,4 @@
-"""What could show to the eye: rings, waves and directions of deep sets beside Gaussian Blue Noise's.
+"""Rings, waves and directions that could show to the eye in deep sets, beside Gaussian Blue Noise's.
 
 python -m gbnbench.benchmarks.experiments.depth_looks benchmarks/results/deep/depth_looks.csv [FOLDER ...]
 """
@@ -55,7 +55,19 @@ def waves(x: FloatArray) -> tuple[float, list[float]]:
 
 
 def row(source: str, x: FloatArray) -> dict[str, Any]:
-    """Everything that is looked at, of sets (realizations, n, 2)."""
+    """Measure all that could show to the eye.
+
+    Parameters
+    ----------
+    source : str
+        The name of the sets.
+    x : (realizations, n, 2) float64
+        The sets.
+
+    Returns
+    -------
+    dict
+    """
     spectrum = periodogram(x, math.ceil(2 * math.sqrt(x.shape[1])) + 1)
     shells = radial(spectrum)
     mean, ring = beyond(shells, EDGE)
@@ -87,7 +99,21 @@ def row(source: str, x: FloatArray) -> dict[str, Any]:
 def rows(
     sources: Sequence[str], folders: Sequence[Path], n: int = 1024, sets: int = SETS
 ) -> Iterator[dict[str, Any]]:
-    """One row a generator, then one a folder of files."""
+    """Yield one row for each generator, then one for each folder of files.
+
+    Parameters
+    ----------
+    sources : sequence of str
+        Generators.
+    folders : sequence of Path
+        Folders of point sets.
+    n, sets : int
+        Points in a set, number of sets.
+
+    Returns
+    -------
+    iterator of dict
+    """
     for source in sources:
         yield row(source, generate(source, n=n, d=2, realizations=sets).reshape(sets, n, 2))
     for folder in folders:

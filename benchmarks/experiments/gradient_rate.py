@@ -40,7 +40,7 @@ LONGEST = 4.0  # expected seconds of a gradient above which a case is left out
 
 
 @dataclass(frozen=True)
-class Case:
+class GradientCase:
     """One size.
 
     Attributes
@@ -61,31 +61,43 @@ class Case:
 
 
 CASES = (
-    Case(1024, 2, bar=1.5),
-    Case(100_000, 2, bar=120),
-    Case(1_000_000, 2, bar=1200),
-    Case(100_000, 3, bar=2200),
-    Case(1024, 8, bar=8),
-    Case(64, 2),
-    Case(64, 2, sets=32),
-    Case(300, 2),
-    Case(1024, 2, sigma=3.0),
-    Case(4096, 3),
-    Case(1000, 4, sigma=0.3),
-    Case(4096, 8),
-    Case(256, 20),
+    GradientCase(1024, 2, bar=1.5),
+    GradientCase(100_000, 2, bar=120),
+    GradientCase(1_000_000, 2, bar=1200),
+    GradientCase(100_000, 3, bar=2200),
+    GradientCase(1024, 8, bar=8),
+    GradientCase(64, 2),
+    GradientCase(64, 2, sets=32),
+    GradientCase(300, 2),
+    GradientCase(1024, 2, sigma=3.0),
+    GradientCase(4096, 3),
+    GradientCase(1000, 4, sigma=0.3),
+    GradientCase(4096, 8),
+    GradientCase(256, 20),
 )
 
 
-def candidates(case: Case, precision: str) -> list[EnergyCost]:
-    """List the evaluations worth timing, the plan's own first."""
+def candidates(case: GradientCase, precision: str) -> list[EnergyCost]:
+    """List the evaluations that are worth timing, the plan's own first.
+
+    Parameters
+    ----------
+    case : GradientCase
+        n, d and sigma.
+    precision : str
+        "double" or "float".
+
+    Returns
+    -------
+    list of EnergyCost
+    """
     found = plan_energy(case.n, case.d, case.sigma, precision, sets=case.sets)
     if found.seconds() > LONGEST:
         return []
     return [found.chosen, *(c for c in found.others if c.effort < DEAREST * found.chosen.effort)]
 
 
-def measure(case: Case) -> list[dict[str, Any]]:
+def measure(case: GradientCase) -> list[dict[str, Any]]:
     """Time every evaluation of a case in both precisions, in turn; one row each."""
     x = np.random.default_rng(case.n).random((case.sets, case.n, case.d))
     costs = {(p, c.method): c for p in ("double", "float") for c in candidates(case, p)}
@@ -122,8 +134,16 @@ def _gain(timings: dict[str, Timing], first: dict[str, str]) -> float:
     return float(np.median(double.over(single)))
 
 
-def main(out: Path = RESULTS, cases: Iterable[Case] = CASES) -> None:
-    """Run cases and write field.csv and machine.json."""
+def main(out: Path = RESULTS, cases: Iterable[GradientCase] = CASES) -> None:
+    """Run cases and write field.csv and machine.json.
+
+    Parameters
+    ----------
+    out : Path
+        The folder.
+    cases : iterable of GradientCase
+        The cases.
+    """
     os.environ.update(ONE_THREAD)  # before the device is opened
     out.mkdir(parents=True, exist_ok=True)
     write_whole(out / "machine.json", (json.dumps(describe(), indent=2) + "\n").encode())

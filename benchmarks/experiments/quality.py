@@ -1,4 +1,4 @@
-"""How good the bundled generators' sets are over fresh seeds, and what one costs.
+"""Quality and cost of the bundled generators' sets over fresh seeds.
 
 python -m gbnbench.benchmarks.experiments.quality benchmarks/results/gbn/quality.csv [NAME...]
 """
@@ -32,7 +32,7 @@ LARGE = 20_000  # points above which only the lowest shells are found
 
 
 @dataclass(frozen=True)
-class Case:
+class QualityCase:
     """Sets of one generator.
 
     Attributes
@@ -53,17 +53,17 @@ class Case:
 
 
 CASES = (
-    Case("plane", "gbn", 1024, 2, 10),
-    Case("isotropy", "gbn", 1024, 2, 32),
-    Case("plane-4096", "gbn", 4096, 2, 2),
-    Case("plane-100000", "gbn[gradients=300]", 100_000, 2, 1),
-    Case("space-4096", "gbn[gradients=300]", 4096, 3, 1),
-    Case("eight-4096", "gbn[gradients=300]", 4096, 8, 1),
-    Case("deep", "deep", 1024, 2, 10),
-    Case("deep-16384", "deep", 16_384, 2, 1),
-    Case("deep-100000", "deep", 100_000, 2, 1),
-    Case("deep-space", "deep", 4096, 3, 1),
-    Case("deep-five", "deep", 2048, 5, 1),
+    QualityCase("plane", "gbn", 1024, 2, 10),
+    QualityCase("isotropy", "gbn", 1024, 2, 32),
+    QualityCase("plane-4096", "gbn", 4096, 2, 2),
+    QualityCase("plane-100000", "gbn[gradients=300]", 100_000, 2, 1),
+    QualityCase("space-4096", "gbn[gradients=300]", 4096, 3, 1),
+    QualityCase("eight-4096", "gbn[gradients=300]", 4096, 8, 1),
+    QualityCase("deep", "deep", 1024, 2, 10),
+    QualityCase("deep-16384", "deep", 16_384, 2, 1),
+    QualityCase("deep-100000", "deep", 100_000, 2, 1),
+    QualityCase("deep-space", "deep", 4096, 3, 1),
+    QualityCase("deep-five", "deep", 2048, 5, 1),
 )
 COLUMNS = (
     "case", "generator", "n", "d", "sets", "CPU s a set", "noise floor", "P(1)", "evacuated energy", "peak",
@@ -101,7 +101,7 @@ def farthest_ring(shells: ShellSpectrum) -> float:
     return float(np.abs(away / (10 / math.log(10) * np.sqrt(2 / degrees[usable]))).max())
 
 
-def measure(case: Case) -> dict[str, Any]:
+def measure(case: QualityCase) -> dict[str, Any]:
     """Draw a case's sets and measure them, in double."""
     generate(case.generator, n=min(case.n, 64), d=case.d)  # builds some kernels, imports the rest
     began = time.process_time()

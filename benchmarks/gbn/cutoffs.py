@@ -1,4 +1,4 @@
-"""What leaving out far pairs saves in time and costs in exactness: Gaussian Blue Noise by cut-off."""
+"""Time and exactness of the gradient of Gaussian Blue Noise by cut-off, beyond which pairs are left out."""
 
 from __future__ import annotations
 
@@ -56,7 +56,21 @@ def exact_forces(x: FloatArray, sigma: float, which: NDArray[np.intp]) -> NDArra
 
 
 def forces(n: int, d: int, seconds: float, probes: int) -> Iterator[dict[str, Any]]:
-    """Time and check a gradient at every cut-off that the box is wide enough for; a row each.
+    """Time and check a gradient at every cut-off that the box is wide enough for.
+
+    Parameters
+    ----------
+    n, d : int
+        Points in a set, and dimension.
+    seconds : float
+        Time given to each measurement.
+    probes : int
+        Number of points whose forces are checked.
+
+    Returns
+    -------
+    iterator of dict
+        One row for each cut-off.
 
     Notes
     -----

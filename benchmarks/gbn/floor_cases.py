@@ -1,4 +1,4 @@
-"""What the benchmark of Gaussian Blue Noise runs over: sizes, and the optimisers that race on each."""
+"""Cases of the benchmark of Gaussian Blue Noise: sizes, and the optimisers that race on each."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class Curve:
 
 
 @dataclass(frozen=True)
-class Case:
+class FloorCase:
     """Sets of one size and what races on them.
 
     Attributes
@@ -85,12 +85,12 @@ class Case:
 
 
 @dataclass(frozen=True)
-class Plan:
+class FloorBenchmark:
     """How much of it is done.
 
     Attributes
     ----------
-    cases : tuple of Case
+    cases : tuple of FloorCase
         Noise floor against time.
     forces : tuple of (int, int)
         Sizes (n, d) whose forces are timed and checked at every cut-off.
@@ -100,7 +100,7 @@ class Plan:
         Points whose exact forces are taken.
     """
 
-    cases: tuple[Case, ...]
+    cases: tuple[FloorCase, ...]
     forces: tuple[tuple[int, int], ...]
     seconds: float
     probes: int
@@ -112,7 +112,23 @@ class Plan:
 
 
 def race(ours: int, descent: int, authors: int = 0, in_float: int = 0) -> tuple[Curve, ...]:
-    """Nesterov in both precisions, and descents as far as said."""
+    """List the curves of a race: Nesterov's method in both precisions, and descents.
+
+    Parameters
+    ----------
+    ours : int
+        Gradients of Nesterov's method in double.
+    descent : int
+        Gradients of the paper's descent.
+    authors : int
+        Gradients of the descent with the authors' step; none for 0.
+    in_float : int
+        Gradients of Nesterov's method in float; none for 0.
+
+    Returns
+    -------
+    tuple of Curve
+    """
     curves = [Curve("nesterov", ours), Curve("nesterov", ours, "float"), Curve("descent", descent)]
     if in_float:
         curves.append(Curve("descent", in_float, "float"))
@@ -122,43 +138,55 @@ def race(ours: int, descent: int, authors: int = 0, in_float: int = 0) -> tuple[
 
 
 def truncated(gradients: int, cutoffs: tuple[float, ...] = CUTOFFS) -> tuple[Curve, ...]:
-    """Nesterov on kernels that end at each cut-off."""
+    """List the curves of Nesterov's method on kernels that end at each cut-off.
+
+    Parameters
+    ----------
+    gradients : int
+        Gradients of each.
+    cutoffs : tuple of float
+        Cut-offs, in sigma.
+
+    Returns
+    -------
+    tuple of Curve
+    """
     return tuple(Curve("nesterov", gradients, cutoff=cutoff) for cutoff in cutoffs)
 
 
-def full() -> Plan:
+def full() -> FloorBenchmark:
     """Under five minutes on one quiet core."""
     cases = (
-        Case(256, 1, race(1000, 3162)),
-        Case(256, 2, race(1000, 15_000)),
-        Case(1024, 2, race(1000, 15_000, authors=1000, in_float=3162) + truncated(1000)),
-        Case(4096, 2, race(562, 1778)),
-        Case(16384, 2, race(320, 320), sets=1),
-        Case(1000, 3, race(320, 320, authors=178)),
-        Case(4096, 3, race(100, 100, authors=100), sets=1),
-        Case(1024, 8, race(100, 100, authors=100)),
+        FloorCase(256, 1, race(1000, 3162)),
+        FloorCase(256, 2, race(1000, 15_000)),
+        FloorCase(1024, 2, race(1000, 15_000, authors=1000, in_float=3162) + truncated(1000)),
+        FloorCase(4096, 2, race(562, 1778)),
+        FloorCase(16384, 2, race(320, 320), sets=1),
+        FloorCase(1000, 3, race(320, 320, authors=178)),
+        FloorCase(4096, 3, race(100, 100, authors=100), sets=1),
+        FloorCase(1024, 8, race(100, 100, authors=100)),
     )
-    return Plan(cases, ((1024, 2), (4096, 2), (4096, 3)), 3.0, 200)
+    return FloorBenchmark(cases, ((1024, 2), (4096, 2), (4096, 3)), 3.0, 200)
 
 
-def quick() -> Plan:
+def quick() -> FloorBenchmark:
     """Under half a minute."""
     cases = (
-        Case(256, 2, race(320, 1000), sets=2),
-        Case(1024, 2, race(320, 1000, in_float=320) + truncated(320), sets=1),
-        Case(4096, 2, race(100, 100), sets=1),
-        Case(1000, 3, race(56, 56, authors=56), sets=1),
-        Case(1024, 8, race(18, 18, authors=18), sets=1),
+        FloorCase(256, 2, race(320, 1000), sets=2),
+        FloorCase(1024, 2, race(320, 1000, in_float=320) + truncated(320), sets=1),
+        FloorCase(4096, 2, race(100, 100), sets=1),
+        FloorCase(1000, 3, race(56, 56, authors=56), sets=1),
+        FloorCase(1024, 8, race(18, 18, authors=18), sets=1),
     )
-    return Plan(cases, ((1024, 2),), 0.8, 50)
+    return FloorBenchmark(cases, ((1024, 2),), 0.8, 50)
 
 
-def tiny() -> Plan:
+def tiny() -> FloorBenchmark:
     """Seconds: what tests run."""
     cases = (
-        Case(100, 2, race(56, 178, authors=56), sets=2),
-        Case(400, 2, truncated(100, (3.0, 9.0)), sets=1),
-        Case(64, 3, race(32, 32), sets=1),
-        Case(100, 6, race(18, 18, authors=18), sets=1),
+        FloorCase(100, 2, race(56, 178, authors=56), sets=2),
+        FloorCase(400, 2, truncated(100, (3.0, 9.0)), sets=1),
+        FloorCase(64, 3, race(32, 32), sets=1),
+        FloorCase(100, 6, race(18, 18, authors=18), sets=1),
     )
-    return Plan(cases, ((400, 2),), 0.02, 20)
+    return FloorBenchmark(cases, ((400, 2),), 0.02, 20)

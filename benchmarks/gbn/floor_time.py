@@ -21,7 +21,7 @@ from gbnbench.analysis.spatial.delaunay import neighbours
 from gbnbench.analysis.spatial.valence import valence6
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.benchmarks.gbn.cutoffs import FORCES, forces
-from gbnbench.benchmarks.gbn.floor_cases import SIGMA, Case, Curve, Plan
+from gbnbench.benchmarks.gbn.floor_cases import SIGMA, Curve, FloorBenchmark, FloorCase
 from gbnbench.benchmarks.timing.machine import Rows, describe
 from gbnbench.benchmarks.timing.threads import one_blas_thread
 from gbnbench.core.atomic_write import write_whole
@@ -48,7 +48,7 @@ Row = dict[str, Any]
 
 
 @dataclass(frozen=True)
-class Outcome:
+class FloorTables:
     """Everything measured.
 
     Attributes
@@ -65,7 +65,7 @@ class Outcome:
     speedups: pd.DataFrame
 
 
-def run(out: Path, plan: Plan, progress: Progress) -> Outcome:
+def run(out: Path, plan: FloorBenchmark, progress: Progress) -> FloorTables:
     """Measure all of a plan and write it into a folder, each row as soon as it is known.
 
     Parameters
@@ -73,10 +73,15 @@ def run(out: Path, plan: Plan, progress: Progress) -> Outcome:
     out : Path
         Made where missing; ``floor_time.csv``, ``forces.csv``, ``speedup.csv`` and ``machine.json`` in it are
         replaced.
-    plan : Plan
+    plan : FloorBenchmark
         Cases and curves.
     progress : Progress
         Told what is being done; its steps are gradients.
+
+    Returns
+    -------
+    FloorTables
+        The tables, as they were written.
 
     Raises
     ------
@@ -105,11 +110,23 @@ def run(out: Path, plan: Plan, progress: Progress) -> Outcome:
             floors = pd.DataFrame(file.kept, columns=FLOOR_TIME)
     speedups = speedup(floors)
     write_whole(out / "speedup.csv", speedups.to_csv(index=False, float_format="%.6g").encode())
-    return Outcome(machine, floors, by_cutoff, speedups)
+    return FloorTables(machine, floors, by_cutoff, speedups)
 
 
-def race(case: Case, advance: Callable[[str, int], object] = lambda *_: None) -> Iterator[Row]:
-    """Run every curve of a case to its stops, in turn; one row a stop, as soon as it is reached.
+def race(case: FloorCase, advance: Callable[[str, int], object] = lambda *_: None) -> Iterator[Row]:
+    """Run every curve of a case to its stops, in turn.
+
+    Parameters
+    ----------
+    case : FloorCase
+        The size, the sets and the curves.
+    advance : callable
+        Told the curve and the gradients that were done.
+
+    Returns
+    -------
+    iterator of dict
+        One row for each stop, as soon as it is reached.
 
     Notes
     -----
@@ -131,7 +148,7 @@ def race(case: Case, advance: Callable[[str, int], object] = lambda *_: None) ->
 class _Runner:
     """One optimiser on one set, with its clock."""
 
-    def __init__(self, case: Case, curve: Curve, start: FloatArray) -> None:
+    def __init__(self, case: FloorCase, curve: Curve, start: FloatArray) -> None:
         self.case, self.curve = case, curve
         _optimiser(case, curve, start)[1].advance()  # builds the kernels
         began = time.process_time()
@@ -166,7 +183,7 @@ class _Runner:
         }
 
 
-def _optimiser(case: Case, curve: Curve, start: FloatArray) -> tuple[str, Descent]:
+def _optimiser(case: FloorCase, curve: Curve, start: FloatArray) -> tuple[str, Descent]:
     n, d = case.n, case.d
     energy = energy_evaluation(n, d, SIGMA, curve.precision, cutoff=curve.cutoff or None)
     step = authors_step(n, d) if curve.step == "authors" else step_size(n, d, SIGMA)
@@ -246,7 +263,20 @@ def speedup(floors: pd.DataFrame) -> pd.DataFrame:
 
 
 def crossings(curve: pd.DataFrame, floor: float) -> FloatArray:
-    """CPU seconds and gradients at which each set of a curve first reaches a floor: (sets, 2), or nan."""
+    """Find where each set of a curve first reaches a floor.
+
+    Parameters
+    ----------
+    curve : DataFrame
+        Rows of one curve.
+    floor : float
+        The noise floor.
+
+    Returns
+    -------
+    (sets, 2) float64
+        CPU seconds and gradients; nan where a set does not reach it.
+    """
     found = []
     for _, part in curve.groupby("set"):
         level = np.log(part.noise_floor.to_numpy(float))

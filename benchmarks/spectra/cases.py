@@ -1,4 +1,4 @@
-"""What the benchmark of the periodogram runs over: cases with all rivals, and sweeps of ours alone."""
+"""Cases of the benchmark of spectra: sizes with all rivals, and sweeps of gbnbench alone."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from gbnbench.core.torus import FloatArray
 
 
 @dataclass(frozen=True)
-class Case:
+class SpectrumCase:
     """Random sets of one size.
 
     Attributes
@@ -47,14 +47,14 @@ class Case:
 
 
 @dataclass(frozen=True)
-class Plan:
+class SpectrumBenchmark:
     """How much of it is done.
 
     Attributes
     ----------
-    cases : tuple of Case
+    cases : tuple of SpectrumCase
         With every rival.
-    sweeps : dict of str to tuple of Case
+    sweeps : dict of str to tuple of SpectrumCase
         Ours alone, by what grows.
     seconds, sweep_seconds : float
         For a case, for one size of a sweep.
@@ -68,8 +68,8 @@ class Plan:
         Of the throughput of two cores; 0 rounds leave it out.
     """
 
-    cases: tuple[Case, ...]
-    sweeps: dict[str, tuple[Case, ...]]
+    cases: tuple[SpectrumCase, ...]
+    sweeps: dict[str, tuple[SpectrumCase, ...]]
     seconds: float
     sweep_seconds: float
     longest: float
@@ -84,53 +84,53 @@ class Plan:
 
 
 # PSA v1.1 takes 1.55 CPU seconds for 319^2 frequencies of 1024 points on a core such as this was written on.
-PSA = Case(1024, 2, 159, quoted=("PSA v1.1 (quoted)", 1.55))
+PSA = SpectrumCase(1024, 2, 159, quoted=("PSA v1.1 (quoted)", 1.55))
 CASES = (
-    Case(1024, 2, 64),
-    Case(1024, 2, 64, 16),
-    Case(4096, 3, 16),
-    Case(4096, 2, 128),
-    Case(4096, 8, 1),
+    SpectrumCase(1024, 2, 64),
+    SpectrumCase(1024, 2, 64, 16),
+    SpectrumCase(4096, 3, 16),
+    SpectrumCase(4096, 2, 128),
+    SpectrumCase(4096, 8, 1),
     PSA,
-    Case(1024, 1, 4096),
+    SpectrumCase(1024, 1, 4096),
 )
 # In each dimension the F whose cube is nearest to 20,000 frequencies, then what 3^d gives.
 BY_DIMENSION = ((1, 10_000), (2, 70), (3, 13), (4, 6), (5, 3), (6, 2), (7, 2), (8, 1), (9, 1), (10, 1))
 
 
-def _sweeps(most: float) -> Iterator[tuple[str, tuple[Case, ...]]]:
+def _sweeps(most: float) -> Iterator[tuple[str, tuple[SpectrumCase, ...]]]:
     sweeps = {
-        "n": [Case(2**k, 2, 64) for k in range(6, 19)],
-        "F": [Case(1024, 2, 2**k) for k in range(3, 10)],
-        "d": [Case(1024, d, f) for d, f in BY_DIMENSION],
-        "realizations": [Case(1024, 2, 64, 2**k) for k in range(8)],
+        "n": [SpectrumCase(2**k, 2, 64) for k in range(6, 19)],
+        "F": [SpectrumCase(1024, 2, 2**k) for k in range(3, 10)],
+        "d": [SpectrumCase(1024, d, f) for d, f in BY_DIMENSION],
+        "realizations": [SpectrumCase(1024, 2, 64, 2**k) for k in range(8)],
     }
     for name, cases in sweeps.items():
         yield name, tuple(case for case in cases if case.flops <= most)
 
 
-def full() -> Plan:
+def full() -> SpectrumBenchmark:
     """Under five minutes on two cores."""
-    return Plan(CASES, dict(_sweeps(1e10)), 14.0, 1.2, 2.0, 200, False, 3, 2.0)
+    return SpectrumBenchmark(CASES, dict(_sweeps(1e10)), 14.0, 1.2, 2.0, 200, False, 3, 2.0)
 
 
-def quick() -> Plan:
+def quick() -> SpectrumBenchmark:
     """Under half a minute."""
     sweeps = {name: cases[:: 3 if len(cases) > 8 else 2] for name, cases in _sweeps(3e9)}
-    return Plan(CASES, sweeps, 1.0, 0.1, 0.1, 40, True, 1, 0.7)
+    return SpectrumBenchmark(CASES, sweeps, 1.0, 0.1, 0.1, 40, True, 1, 0.7)
 
 
-def tiny() -> Plan:
+def tiny() -> SpectrumBenchmark:
     """Seconds: what tests run."""
     cases = (
-        Case(64, 2, 8),
-        Case(64, 2, 8, 3),
-        Case(50, 3, 3),
-        Case(40, 4, 1),
-        Case(30, 1, 9, quoted=PSA.quoted),
+        SpectrumCase(64, 2, 8),
+        SpectrumCase(64, 2, 8, 3),
+        SpectrumCase(50, 3, 3),
+        SpectrumCase(40, 4, 1),
+        SpectrumCase(30, 1, 9, quoted=PSA.quoted),
     )
-    sweeps: dict[str, tuple[Case, ...]] = {
-        "n": (Case(32, 2, 8), Case(64, 2, 8)),
-        "d": (Case(64, 1, 20), Case(64, 2, 4)),
+    sweeps: dict[str, tuple[SpectrumCase, ...]] = {
+        "n": (SpectrumCase(32, 2, 8), SpectrumCase(64, 2, 8)),
+        "d": (SpectrumCase(64, 1, 20), SpectrumCase(64, 2, 4)),
     }
-    return Plan(cases, sweeps, 0.01, 0.01, 0.1, 10, True, 0, 0.1)
+    return SpectrumBenchmark(cases, sweeps, 0.01, 0.01, 0.1, 10, True, 0, 0.1)

@@ -1,4 +1,4 @@
-"""How much more two cores do than one: the same sets in child processes that PoCL holds to some threads."""
+"""Throughput of two cores over that of one: the same sets in processes that PoCL holds to some threads."""
 
 from __future__ import annotations
 
@@ -59,9 +59,13 @@ def throughput(seconds: float, rounds: int) -> Throughput:
     Parameters
     ----------
     seconds : float
-        Of measuring in each process.
+        Time of measuring in each process.
     rounds : int
-        How often both.
+        How often both are measured.
+
+    Returns
+    -------
+    Throughput
     """
     device = runtime().device
     if "portable computing language" not in device.platform.lower() or not device.is_cpu:

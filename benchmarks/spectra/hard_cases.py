@@ -106,7 +106,17 @@ def hard_cases(quick: bool = False) -> tuple[HardCase, ...]:
 
 
 def lattice(m: int, d: int) -> FloatArray:
-    """Regular grid of m**d points k/m, rounded where m is no power of two."""
+    """Return the regular grid of m**d points k/m, rounded where m is no power of two.
+
+    Parameters
+    ----------
+    m, d : int
+        Points on each axis, and dimension.
+
+    Returns
+    -------
+    (m**d, d) float64
+    """
     axes = np.meshgrid(*[np.arange(m) / m] * d, indexing="ij")
     return np.stack(axes, axis=-1).reshape(-1, d)
 

@@ -54,7 +54,21 @@ def reference_amplitudes(x: ArrayLike, frequencies: ArrayLike, weights: ArrayLik
 
 
 def reference_roots(x: ArrayLike, frequencies: ArrayLike, weights: ArrayLike | None = None) -> LongArray:
-    """Square root of power, |F| / sqrt(n): where errors are compared."""
+    """Compute the square root of power, |F| / sqrt(n), in which errors are compared.
+
+    Parameters
+    ----------
+    x : (n, d) or (sets, n, d) array_like
+        Points.
+    frequencies : (m, d) array_like of int
+        Frequencies.
+    weights : array_like, optional
+        Weights of the points.
+
+    Returns
+    -------
+    (m,) long double
+    """
     roots: LongArray = reference_amplitudes(x, frequencies, weights) / np.sqrt(
         np.longdouble(len(np.asarray(x)))
     )

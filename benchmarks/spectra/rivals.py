@@ -59,7 +59,17 @@ class Rival:
 
 
 def ours(n: int, d: int, fmax: int, sets: int) -> Iterator[Rival]:
-    """Yield gbnbench's own on this device: as it chooses, and the plain product where it chooses another."""
+    """Yield gbnbench's own ways on this device: its choice, and the plain product where that is another.
+
+    Parameters
+    ----------
+    n, d, fmax, sets : int
+        Points in a set, dimension, largest harmonic, number of sets.
+
+    Returns
+    -------
+    iterator of Rival
+    """
     precisions: tuple[PrecisionName, ...] = ("double", "float") if runtime().device.has_double else ("float",)
     for precision in precisions:
         chosen = title_of(plan(n, d, fmax, precision, realizations=sets).method)
@@ -72,7 +82,19 @@ def ours(n: int, d: int, fmax: int, sets: int) -> Iterator[Rival]:
 
 
 def rivals(n: int, d: int, fmax: int, sets: int, longest: float) -> Iterator[Rival]:
-    """Every method for points of this size, ours first; the naive one up to so many seconds a call."""
+    """Yield every way to the power of points of this size, ours first.
+
+    Parameters
+    ----------
+    n, d, fmax, sets : int
+        Points in a set, dimension, largest harmonic, number of sets.
+    longest : float
+        Seconds of a call beyond which the naive kernel is left out.
+
+    Returns
+    -------
+    iterator of Rival
+    """
     yield from ours(n, d, fmax, sets)
     call = partial(_evaluated, evaluator=NumpyProduct("double"))
     yield Rival("gbnbench without a device", "gbnbench without a device", "double", call, NumpyProduct.title)
@@ -89,14 +111,36 @@ def rivals(n: int, d: int, fmax: int, sets: int, longest: float) -> Iterator[Riv
 
 
 def half_space(fmax: int, d: int) -> NDArray[np.int64]:
-    """One of each pair f, -f, and 0: (m, d), the second half of the cube."""
+    """List one of each pair f, -f, and 0: the second half of the cube.
+
+    Parameters
+    ----------
+    fmax, d : int
+        Largest harmonic on each axis, and dimension.
+
+    Returns
+    -------
+    (m, d) int64
+    """
     base = 2 * fmax + 1
     index = np.arange(base**d // 2, base**d)
     return np.stack(np.unravel_index(index, (base,) * d), axis=1) - fmax
 
 
 def tables(x: FloatArray, fmax: int) -> list[NDArray[np.complex128]]:
-    """Complex exponentials of two groups of dimensions: (n, (2F+1)**dims) each."""
+    """Tabulate the complex exponentials of two groups of dimensions.
+
+    Parameters
+    ----------
+    x : (n, d) float64
+        Points.
+    fmax : int
+        Largest harmonic on each axis.
+
+    Returns
+    -------
+    list of (n, (2*fmax+1)**dims) complex128
+    """
     f = np.arange(-fmax, fmax + 1)
     made = []
     for group in (x[:, : x.shape[1] // 2], x[:, x.shape[1] // 2 :]):
@@ -109,13 +153,39 @@ def tables(x: FloatArray, fmax: int) -> list[NDArray[np.complex128]]:
 
 
 def separable(x: FloatArray, fmax: int) -> FloatArray:
-    """Tabulate in numpy and take one complex product (zgemm)."""
+    """Compute power by tables in numpy and one complex product (zgemm).
+
+    Parameters
+    ----------
+    x : (n, d) float64
+        Points.
+    fmax : int
+        Largest harmonic on each axis.
+
+    Returns
+    -------
+    (2*fmax+1,)*d float64
+    """
     a, b = tables(x, fmax)
     return _squared(a.T @ b, len(x)).reshape((2 * fmax + 1,) * x.shape[1])
 
 
 def finufft(x: FloatArray, fmax: int, tolerance: float) -> FloatArray:
-    """FINUFFT's type 1, one thread, one call a set."""
+    """Compute power by FINUFFT's type 1 transform on one thread, one call for each set.
+
+    Parameters
+    ----------
+    x : (n, d) float64
+        Points.
+    fmax : int
+        Largest harmonic on each axis.
+    tolerance : float
+        FINUFFT's eps.
+
+    Returns
+    -------
+    (2*fmax+1,)*d float64
+    """
     import finufft as library
 
     transform: Any = getattr(library, f"nufft{x.shape[1]}d1")

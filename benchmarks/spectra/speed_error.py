@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 
 from gbnbench.analysis.spectrum.evaluators.cube_product import CubeProduct
-from gbnbench.benchmarks.spectra.cases import Case, Plan
+from gbnbench.benchmarks.spectra.cases import SpectrumBenchmark, SpectrumCase
 from gbnbench.benchmarks.spectra.cores import Throughput, throughput
 from gbnbench.benchmarks.spectra.hard_cases import hard_cases
 from gbnbench.benchmarks.spectra.hard_table import evaluate, judged
@@ -52,7 +52,7 @@ Row = dict[str, Any]
 
 
 @dataclass(frozen=True)
-class Outcome:
+class SpectrumTables:
     """Everything measured.
 
     Attributes
@@ -72,7 +72,7 @@ class Outcome:
     throughput: Throughput
 
 
-def run(out: Path, plan: Plan, progress: Progress) -> Outcome:
+def run(out: Path, plan: SpectrumBenchmark, progress: Progress) -> SpectrumTables:
     """Measure all of a plan and write it into a folder, each row as soon as it is known.
 
     Parameters
@@ -80,10 +80,15 @@ def run(out: Path, plan: Plan, progress: Progress) -> Outcome:
     out : Path
         Made where missing; ``periodogram.csv``, ``scaling.csv``, ``hard_cases.csv`` and ``machine.json`` in
         it are replaced.
-    plan : Plan
+    plan : SpectrumBenchmark
         Cases and sweeps.
     progress : Progress
         Told what is being done.
+
+    Returns
+    -------
+    SpectrumTables
+        The tables, as they were written.
 
     Raises
     ------
@@ -127,11 +132,26 @@ def run(out: Path, plan: Plan, progress: Progress) -> Outcome:
     machine |= {"two_cores": asdict(cores) | {"ratio": _jsonable(cores.ratio)}}
     write_whole(out / "machine.json", (json.dumps(machine, indent=2) + "\n").encode())
     progress.advance("done")
-    return Outcome(machine, speed, scaling, hard, cores)
+    return SpectrumTables(machine, speed, scaling, hard, cores)
 
 
-def compare(case: Case, plan: Plan, most: Mapping[str, float]) -> Iterator[Row]:
-    """Time every rival on one case and take its error; one row each, ours first."""
+def compare(case: SpectrumCase, plan: SpectrumBenchmark, most: Mapping[str, float]) -> Iterator[Row]:
+    """Time every rival on one case and take its error.
+
+    Parameters
+    ----------
+    case : SpectrumCase
+        Points in a set, dimension, largest harmonic, number of sets.
+    plan : SpectrumBenchmark
+        Rounds and seconds.
+    most : mapping
+        The multiply-add peak of one core by precision.
+
+    Returns
+    -------
+    iterator of dict
+        One row for each rival, ours first.
+    """
     x = case.points()
     every = list(rivals(case.n, case.d, case.fmax, case.sets, plan.longest))
     timings = interleave({r.name: r.prepare(x, case.fmax) for r in every}, plan.seconds)
@@ -176,8 +196,24 @@ def compare(case: Case, plan: Plan, most: Mapping[str, float]) -> Iterator[Row]:
         }
 
 
-def grow(sweep: str, case: Case, plan: Plan, most: Mapping[str, float]) -> Iterator[Row]:
-    """Time ours on one size of a sweep; the plain product too where another is chosen."""
+def grow(sweep: str, case: SpectrumCase, plan: SpectrumBenchmark, most: Mapping[str, float]) -> Iterator[Row]:
+    """Time gbnbench on one size of a sweep, and the plain product where it chooses another.
+
+    Parameters
+    ----------
+    sweep : str
+        Name of the sweep.
+    case : SpectrumCase
+        The size.
+    plan : SpectrumBenchmark
+        Rounds and seconds.
+    most : mapping
+        The multiply-add peak of one core by precision.
+
+    Returns
+    -------
+    iterator of dict
+    """
     x = case.points()
     every = list(ours(case.n, case.d, case.fmax, case.sets))
     timings = interleave({r.name: r.prepare(x, case.fmax) for r in every}, plan.sweep_seconds)
@@ -195,14 +231,48 @@ def grow(sweep: str, case: Case, plan: Plan, most: Mapping[str, float]) -> Itera
         }
 
 
-def sample(case: Case, x: FloatArray, probes: int) -> tuple[Any, LongArray]:
-    """Random frequencies of the cube and the square root of the true power there."""
+def sample(case: SpectrumCase, x: FloatArray, probes: int) -> tuple[Any, LongArray]:
+    """Choose random frequencies of the cube, and compute the square root of the true power there.
+
+    Parameters
+    ----------
+    case : SpectrumCase
+        The size.
+    x : (sets, n, d) float64
+        Points.
+    probes : int
+        Number of frequencies.
+
+    Returns
+    -------
+    frequencies : (m, d) int64
+    roots : (m,) long double
+    """
     f = np.random.default_rng(case.n).integers(-case.fmax, case.fmax + 1, (probes, case.d))
     return f, reference_roots(x, f)
 
 
 def errors(rival: Rival, x: FloatArray, fmax: int, f: Any, truth: LongArray) -> FloatArray:
-    """Absolute errors of the square root of power of one set at f."""
+    """Measure the errors of the square root of power of one set.
+
+    Parameters
+    ----------
+    rival : Rival
+        The way to the power.
+    x : (sets, n, d) float64
+        Points.
+    fmax : int
+        Largest harmonic on each axis.
+    f : (m, d) int64
+        Frequencies.
+    truth : (m,) long double
+        The true roots there.
+
+    Returns
+    -------
+    (m,) float64
+        Absolute errors.
+    """
     power = rival.prepare(x[None], fmax)()[tuple((f + fmax).T)]
     away: FloatArray = np.abs(np.sqrt(power.astype(np.longdouble)) - truth).astype(np.float64)
     return away
@@ -239,13 +309,13 @@ def slopes(scaling: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def _hard(out: Path, plan: Plan) -> pd.DataFrame:
+def _hard(out: Path, plan: SpectrumBenchmark) -> pd.DataFrame:
     frame = judged([row for case in hard_cases(plan.quick) for row in evaluate(case)])
     write_whole(out / "hard_cases.csv", frame.to_csv(index=False, float_format="%.6g").encode())
     return frame
 
 
-def _size(case: Case) -> Row:
+def _size(case: SpectrumCase) -> Row:
     return {"n": case.n, "d": case.d, "F": case.fmax, "sets": case.sets}
 
 
@@ -259,7 +329,7 @@ def _times(timing: Timing) -> Row:
     }
 
 
-def _share(case: Case, rival: Rival, timing: Timing, most: Mapping[str, float]) -> float:
+def _share(case: SpectrumCase, rival: Rival, timing: Timing, most: Mapping[str, float]) -> float:
     """Share of what one core can do, by the product's operations; other evaluations do not do these."""
     if rival.evaluation != CubeProduct.title:
         return math.nan

@@ -1,4 +1,4 @@
-"""How near the tile of the product comes to the multiply-add peak: its kernel alone, on ready tables."""
+"""Rate of the tile of the product beside the multiply-add peak: its kernel alone, on ready tables."""
 
 from __future__ import annotations
 

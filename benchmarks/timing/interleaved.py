@@ -37,7 +37,20 @@ class Timing:
 
 
 def timed(call: Call, times: int = 1) -> tuple[float, float]:
-    """CPU and wall seconds of one call, over a number of them."""
+    """Time a call.
+
+    Parameters
+    ----------
+    call : callable
+        Without arguments.
+    times : int
+        Number of calls that the time is divided by.
+
+    Returns
+    -------
+    cpu, wall : float
+        Seconds of one call.
+    """
     cpu, wall = time.process_time(), time.perf_counter()
     for _ in range(times):
         call()

@@ -1,4 +1,4 @@
-"""Where a benchmark ran, and the CSV files that keep each row as soon as it is known."""
+"""The machine that a benchmark ran on, and CSV files that keep each row as soon as it is known."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ from gbnbench.core.text_table import aligned, number
 if TYPE_CHECKING:
     import pandas as pd
 
-    from gbnbench.benchmarks.spectra.speed_error import Outcome
+    from gbnbench.benchmarks.spectra.speed_error import SpectrumTables
 
 
 SPEED_HEAD = (
@@ -71,7 +71,7 @@ def periodogram(out: Path, quick: bool, as_json: bool, quiet: bool) -> None:
         click.get_current_context().exit(1)
 
 
-def _draw(outcome: Outcome, out: Path) -> None:
+def _draw(outcome: SpectrumTables, out: Path) -> None:
     """Write the two pictures as PNG and PDF."""
     from gbnbench.core.atomic_write import write_whole
     from gbnbench.reports.benchmarks import scaling, speed_error
@@ -86,7 +86,7 @@ def _draw(outcome: Outcome, out: Path) -> None:
         write_whole(out / f"{name}.pdf", pdf(figure))
 
 
-def _report(outcome: Outcome) -> Iterator[str]:
+def _report(outcome: SpectrumTables) -> Iterator[str]:
     """Write what was measured as text, a table a case."""
     from gbnbench.benchmarks.spectra.hard_table import resolvable
     from gbnbench.benchmarks.spectra.speed_error import slopes

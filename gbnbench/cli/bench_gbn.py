@@ -14,7 +14,7 @@ from gbnbench.cli.json_text import json_text
 from gbnbench.core.text_table import aligned, number
 
 if TYPE_CHECKING:
-    from gbnbench.benchmarks.gbn.floor_time import Outcome
+    from gbnbench.benchmarks.gbn.floor_time import FloorTables
 
 END_HEAD = (
     "case", "method", "precision", "gradients", "CPU s a set", "ms a gradient", "noise floor", "P(1)",
@@ -68,12 +68,12 @@ def gbn(out: Path, quick: bool, as_json: bool, quiet: bool) -> None:
     click.echo(f"picture: {out / 'floor_time.png'}", err=as_json)
 
 
-def draw(outcome: Outcome, out: Path) -> None:
+def draw(outcome: FloorTables, out: Path) -> None:
     """Write the picture as PNG and PDF.
 
     Parameters
     ----------
-    outcome : Outcome
+    outcome : FloorTables
         What was measured.
     out : Path
         Folder of the two files.
@@ -87,7 +87,7 @@ def draw(outcome: Outcome, out: Path) -> None:
     write_whole(out / "floor_time.pdf", pdf(figure))
 
 
-def report(outcome: Outcome) -> Iterator[str]:
+def report(outcome: FloorTables) -> Iterator[str]:
     """Write what was measured as text, a table a question."""
     from gbnbench.benchmarks.gbn.floor_time import MEASURES
     from gbnbench.generators.gbn.published_quality import AUTHORS_FLOOR

@@ -17,11 +17,11 @@ import pytest
 
 from gbnbench.benchmarks.gbn import floor_cases
 from gbnbench.benchmarks.gbn.cutoffs import FORCES, exact_forces
-from gbnbench.benchmarks.gbn.floor_cases import Case, Curve
+from gbnbench.benchmarks.gbn.floor_cases import Curve, FloorCase
 from gbnbench.benchmarks.gbn.floor_time import (
     FLOOR_TIME,
     SPEEDUP,
-    Outcome,
+    FloorTables,
     crossings,
     measured,
     race,
@@ -56,7 +56,7 @@ class Counting(Progress):
 
 
 @pytest.fixture(scope="module")
-def whole(tmp_path_factory) -> tuple[Path, Outcome, Counting]:
+def whole(tmp_path_factory) -> tuple[Path, FloorTables, Counting]:
     out = tmp_path_factory.mktemp("bench") / "here"
     teller = Counting()
     outcome = run(out, floor_cases.tiny(), teller)
@@ -92,7 +92,7 @@ def test_every_curve_of_every_plan_can_be_drawn():
     ],
 )
 def test_what_is_timed_is_what_the_generator_does(curve, generator):
-    rows = list(race(Case(200, 2, (curve,), sets=2)))
+    rows = list(race(FloorCase(200, 2, (curve,), sets=2)))
     assert [(row["set"], row["gradients"]) for row in rows] == [(k, g) for k in (0, 1) for g in (10, 18, 30)]
     for row in rows[2::3]:
         x = generator(200, 2, realization_rng(0, row["set"]))

@@ -10,8 +10,8 @@ import pytest
 
 from tests.paths import ROOT
 
-FOLDERS = ("gbnbench", "analysis", "generators", "reports")
-LINKS = tuple(ROOT / "gbnbench" / folder for folder in ("analysis", "generators", "reports", "benchmarks"))
+FOLDERS = ("gbnbench", "analysis", "generators", "reports", "benchmarks")
+LINKS = tuple(ROOT / "gbnbench" / folder for folder in FOLDERS[1:])
 MODULES = sorted(
     path
     for folder in FOLDERS
