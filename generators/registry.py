@@ -46,7 +46,7 @@ GENERATORS: dict[str, type[Generator]] = {
 RESERVED = frozenset({"name", "n", "d", "seed", "realizations", "monitor", "device", "settings"})
 
 
-def check_setting_names(kind: type[Generator]) -> None:
+def check_setting_names(kind: type[object]) -> None:
     """Refuse a generator with a setting of the name of a keyword of ``generate``, which would never reach it.
 
     Raises

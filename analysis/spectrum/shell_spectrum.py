@@ -57,7 +57,7 @@ def shells(
     Returns
     -------
     ShellSpectrum
-        ``radial()`` and ``anisotropy()`` make the same tables as a whole cube would.
+        ``gbnbench.radial`` and ``gbnbench.analysis.radial.anisotropy`` make the same tables as of a cube.
 
     Raises
     ------
@@ -68,8 +68,8 @@ def shells(
 
     Notes
     -----
-    Evaluates only frequencies inside the ball or band: of the 2.8e8 of d = 10, fmax = 3 the 2e5 with
-    |f| <= 3, unless ``corners`` asks for all of them. Memory does not grow with their number.
+    Only frequencies inside the ball or band are evaluated: at d = 10 and fmax = 3 these are the 2e5 with
+    |f| <= 3, out of 2.8e8 in the cube. Memory does not grow with their number.
 
     Examples
     --------

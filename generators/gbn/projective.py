@@ -185,7 +185,8 @@ class ProjectiveEnergy:
         begin = 0
         for axes, term in self._terms.items():
             if hasattr(term, "anchor"):
-                term.anchor = np.ascontiguousarray(x[:, :, begin : begin + len(axes)])
+                kept = np.ascontiguousarray(x[:, :, begin : begin + len(axes)])
+                term.anchor = kept  # pyright: ignore[reportAttributeAccessIssue]: hasattr, just above
                 begin += len(axes)
 
     def __call__(self, x: FloatArray) -> EnergyGradient:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import ClassVar
+from typing import ClassVar, cast
 
 import numpy as np
 
@@ -31,7 +31,7 @@ Target = str | Table | Callable[[FloatArray], FloatArray] | None
 def _as_target(value: object) -> Target:
     """Accept a file's name, a callable, a table or (k, 2) numbers."""
     if value is None or isinstance(value, str | Table) or callable(value):
-        return None if isinstance(value, str) and value.lower() == "none" else value
+        return None if isinstance(value, str) and value.lower() == "none" else cast("Target", value)
     return Table.of(value)  # type: ignore[arg-type]
 
 

@@ -121,7 +121,7 @@ def _transform(
         return call(
             *radians,
             strengths,
-            modes if len(modes) > 1 else modes[0],
+            modes if len(modes) > 1 else max(modes),
             eps=tolerance,
             isign=-1,
             nthreads=threads or 0,
