@@ -103,7 +103,7 @@ def figure(floors: pd.DataFrame, forces: pd.DataFrame, machine: Mapping[str, Any
 
 
 def _regular(whole: pd.DataFrame) -> bool:
-    """Whether sets on the line became regular grids: a peak of n, all of the power."""
+    """Return whether sets on the line became regular grids, which have all their power in a peak of n."""
     line = whole[whole.d == 1]
     return bool((line.peak > 0.99 * line.n).any())
 

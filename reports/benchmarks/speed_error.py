@@ -132,7 +132,7 @@ def _panel(ax: Axes, rows: pd.DataFrame, families: list[str], limits: tuple[floa
 
 
 def _crowded(curve: pd.DataFrame, at: tuple[float, float]) -> bool:
-    """Whether a curve passes above and right of a marker, where its name would stand."""
+    """Return whether a curve passes above and to the right of a marker, where its name would stand."""
     if not len(curve):
         return False
     known = curve.sort_values("error_rms")

@@ -132,14 +132,14 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
 
 
 def _zero(source: SourceResult) -> NDArray[np.bool_]:
-    """Shells whose power is zero to rounding; where most are (a lattice), so are those just above."""
+    """Mark shells whose power is zero to rounding, and for a lattice also those just above."""
     limit = ZERO.get(source.spectrum.precision, ZERO["double"])
     zero = source.radial.power <= limit
     return source.radial.power <= 1000 * limit if 2 * zero.sum() > len(zero) else zero
 
 
 def _neighboured(power: FloatArray) -> NDArray[np.bool_]:
-    """Whether a shell has a drawn neighbour, so that a line reaches it."""
+    """Mark the shells that have a drawn neighbour, so that a line reaches them."""
     drawn = np.isfinite(power)
     reached = np.zeros(len(power), dtype=bool)
     reached[1:] |= drawn[:-1]
@@ -148,7 +148,7 @@ def _neighboured(power: FloatArray) -> NDArray[np.bool_]:
 
 
 def _roughness(power: FloatArray) -> float:
-    """Median jump between neighbouring shells in nepers: what jumps most is drawn under the rest."""
+    """Return the median jump between neighbouring shells in nepers; the roughest curves are drawn first."""
     jumps = np.abs(np.diff(np.log(power)))
     jumps = jumps[np.isfinite(jumps)]
     return float(np.median(jumps)) if jumps.size else 0.0

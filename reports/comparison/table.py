@@ -74,25 +74,27 @@ class Cell:
 
 @dataclass(frozen=True)
 class Row:
-    """One source with its cells by name of measure, all of COLUMNS."""
+    """A source with its cells by name of measure, one for each of ``COLUMNS``."""
 
     source: SourceResult
     cells: dict[str, Cell]
 
 
 def rows(run: Run, group: Group | None = None) -> list[Row]:
-    """Return the whole table as data, in the run's order.
+    """Return the table as data, in the run's order.
 
     Parameters
     ----------
     run : Run
         The comparison.
     group : (n, d), optional
-        Only these sources; the best of a column is in any case that of one n and d.
+        Return only the sources of this size and dimension. The best of a column is always that of one n
+        and d.
 
     Returns
     -------
     list of Row
+        One row for each source.
     """
     filled: list[Row] = []
     for source in members(run, group):

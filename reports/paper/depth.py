@@ -136,7 +136,7 @@ def _integration(ax: Axes, table: Any) -> None:
 def _order(
     ax: Axes, name: str, gbn: Sequence[Column], deep: Sequence[Column], theirs: Sequence[Column]
 ) -> None:
-    """One measure of order against the noise floor, deeper to the right."""
+    """Draw one measure of order against the noise floor, deeper sets to the right."""
     paths = [
         (gbn, shared.stroke("gbn"), "o"), (deep, shared.stroke("deep"), "D"),
         *(([one], one.stroke, "s") for one in theirs),

@@ -36,7 +36,7 @@ def _large(ask: Ask) -> int:
 
 
 def _long_n(ask: Ask) -> int:
-    """Points of the long runs in the plot: as many as in the gallery unless the paper's counts are asked."""
+    """Return the number of points of the long runs in the plot: that of the gallery below the full scale."""
     n: int = _large(ask) if ask.scale == "full" else shared.size(ask)
     return n
 

@@ -136,7 +136,7 @@ def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
 
 
 def _sizes(ask: Ask) -> tuple[int, int, int]:
-    """Points, sets a piece, pieces."""
+    """Return the number of points, of sets in a block, and of blocks."""
     sizes: tuple[int, int, int] = ask.pick((64, 2, 1), (1024, 3, 2), (1024, 4, 8))
     return sizes
 
@@ -184,7 +184,7 @@ def _progress(
     colours: Sequence[str],
     what: str,
 ) -> None:
-    """One line a method against evaluations of the energy, a dot in the spectrum's colour at each count."""
+    """Draw a line for each method, with a dot in the colour of its spectrum at each count of evaluations."""
     for method, look in LOOKS.items():
         at, values = np.array(counts[method]), found[method][what]
         if what == "excess":

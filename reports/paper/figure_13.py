@@ -116,7 +116,7 @@ def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
 
 
 def _beads(ax: Axes, x: FloatArray) -> None:
-    """Points of the circle's circumference, 0 at the right, counter-clockwise."""
+    """Draw points on the line as beads on a circle, 0 at the right, counter-clockwise."""
     ax.add_patch(Circle((0, 0), 1, fill=False, edgecolor=style.RULE, linewidth=0.9))
     ax.plot(np.cos(2 * np.pi * x), np.sin(2 * np.pi * x), "o", color=style.INK, markersize=2.3,
             markeredgewidth=0)  # fmt: skip
