@@ -20,15 +20,15 @@ def smallest_sizes() -> Iterator[None]:
     from gbnbench.benchmarks.spectra import cases
     from gbnbench.reports.paper import figure
 
-    ask = figure.Ask
+    options = figure.FigureOptions
 
-    def smallest(scale: str, *rest: Any) -> figure.Ask:
-        return ask("tiny" if scale == "quick" else scale, *rest)  # type: ignore[arg-type]
+    def smallest(scale: str, *rest: Any) -> figure.FigureOptions:
+        return options("tiny" if scale == "quick" else scale, *rest)  # type: ignore[arg-type]
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(cases, "quick", cases.tiny)
         patch.setattr(floor_cases, "quick", floor_cases.tiny)
-        patch.setattr(figure, "Ask", smallest)
+        patch.setattr(figure, "FigureOptions", smallest)
         yield
 
 

@@ -48,18 +48,18 @@ def figures(
     goes on where it was. Figures 10, 11 and 15 to 17 show adaptive sampling, which comes later.
     """
     from gbnbench.execution import progress
-    from gbnbench.reports.paper.figure import Ask
+    from gbnbench.reports.paper.figure import FigureOptions
     from gbnbench.reports.paper.maker import make
     from gbnbench.reports.paper.registry import LATER, find
     from gbnbench.reports.paper.user_sets import check_sets
 
     wanted = find([] if names == ("all",) else names)
-    ask = Ask("quick" if quick else "full", _given(sets), seed)
-    check_sets(wanted, ask)
+    options = FigureOptions("quick" if quick else "full", _given(sets), seed)
+    check_sets(wanted, options)
     with progress.choose(quiet) as teller:
-        if ask.scale == "full":
+        if options.scale == "full":
             teller.say("the paper's counts: hours for all; --quick is minutes. Stop it at will, it goes on.")
-        made = make(wanted, out, ask, jobs or os.cpu_count() or 1, teller, not no_captions)
+        made = make(wanted, out, options, jobs or os.cpu_count() or 1, teller, not no_captions)
     for one in made:
         click.echo(f"{out / one.stem}.png  {one.figure.title}")
     if not names:

@@ -17,7 +17,7 @@ from gbnbench.reports import style
 from gbnbench.reports.integration import variance
 from gbnbench.reports.paper import axes, shared
 from gbnbench.reports.paper.data import ComparisonRequest, DataRequest, IntegrationRequest
-from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
+from gbnbench.reports.paper.figure import PAGE, Drawing, FigureOptions, PaperFigure
 from gbnbench.reports.paper.shared import Column
 
 GRADIENTS = (100, 320, 1000, 3000)  # of Gaussian Blue Noise; 320 are the default
@@ -28,8 +28,8 @@ SHOWN = {320: style.DASHES[0], 1000: style.DASHES[1], 3000: style.DASHES[2]}
 FAMILY = "gaussians"
 
 
-def _gradients(ask: Ask) -> tuple[int, ...]:
-    found: tuple[int, ...] = ask.pick((20, 60), GRADIENTS, GRADIENTS)
+def _gradients(options: FigureOptions) -> tuple[int, ...]:
+    found: tuple[int, ...] = options.pick((20, 60), GRADIENTS, GRADIENTS)
     return found
 
 
@@ -37,37 +37,37 @@ def _gbn(gradients: int) -> str:
     return "gbn" if gradients == 320 else f"gbn[gradients={gradients}]"
 
 
-def _deep(ask: Ask) -> list[str]:
-    steep = ask.pick((), STEEPNESS, STEEPNESS)
+def _deep(options: FigureOptions) -> list[str]:
+    steep = options.pick((), STEEPNESS, STEEPNESS)
     return [*(f"deep[c={c:g}]" for c in steep), "deep"]
 
 
-def needs(ask: Ask) -> Mapping[str, DataRequest]:
+def needs(options: FigureOptions) -> Mapping[str, DataRequest]:
     """Ask for sets along both paths to depth, and for a study of integration."""
-    n, gradients = shared.size(ask), _gradients(ask)
+    n, gradients = shared.size(options), _gradients(options)
     longest, others = gradients[-1], gradients[:-1]
-    sources = (*map(_gbn, others), *_deep(ask))
-    few = ask.pick(2, 8, 1000)  # the longest runs are those of figure 1
-    sizes = ask.pick((16, 36), (64, 128, 256, 512, 1024), (64, 128, 256, 512, 1024, 2048, 4096))
+    sources = (*map(_gbn, others), *_deep(options))
+    few = options.pick(2, 8, 1000)  # the longest runs are those of figure 1
+    sizes = options.pick((16, 36), (64, 128, 256, 512, 1024), (64, 128, 256, 512, 1024, 2048, 4096))
     return {
-        "sets": ComparisonRequest(sources, (n,), (2,), ask.pick(2, 8, 100)),
+        "sets": ComparisonRequest(sources, (n,), (2,), options.pick(2, 8, 100)),
         "long": ComparisonRequest((_gbn(longest),), (n,), (2,), few),
         "study": IntegrationRequest(
-            (BESIDE, _gbn(gradients[1]), "deep"), sizes, (2,), ask.pick(2, 8, 100), (FAMILY,),
-            ask.pick(2, 20, 100),
+            (BESIDE, _gbn(gradients[1]), "deep"), sizes, (2,), options.pick(2, 8, 100), (FAMILY,),
+            options.pick(2, 20, 100),
         ),
-        **shared.user_set_requests(ask, ask.sets),
+        **shared.user_set_requests(options, options.sets),
     }  # fmt: skip
 
 
-def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
+def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
     """Draw spectra and variances of integration above measures of order against the noise floor.
 
     Parameters
     ----------
     data : mapping
         Data under the names that ``needs`` gives them.
-    ask : Ask
+    options : FigureOptions
         Scale, sets of the user and seed.
 
     Returns
@@ -75,13 +75,13 @@ def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
     Drawing
         The figure, as wide as the page, with its caption.
     """
-    n, gradients = shared.size(ask), _gradients(ask)
+    n, gradients = shared.size(options), _gradients(options)
     gbn = [
         shared.generated_column(data["long" if k == gradients[-1] else "sets"], _gbn(k), n, f"GBN, {k:,}")
         for k in gradients
     ]
-    deep = [shared.generated_column(data["sets"], text, n) for text in _deep(ask)]
-    theirs = shared.user_columns(data, ask.sets, n)
+    deep = [shared.generated_column(data["sets"], text, n) for text in _deep(options)]
+    theirs = shared.user_columns(data, options.sets, n)
     table = data["study"].variance
 
     def paint(panel: SubFigure) -> None:
@@ -93,7 +93,7 @@ def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
             _order(ax, name, gbn, deep, theirs)
             shared.heading(ax, letter, f"{ORDER[name]} against depth")
 
-    return Drawing(PAGE, 4.6, paint, _caption(gbn, deep, theirs, table, ask))
+    return Drawing(PAGE, 4.6, paint, _caption(gbn, deep, theirs, table, options))
 
 
 def _spectra(ax: Axes, gbn: Mapping[int, Column], deep: Column, theirs: Sequence[Column]) -> None:
@@ -166,7 +166,11 @@ def _order(
 
 
 def _caption(
-    gbn: Sequence[Column], deep: Sequence[Column], theirs: Sequence[Column], table: Any, ask: Ask
+    gbn: Sequence[Column],
+    deep: Sequence[Column],
+    theirs: Sequence[Column],
+    table: Any,
+    options: FigureOptions,
 ) -> str:
     usual, longest, last = gbn[1], gbn[-1], deep[-1]
 
@@ -185,7 +189,7 @@ def _caption(
         else ""
     )
     edge = Deep().profile(2)[1]
-    steep = ", ".join(f"{c / math.pi**2:.0f}" for c in ask.pick((), STEEPNESS, STEEPNESS))
+    steep = ", ".join(f"{c / math.pi**2:.0f}" for c in options.pick((), STEEPNESS, STEEPNESS))
     path = (
         f"Deep: c = {steep} and 10 pi^2 at an edge of {edge:g}, v6 from {of(deep[0], 'valence6')} to "
         f"{of(last, 'valence6')}. "

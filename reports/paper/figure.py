@@ -18,7 +18,7 @@ COLUMN, PAGE = 3.33, 7.0  # inches: one column of the journal, and both
 
 
 @dataclass(frozen=True)
-class Ask:
+class FigureOptions:
     """Settings of the user for all figures.
 
     Attributes
@@ -86,16 +86,17 @@ class PaperFigure:
     paper : str
         Summary of the paper's figure and of what the paper says of it; empty for a figure of this package.
     needs : callable
-        Ask -> requests for the data, under names that the figure chooses.
+        FigureOptions -> requests for the data, under names that the figure chooses.
     draw : callable
-        (data under the same names, Ask) -> Drawing. It selects, scales and draws, and computes nothing.
+        (data under the same names, FigureOptions) -> Drawing. It selects, scales and draws; it computes
+        nothing.
     """
 
     name: str
     title: str
     paper: str
-    needs: Callable[[Ask], Mapping[str, DataRequest]]
-    draw: Callable[[Mapping[str, Any], Ask], Drawing]
+    needs: Callable[[FigureOptions], Mapping[str, DataRequest]]
+    draw: Callable[[Mapping[str, Any], FigureOptions], Drawing]
 
 
 SIGNS = {"sigma": "σ", "nu": "ν", "pi": "π", "epsilon": "ε", "psi6": "ψ6"}

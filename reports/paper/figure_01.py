@@ -16,7 +16,7 @@ from gbnbench.reports import style
 from gbnbench.reports.comparison import spectrum
 from gbnbench.reports.paper import shared
 from gbnbench.reports.paper.data import ComparisonRequest, DataRequest
-from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
+from gbnbench.reports.paper.figure import PAGE, Drawing, FigureOptions, PaperFigure
 from gbnbench.reports.paper.shared import Column
 
 PAPER = ("bnot", "kdm", "vnc", "bluenets")
@@ -25,47 +25,49 @@ CLOSE = 0.5  # nu that the closeup reaches
 NARROW = 3  # columns beside which there is room for the plot
 
 
-def _long(ask: Ask) -> tuple[str, int]:
-    gradients = ask.pick(60, 3000, 3000)
+def _long(options: FigureOptions) -> tuple[str, int]:
+    gradients = options.pick(60, 3000, 3000)
     return f"gbn[gradients={gradients}]", gradients
 
 
-def _large(ask: Ask) -> int:
-    n: int = ask.pick(144, 4096, 4096)
+def _large(options: FigureOptions) -> int:
+    n: int = options.pick(144, 4096, 4096)
     return n
 
 
-def _long_n(ask: Ask) -> int:
+def _long_n(options: FigureOptions) -> int:
     """Return the number of points of the long runs in the plot: that of the gallery below the full scale."""
-    n: int = _large(ask) if ask.scale == "full" else shared.size(ask)
+    n: int = _large(options) if options.scale == "full" else shared.size(options)
     return n
 
 
-def needs(ask: Ask) -> Mapping[str, DataRequest]:
+def needs(options: FigureOptions) -> Mapping[str, DataRequest]:
     """Ask for sets for the gallery and larger ones for the plot."""
     return {
-        "classic": shared.classic(ask),
-        "long": ComparisonRequest((_long(ask)[0],), (shared.size(ask),), (2,), ask.pick(2, 8, 1000)),
+        "classic": shared.classic(options),
+        "long": ComparisonRequest(
+            (_long(options)[0],), (shared.size(options),), (2,), options.pick(2, 8, 1000)
+        ),
         "large": ComparisonRequest(
-            ("jittered", "sobol", "fpo", "gbn"), (_large(ask),), (2,), ask.pick(2, 8, 1000)
+            ("jittered", "sobol", "fpo", "gbn"), (_large(options),), (2,), options.pick(2, 8, 1000)
         ),
         **(
-            {"large-long": ComparisonRequest((_long(ask)[0],), (_long_n(ask),), (2,), 1000)}
-            if _long_n(ask) != shared.size(ask)
+            {"large-long": ComparisonRequest((_long(options)[0],), (_long_n(options),), (2,), 1000)}
+            if _long_n(options) != shared.size(options)
             else {}
         ),
-        **shared.user_set_requests(ask, shared.methods_with_sets(ask, PAPER)),
+        **shared.user_set_requests(options, shared.methods_with_sets(options, PAPER)),
     }
 
 
-def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
+def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
     """Draw points, spectrum and the middle of the spectrum for each method, and the radial power of all.
 
     Parameters
     ----------
     data : mapping
         Data under the names that ``needs`` gives them.
-    ask : Ask
+    options : FigureOptions
         Scale, sets of the user and seed.
 
     Returns
@@ -73,8 +75,8 @@ def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
     Drawing
         The figure, as wide as the page, with its caption.
     """
-    n, text, long_n = shared.size(ask), _long(ask)[0], _long_n(ask)
-    methods = shared.methods_with_sets(ask, PAPER)
+    n, text, long_n = shared.size(options), _long(options)[0], _long_n(options)
+    methods = shared.methods_with_sets(options, PAPER)
     early, late = (
         shared.user_columns(data, [m for m in methods if (m in BEFORE_FPO) is first], n)
         for first in (True, False)
@@ -88,7 +90,7 @@ def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
         long,
     ]
     strata, sobol, fpo, gbn = (
-        shared.generated_column(data["large"], name, _large(ask))
+        shared.generated_column(data["large"], name, _large(options))
         for name in ("jittered", "sobol", "fpo", "gbn")
     )
     longest = shared.generated_column(data.get("large-long", data["long"]), text, long_n, "GBN, 1M")
@@ -106,7 +108,7 @@ def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
         _pictures(pictures, gallery, wide)
         _plot(plot.subplots(), lines, "abcdefghijklmnop"[len(gallery)])
 
-    return Drawing(PAGE, 3.95 if beside else 3 * wide + 3.2, paint, _caption(gallery, lines, ask))
+    return Drawing(PAGE, 3.95 if beside else 3 * wide + 3.2, paint, _caption(gallery, lines, options))
 
 
 def _pictures(panel: SubFigure, gallery: Sequence[Column], wide: float) -> None:
@@ -158,8 +160,8 @@ def _between(ax: Axes, above: RadialPower, below: RadialPower) -> None:
     )
 
 
-def _caption(gallery: Sequence[Column], lines: Sequence[Column], ask: Ask) -> str:
-    gradients = _long(ask)[1]
+def _caption(gallery: Sequence[Column], lines: Sequence[Column], options: FigureOptions) -> str:
+    gradients = _long(options)[1]
     bnot = any(one.title == shared.NAMES["bnot"] for one in lines)
     shaded = " Shaded: what GBN gains over BNOT." if bnot else ""
     fits = ", ".join(
@@ -178,7 +180,7 @@ def _caption(gallery: Sequence[Column], lines: Sequence[Column], ask: Ask) -> st
         "gradients of Nesterov's method, the work of the paper's 10,000 steps of descent; GBN, 1M, takes "
         f"{gradients:,} in place of its million steps (k gradients do the work of about k^2/9). Pictures: "
         f"{shared.counted(gallery)}; plot: {shared.counted(lines)}; d = 2. "
-        f"{shared.missing_sets_note(ask, PAPER)}"
+        f"{shared.missing_sets_note(options, PAPER)}"
     ).rstrip()
 
 

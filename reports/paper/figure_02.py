@@ -11,30 +11,30 @@ from gbnbench.reports import style
 from gbnbench.reports.comparison import spectrum
 from gbnbench.reports.paper import shared
 from gbnbench.reports.paper.data import ComparisonRequest, DataRequest
-from gbnbench.reports.paper.figure import COLUMN, Ask, Drawing, PaperFigure
+from gbnbench.reports.paper.figure import COLUMN, Drawing, FigureOptions, PaperFigure
 
 NARROW = "gbn[sigma=0.5,iterations=30]"
 
 
-def _wide(ask: Ask) -> tuple[str, int]:
-    gradients = ask.pick(60, 1000, 3000)
+def _wide(options: FigureOptions) -> tuple[str, int]:
+    gradients = options.pick(60, 1000, 3000)
     return f"gbn[sigma=1.1,gradients={gradients}]", gradients
 
 
-def needs(ask: Ask) -> Mapping[str, DataRequest]:
+def needs(options: FigureOptions) -> Mapping[str, DataRequest]:
     """Ask for many sets of both settings."""
-    count = ask.pick(2, 32, 1000)
-    return {"sets": ComparisonRequest((NARROW, _wide(ask)[0]), (shared.size(ask),), (2,), count)}
+    count = options.pick(2, 32, 1000)
+    return {"sets": ComparisonRequest((NARROW, _wide(options)[0]), (shared.size(options),), (2,), count)}
 
 
-def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
+def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
     """Draw points and spectra of two settings, and their radial powers in one plot.
 
     Parameters
     ----------
     data : mapping
         Data under the names that ``needs`` gives them.
-    ask : Ask
+    options : FigureOptions
         Scale, sets of the user and seed.
 
     Returns
@@ -42,8 +42,8 @@ def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
     Drawing
         The figure, as wide as a column, with its caption.
     """
-    text, gradients = _wide(ask)
-    run, n = data["sets"], shared.size(ask)
+    text, gradients = _wide(options)
+    run, n = data["sets"], shared.size(options)
     narrow = shared.generated_column(run, NARROW, n, "σ = 0.5, 30 steps")
     wide = shared.generated_column(run, text, n, f"σ = 1.1, {gradients:,} gradients")
     both = (narrow, wide)

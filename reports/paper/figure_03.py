@@ -20,7 +20,7 @@ from gbnbench.generators.protocol import realization_rng
 from gbnbench.generators.registry import find
 from gbnbench.reports.paper import axes, shared
 from gbnbench.reports.paper.data import ComparisonRequest, DataRequest, TableRequest
-from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
+from gbnbench.reports.paper.figure import PAGE, Drawing, FigureOptions, PaperFigure
 from gbnbench.runs.comparison_result import Run, SourceResult
 
 SIGMAS = (0.5, 0.7, 0.85, 1.0, 1.25, 1.5)
@@ -53,27 +53,29 @@ def shells_of(source: str, n: int, d: int, seed: int, k: int) -> dict[str, NDArr
     return {"frequency": found.frequency, "nu": found.nu, "power": found.power, "count": found.count}
 
 
-def needs(ask: Ask) -> Mapping[str, DataRequest]:
+def needs(options: FigureOptions) -> Mapping[str, DataRequest]:
     """Ask for sets at every sigma in 2D and for shells of sets in every dimension."""
-    steps = ask.pick("gradients=60", f"gradients={GRADIENTS}", "iterations=10000")
+    steps = options.pick("gradients=60", f"gradients={GRADIENTS}", "iterations=10000")
     sources = tuple(f"gbn[sigma={sigma:g},{steps}]" for sigma in SIGMAS)
-    n, sets = ask.pick(64, 1024, 4096), ask.pick(1, 3, 16)
-    source = f"gbn[gradients={ask.pick(60, GRADIENTS, GRADIENTS)}]"
-    calls = {f"d{d}_{k:04d}": (source, n, d, ask.seed, k) for d in reversed(DIMENSIONS) for k in range(sets)}
+    n, sets = options.pick(64, 1024, 4096), options.pick(1, 3, 16)
+    source = f"gbn[gradients={options.pick(60, GRADIENTS, GRADIENTS)}]"
+    calls = {
+        f"d{d}_{k:04d}": (source, n, d, options.seed, k) for d in reversed(DIMENSIONS) for k in range(sets)
+    }
     return {
-        "sigmas": ComparisonRequest(sources, (ask.pick(64, 1024, 1024),), (2,), ask.pick(2, 12, 32)),
+        "sigmas": ComparisonRequest(sources, (options.pick(64, 1024, 1024),), (2,), options.pick(2, 12, 32)),
         "dimensions": TableRequest(shells_of, calls),
     }
 
 
-def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
+def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
     """Draw the radial power for each sigma with its ideal profile, and for each dimension.
 
     Parameters
     ----------
     data : mapping
         Data under the names that ``needs`` gives them.
-    ask : Ask
+    options : FigureOptions
         Scale, sets of the user and seed.
 
     Returns
@@ -91,17 +93,17 @@ def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
         _dimensions(right, by_dimension)
 
     first = run.sources[0]
-    n = ask.pick(64, 1024, 4096)
+    n = options.pick(64, 1024, 4096)
     sets = len(data["dimensions"]) // len(DIMENSIONS)
     floors = {d: radial.power[0] for d, radial in by_dimension.items()}
     tops = {d: peak(radial)[0] for d, radial in by_dimension.items()}
     best = max(by_sigma, key=lambda sigma: by_sigma[sigma].measures.measured["evacuated_energy"])
-    how = ask.pick(
+    how = options.pick(
         "60 gradients of Nesterov's method",
         f"{GRADIENTS} gradients of Nesterov's method, which do the work of the paper's 10,000 steps",
         "10,000 steps of the paper's descent",
     )
-    less = ask.pick(" The paper has 4k points in (b).", " The paper has 4k points in (b).", "")
+    less = options.pick(" The paper has 4k points in (b).", " The paper has 4k points in (b).", "")
     caption = (
         "Radial power of Gaussian Blue Noise over exact shells; grey line: white noise. (a) Six widths "
         f"sigma of the kernel in spacings: n = {first.n}, d = 2, mean of {first.realizations} sets a width, "
@@ -112,7 +114,7 @@ def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
         "evacuated energy, the area of ln P below 1 over the plane of frequencies, is largest at sigma = "
         f"{best:g}, in nats a point: {_list(by_sigma, 'evacuated_energy')}. (b) Dimensions 2 to 8 at sigma "
         f"= 1: n = {n}, mean of {sets} set{'s' if sets > 1 else ''} a dimension, after "
-        f"{ask.pick(60, GRADIENTS, GRADIENTS)} gradients; dots are shells. Power at |f| = 1 is "
+        f"{options.pick(60, GRADIENTS, GRADIENTS)} gradients; dots are shells. Power at |f| = 1 is "
         f"{number(floors[2])} in 2D and {number(floors[8])} in 8D, and the peak falls from "
         f"{number(tops[2])} to {number(tops[8])}. Dotted: epsilon exp(4 pi^2 nu^2) through the 2D set's low "
         f"shells.{less}"

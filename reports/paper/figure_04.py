@@ -17,7 +17,7 @@ from gbnbench.generators.gbn.kernel_profile import truncated_transform
 from gbnbench.reports import style
 from gbnbench.reports.paper import shared
 from gbnbench.reports.paper.data import DataRequest, TableRequest
-from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
+from gbnbench.reports.paper.figure import PAGE, Drawing, FigureOptions, PaperFigure
 
 CUTOFFS = {"whole": math.inf, "2": 2.0, "1": 1.0}  # sigmas
 LABELS = {"whole": "whole", "2": r"cut at $2\sigma$", "1": r"cut at $1\sigma$"}
@@ -58,20 +58,20 @@ def transforms(cutoff: str, count: int) -> dict[str, FloatArray]:
     }
 
 
-def needs(ask: Ask) -> Mapping[str, DataRequest]:
+def needs(options: FigureOptions) -> Mapping[str, DataRequest]:
     """Ask for three kernels and their transforms."""
-    count = ask.pick(401, 2001, 2001)
+    count = options.pick(401, 2001, 2001)
     return {"kernels": TableRequest(transforms, {key: (key, count) for key in CUTOFFS})}
 
 
-def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:  # noqa: ARG001 - as every figure's
+def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:  # noqa: ARG001 - as every figure's
     """Draw the kernels, their transforms, and the absolute values of these in log scale.
 
     Parameters
     ----------
     data : mapping
         Data under the names that ``needs`` gives them.
-    ask : Ask
+    options : FigureOptions
         Scale, sets of the user and seed.
 
     Returns

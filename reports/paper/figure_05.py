@@ -13,7 +13,7 @@ from gbnbench.reports import style
 from gbnbench.reports.comparison import spectrum
 from gbnbench.reports.paper import shared
 from gbnbench.reports.paper.data import ComparisonRequest, DataRequest
-from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
+from gbnbench.reports.paper.figure import PAGE, Drawing, FigureOptions, PaperFigure
 
 CUTOFFS = (1, 2, 3, 4)  # sigmas
 STROKES = (
@@ -25,24 +25,24 @@ STROKES = (
 )
 
 
-def needs(ask: Ask) -> Mapping[str, DataRequest]:
+def needs(options: FigureOptions) -> Mapping[str, DataRequest]:
     """Ask for sets at each cut-off, of the whole kernel, and of centroidal tessellations."""
     cut = tuple(f"gbn[cutoff={cutoff}]" for cutoff in CUTOFFS)
     return {
-        "cut": ComparisonRequest(cut, (shared.size(ask),), (2,), shared.sets(ask)),
-        "whole": shared.classic(ask),
-        "cvt": shared.relaxed(ask),
+        "cut": ComparisonRequest(cut, (shared.size(options),), (2,), shared.sets(options)),
+        "whole": shared.classic(options),
+        "cvt": shared.relaxed(options),
     }
 
 
-def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
+def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
     """Draw points, spectrum and radial power for each cut-off.
 
     Parameters
     ----------
     data : mapping
         Data under the names that ``needs`` gives them.
-    ask : Ask
+    options : FigureOptions
         Scale, sets of the user and seed.
 
     Returns
@@ -50,7 +50,7 @@ def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
     Drawing
         The figure, as wide as the page, with its caption.
     """
-    n = shared.size(ask)
+    n = shared.size(options)
     columns = [
         shared.generated_column(data["cvt"], "lloyd", n, "CVT"),
         *(
@@ -88,7 +88,7 @@ def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
         f"whole kernel's repeated in grey. Noise floors: {', '.join(floors)}. With 1 sigma "
         f"{100 * six[1]:.0f}% of the points have six neighbours ({100 * six[0]:.0f}% in the tessellations, "
         f"{100 * six[-1]:.0f}% with the whole kernel). With 2 and 3 sigma points pair up and clump, as the "
-        "negative lobes of the cut kernel's transform ask: the mean distance to the nearest neighbour is "
+        "negative lobes of the cut kernel's transform options: the mean distance to the nearest neighbour is "
         f"{near[2]:.2f} and {near[3]:.2f} of the densest packing's, beside {near[-1]:.2f}. "
         f"{shared.counted(columns)} each, d = 2. The paper took 10,000 steps of descent; 320 gradients of "
         "Nesterov's method do the work of about as many."

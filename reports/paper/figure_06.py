@@ -13,7 +13,7 @@ from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn.kernel_profile import energy_profile
 from gbnbench.reports.paper.axes import family
 from gbnbench.reports.paper.data import DataRequest, TableRequest
-from gbnbench.reports.paper.figure import COLUMN, Ask, Drawing, PaperFigure
+from gbnbench.reports.paper.figure import COLUMN, Drawing, FigureOptions, PaperFigure
 
 POINTS = (1, 2, 4, 8, 16, 32, 64)  # an axis
 SIGMA = 1.0
@@ -38,20 +38,20 @@ def profile(points: int, count: int) -> dict[str, FloatArray]:
     return {"u": u, "energy": energy_profile(u * points, float(points), SIGMA)}
 
 
-def needs(ask: Ask) -> Mapping[str, DataRequest]:
+def needs(options: FigureOptions) -> Mapping[str, DataRequest]:
     """Ask for one profile for each number of points."""
-    count = ask.pick(201, 2001, 2001)
+    count = options.pick(201, 2001, 2001)
     return {"profiles": TableRequest(profile, {str(points): (points, count) for points in POINTS})}
 
 
-def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:  # noqa: ARG001 - as every figure's
+def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:  # noqa: ARG001 - as every figure's
     """Draw all energy profiles in one plot.
 
     Parameters
     ----------
     data : mapping
         Data under the names that ``needs`` gives them.
-    ask : Ask
+    options : FigureOptions
         Scale, sets of the user and seed.
 
     Returns

@@ -23,7 +23,7 @@ from gbnbench.generators.protocol import realization_rng
 from gbnbench.reports import style
 from gbnbench.reports.paper import axes, shared
 from gbnbench.reports.paper.data import DataRequest, TableRequest
-from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
+from gbnbench.reports.paper.figure import PAGE, Drawing, FigureOptions, PaperFigure
 
 COUNTS = (1, 3, 10, 30, 100, 300, 1000, 3000, 10_000, 30_000, 100_000)
 KERNEL, VARIANCE = 1.0, math.sqrt(0.5)  # filters, in spacings: the energy's kernel, and Eq. 14's
@@ -90,24 +90,24 @@ def _steepness(radial: RadialPower) -> float:
         return math.nan
 
 
-def needs(ask: Ask) -> Mapping[str, DataRequest]:
+def needs(options: FigureOptions) -> Mapping[str, DataRequest]:
     """Ask for both methods from the same starts, at counts that do the same work."""
-    n, block, blocks = _sizes(ask)
+    n, block, blocks = _sizes(options)
     calls = {
-        f"{method}_{k:03d}": (method, counts, n, ask.seed, k * block, block)
-        for method, counts in _counts(ask).items() for k in range(blocks)
+        f"{method}_{k:03d}": (method, counts, n, options.seed, k * block, block)
+        for method, counts in _counts(options).items() for k in range(blocks)
     }  # fmt: skip
     return {"evolution": TableRequest(evolution, calls)}
 
 
-def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
+def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
     """Draw raw and filtered spectra of descent above those of Nesterov's method, and their progress beside.
 
     Parameters
     ----------
     data : mapping
         Data under the names that ``needs`` gives them.
-    ask : Ask
+    options : FigureOptions
         Scale, sets of the user and seed.
 
     Returns
@@ -115,7 +115,7 @@ def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
     Drawing
         The figure, as wide as the page, with its caption.
     """
-    counts = _counts(ask)
+    counts = _counts(options)
     found = {method: _mean(data["evolution"], method) for method in METHODS}
     colours = axes.family(len(counts["descent"]))[::-1]
 
@@ -132,17 +132,17 @@ def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
         shared.heading(grid[0, 2], "e", "excess energy a point")
         shared.heading(grid[1, 2], "f", "noise floor")
 
-    return Drawing(PAGE, 4.0, paint, _caption(found, counts, ask))
+    return Drawing(PAGE, 4.0, paint, _caption(found, counts, options))
 
 
-def _sizes(ask: Ask) -> tuple[int, int, int]:
+def _sizes(options: FigureOptions) -> tuple[int, int, int]:
     """Return the number of points, of sets in a block, and of blocks."""
-    sizes: tuple[int, int, int] = ask.pick((64, 2, 1), (1024, 3, 2), (1024, 4, 8))
+    sizes: tuple[int, int, int] = options.pick((64, 2, 1), (1024, 3, 2), (1024, 4, 8))
     return sizes
 
 
-def _counts(ask: Ask) -> dict[str, list[int]]:
-    most = ask.pick(300, 10_000, 100_000)
+def _counts(options: FigureOptions) -> dict[str, list[int]]:
+    most = options.pick(300, 10_000, 100_000)
     steps = [count for count in COUNTS if count <= most]
     return {"descent": steps, "nesterov": [gradients(count) for count in steps]}
 
@@ -212,9 +212,9 @@ def _span(found: Mapping[str, FloatArray]) -> tuple[float, float]:
 
 
 def _caption(
-    found: Mapping[str, Mapping[str, FloatArray]], counts: Mapping[str, Sequence[int]], ask: Ask
+    found: Mapping[str, Mapping[str, FloatArray]], counts: Mapping[str, Sequence[int]], options: FigureOptions
 ) -> str:
-    n, block, blocks = _sizes(ask)
+    n, block, blocks = _sizes(options)
     descent, ours = found["descent"], found["nesterov"]
     row = counts["descent"].index(30)
     nu, power = descent["nu"], descent["power"][row]

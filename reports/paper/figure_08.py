@@ -12,30 +12,30 @@ from matplotlib.ticker import FixedLocator, MaxNLocator
 from gbnbench.reports.comparison import spectrum, valence, zone_plate
 from gbnbench.reports.paper import shared
 from gbnbench.reports.paper.data import ComparisonRequest, DataRequest
-from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
+from gbnbench.reports.paper.figure import PAGE, Drawing, FigureOptions, PaperFigure
 
 PAPER = ("bnot", "kdm", "vnc", "ccvt", "bluenets")
 ROWS = ("points", "spectrum", "radial\npower", "zone plate", "valence")
 
 
-def needs(ask: Ask) -> Mapping[str, DataRequest]:
+def needs(options: FigureOptions) -> Mapping[str, DataRequest]:
     """Ask for generators that are commonly compared, and the user's sets."""
-    strata = ComparisonRequest(("jittered",), (shared.size(ask),), (2,), shared.sets(ask))
-    methods = shared.methods_with_sets(ask, PAPER)
+    strata = ComparisonRequest(("jittered",), (shared.size(options),), (2,), shared.sets(options))
+    methods = shared.methods_with_sets(options, PAPER)
     return {
-        "strata": strata, "relaxed": shared.relaxed(ask), "classic": shared.classic(ask),
-        **shared.user_set_requests(ask, methods),
+        "strata": strata, "relaxed": shared.relaxed(options), "classic": shared.classic(options),
+        **shared.user_set_requests(options, methods),
     }  # fmt: skip
 
 
-def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
+def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
     """Draw points, spectrum, radial power, zone plate and valence for each method.
 
     Parameters
     ----------
     data : mapping
         Data under the names that ``needs`` gives them.
-    ask : Ask
+    options : FigureOptions
         Scale, sets of the user and seed.
 
     Returns
@@ -43,11 +43,11 @@ def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
     Drawing
         The figure, as wide as the page, with its caption.
     """
-    n = shared.size(ask)
+    n = shared.size(options)
     columns = [
         shared.generated_column(data["strata"], "jittered", n),
         shared.generated_column(data["relaxed"], "lloyd", n),
-        *shared.user_columns(data, shared.methods_with_sets(ask, PAPER), n),
+        *shared.user_columns(data, shared.methods_with_sets(options, PAPER), n),
         shared.generated_column(data["classic"], "fpo", n),
         shared.generated_column(data["classic"], "gbn", n),
     ]
@@ -96,7 +96,7 @@ def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
         f"neighbours, in percent: {each('valence6', 100, '.0f')}. Noise floor, mean power up to a nu of "
         f"0.25: {floors}. {shared.counted(columns)}, d = 2; GBN is at sigma = 1 with 320 gradients of "
         f"Nesterov's method, the work of the paper's 10,000 steps. "
-        + shared.missing_sets_note(ask, PAPER, "of the state of the art")
+        + shared.missing_sets_note(options, PAPER, "of the state of the art")
     ).rstrip()
     height = 0.88 + 4.62 * wide
     return Drawing(PAGE, height, paint, caption)

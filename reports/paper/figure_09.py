@@ -14,7 +14,7 @@ from matplotlib.lines import Line2D
 from gbnbench.analysis.integration.integrands.registry import find
 from gbnbench.reports.integration import variance
 from gbnbench.reports.paper.data import DataRequest, IntegrationRequest, TableRequest
-from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
+from gbnbench.reports.paper.figure import PAGE, Drawing, FigureOptions, PaperFigure
 from gbnbench.reports.paper.shared import stroke, title_of
 from gbnbench.runs.task_folder import Arrays
 from gbnbench.studies.integration.blocks import instances_of
@@ -59,27 +59,29 @@ def pictures(seed: int, pixels: int) -> Arrays:
     return {name: instances_of(find(name), 2, seed, 1)[0](grid).reshape(pixels, pixels) for name in FAMILIES}
 
 
-def needs(ask: Ask) -> Mapping[str, DataRequest]:
+def needs(options: FigureOptions) -> Mapping[str, DataRequest]:
     """Ask for a study in each dimension, and a picture of an integrand of each family."""
-    instances = ask.pick(4, 50, 100)
-    requests: dict[str, DataRequest] = {"integrands": TableRequest(pictures, {"plane": (ask.seed, 96)})}
+    instances = options.pick(4, 50, 100)
+    requests: dict[str, DataRequest] = {"integrands": TableRequest(pictures, {"plane": (options.seed, 96)})}
     for d in DIMENSIONS:
         sources = SOURCES + (("fpo",) if d == 2 else ())
-        sets = ask.pick(2, 8, 1000 if d == 2 else 100)
-        requests[f"d{d}"] = IntegrationRequest(sources, SIZES[ask.scale][d], (d,), sets, FAMILIES, instances)
-    for name, path in ask.sets.items():
+        sets = options.pick(2, 8, 1000 if d == 2 else 100)
+        requests[f"d{d}"] = IntegrationRequest(
+            sources, SIZES[options.scale][d], (d,), sets, FAMILIES, instances
+        )
+    for name, path in options.sets.items():
         requests[_user_study(name)] = IntegrationRequest((path,), (1,), (1,), 1, FAMILIES, instances)
     return requests
 
 
-def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
+def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
     """Draw the variance against n, with a row for each family of integrands and a column for each dimension.
 
     Parameters
     ----------
     data : mapping
         Data under the names that ``needs`` gives them.
-    ask : Ask
+    options : FigureOptions
         Scale, sets of the user and seed.
 
     Returns
@@ -87,7 +89,7 @@ def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
     Drawing
         The figure, as wide as the page, with its caption.
     """
-    tables = {d: _table(data, ask, d) for d in DIMENSIONS}
+    tables = {d: _table(data, options, d) for d in DIMENSIONS}
     labels = list(dict.fromkeys(label for table in tables.values() for label in table["source"]))
     strokes = {label: stroke(label) for label in labels}
 
@@ -105,7 +107,7 @@ def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
                     ax.set_ylabel("variance")
                     _inset(ax, data["integrands"]["plane"][family])
         for column, d in enumerate(DIMENSIONS):
-            if min(SIZES[ask.scale][d]) < MARK < max(SIZES[ask.scale][d]):
+            if min(SIZES[options.scale][d]) < MARK < max(SIZES[options.scale][d]):
                 axes[0, column].axvline(MARK, color="#9aa3af", linewidth=0.6, linestyle=(0, (2, 2)), zorder=0)
         handles = [
             Line2D(
@@ -118,7 +120,7 @@ def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
         names.append("1/n")
         panel.legend(handles, names, loc="outside lower center", ncols=len(names), columnspacing=1.2)
 
-    return Drawing(PAGE, 4.4, paint, _caption(data, ask))
+    return Drawing(PAGE, 4.4, paint, _caption(data, options))
 
 
 def _user_study(name: str) -> str:
@@ -126,10 +128,10 @@ def _user_study(name: str) -> str:
     return f"sets of {name}"
 
 
-def _table(data: Mapping[str, Any], ask: Ask, d: int) -> pd.DataFrame:
+def _table(data: Mapping[str, Any], options: FigureOptions, d: int) -> pd.DataFrame:
     """All variances in one dimension, the user's sets under their method's name."""
     parts = [data[f"d{d}"].variance]
-    for name in ask.sets:
+    for name in options.sets:
         theirs = data[_user_study(name)].variance
         parts.append(theirs[theirs["d"] == d].assign(source=name))
     table: pd.DataFrame = pd.concat(parts, ignore_index=True)
@@ -146,7 +148,7 @@ def _inset(ax: Axes, picture: Any) -> None:
         spine.set_visible(True)
 
 
-def _caption(data: Mapping[str, Any], ask: Ask) -> str:
+def _caption(data: Mapping[str, Any], options: FigureOptions) -> str:
     counts = []
     for d in DIMENSIONS:
         table = data[f"d{d}"].variance
@@ -160,7 +162,9 @@ def _caption(data: Mapping[str, Any], ask: Ask) -> str:
             f"{row.source} {row.slope:.2f} ± {row.standard_error:.2f} for {TITLES[family]}"
             for row in found.itertuples()
         ]
-    left = "" if ask.sets else " Methods without a generator here are left out; --sets NAME=PATH adds them."
+    left = (
+        "" if options.sets else " Methods without a generator here are left out; --sets NAME=PATH adds them."
+    )
     return (
         "Variance of the integral estimated by the mean over n points: (a) toroidal sums of 64 Gaussians of "
         "width 512^(-1/d), (b) half spaces by a random point and direction; insets: one of each. "

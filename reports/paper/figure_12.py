@@ -14,7 +14,7 @@ from gbnbench.reports import style
 from gbnbench.reports.comparison import spectrum
 from gbnbench.reports.paper import shared
 from gbnbench.reports.paper.data import ComparisonRequest, DataRequest
-from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
+from gbnbench.reports.paper.figure import PAGE, Drawing, FigureOptions, PaperFigure
 
 EDGES = (0.5, 0.6, 0.7)  # nu: the paper's, and two wider ones; 320 gradients do not empty the last
 CLAIM = 1e-8  # the paper's low band is below
@@ -22,11 +22,11 @@ PAPER = ("step",)
 LOW, HIGH = 1e-32, 1e2
 
 
-def needs(ask: Ask) -> Mapping[str, DataRequest]:
+def needs(options: FigureOptions) -> Mapping[str, DataRequest]:
     """Ask for truncated energies, a band emptied by Gauss-Newton, and the user's sets of Heck's step."""
     sources = (*(f"gbn[edge={edge}]" for edge in EDGES), f"stealthy[edge={EDGES[-1]}]")
-    run = ComparisonRequest(sources, (shared.size(ask),), (2,), shared.sets(ask))
-    return {"sets": run, **shared.user_set_requests(ask, PAPER)}
+    run = ComparisonRequest(sources, (shared.size(options),), (2,), shared.sets(options))
+    return {"sets": run, **shared.user_set_requests(options, PAPER)}
 
 
 def band(radial: RadialPower, edge: float) -> float:
@@ -47,14 +47,14 @@ def band(radial: RadialPower, edge: float) -> float:
     return float(radial.power[radial.nu < edge * (1 - 1e-9)].max())
 
 
-def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
+def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
     """Draw points, spectrum and radial power in log scale for each way to step blue noise.
 
     Parameters
     ----------
     data : mapping
         Data under the names that ``needs`` gives them.
-    ask : Ask
+    options : FigureOptions
         Scale, sets of the user and seed.
 
     Returns
@@ -62,7 +62,7 @@ def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
     Drawing
         The figure, as wide as the page, with its caption.
     """
-    n = shared.size(ask)
+    n = shared.size(options)
     cut = [shared.generated_column(data["sets"], f"gbn[edge={e}]", n, f"harmonics to {e}") for e in EDGES]
     newton = shared.generated_column(
         data["sets"], f"stealthy[edge={EDGES[-1]}]", n, f"stealthy to {EDGES[-1]}"

@@ -20,7 +20,7 @@ from gbnbench.generators.protocol import realization_rng
 from gbnbench.reports import style
 from gbnbench.reports.paper import axes, shared
 from gbnbench.reports.paper.data import DataRequest, TableRequest
-from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
+from gbnbench.reports.paper.figure import PAGE, Drawing, FigureOptions, PaperFigure
 
 EDGE = 0.3  # nu up to which the energy is summed
 N, NU = 64, 2.0
@@ -53,26 +53,26 @@ def line_sets(gradients: int, n: int, seed: int, first: int, sets: int) -> dict[
     return {"points": points[:, :, 0], "nu": found.nu, "power": found.power}
 
 
-def needs(ask: Ask) -> Mapping[str, DataRequest]:
+def needs(options: FigureOptions) -> Mapping[str, DataRequest]:
     """Ask for sets of the truncated energy in 1D."""
-    block, blocks = ask.pick((4, 1), (64, 6), (64, 16))
-    calls = {f"{k:03d}": (_gradients(ask), N, ask.seed, k * block, block) for k in range(blocks)}
+    block, blocks = options.pick((4, 1), (64, 6), (64, 16))
+    calls = {f"{k:03d}": (_gradients(options), N, options.seed, k * block, block) for k in range(blocks)}
     return {"line": TableRequest(line_sets, calls)}
 
 
-def _gradients(ask: Ask) -> int:
-    count: int = ask.pick(300, 1500, 1500)
+def _gradients(options: FigureOptions) -> int:
+    count: int = options.pick(300, 1500, 1500)
     return count
 
 
-def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
+def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
     """Draw two sets as beads on circles, and their mean periodogram in linear and in log scale.
 
     Parameters
     ----------
     data : mapping
         Data under the names that ``needs`` gives them.
-    ask : Ask
+    options : FigureOptions
         Scale, sets of the user and seed.
 
     Returns
@@ -103,8 +103,8 @@ def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
     top = int(np.argmax(power))
     caption = (
         f"One-dimensional blue noise: n = {N} points on a torus of one dimension by the energy truncated at "
-        f"nu = {EDGE:g} (supplement B), gbn[edge={EDGE:g},gradients={_gradients(ask)}]. (a, b) Two sets, as "
-        "beads on a string around a circle: the power at |f| = 1 is the squared length of the sum of the "
+        f"nu = {EDGE:g} (supplement B), gbn[edge={EDGE:g},gradients={_gradients(options)}]. (a, b) Two sets, "
+        "as beads on a string around a circle: the power at |f| = 1 is the squared length of the sum of the "
         "unit vectors to the beads, over n; for |f| = 2 the string goes round twice. (c, d) Power at every "
         f"frequency, mean of {sets} sets; grey line: white noise, dotted: the edge. Below the edge at most "
         f"{number(float(power[inside].max()))} is left, which is rounding; between it and nu = 0.95 the "

@@ -10,26 +10,26 @@ from matplotlib.figure import SubFigure
 from gbnbench.analysis.radial.radial_power import radial
 from gbnbench.reports.paper import shared
 from gbnbench.reports.paper.data import ComparisonRequest, DataRequest
-from gbnbench.reports.paper.figure import PAGE, Ask, Drawing, PaperFigure
+from gbnbench.reports.paper.figure import PAGE, Drawing, FigureOptions, PaperFigure
 
 WIDTH = 2.0  # cycles per unit length: PSA's default
 PAPER = ("bnot",)
 
 
-def needs(ask: Ask) -> Mapping[str, DataRequest]:
+def needs(options: FigureOptions) -> Mapping[str, DataRequest]:
     """Ask for many Owen-scrambled Sobol sets, and for GBN or the user's BNOT."""
-    many = ComparisonRequest(("sobol",), (shared.size(ask),), (2,), ask.pick(4, 160, 1000))
-    return {"sobol": many, "classic": shared.classic(ask), **shared.user_set_requests(ask, PAPER)}
+    many = ComparisonRequest(("sobol",), (shared.size(options),), (2,), options.pick(4, 160, 1000))
+    return {"sobol": many, "classic": shared.classic(options), **shared.user_set_requests(options, PAPER)}
 
 
-def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
+def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
     """Draw the radial power on exact shells above that over annuli, for each example.
 
     Parameters
     ----------
     data : mapping
         Data under the names that ``needs`` gives them.
-    ask : Ask
+    options : FigureOptions
         Scale, sets of the user and seed.
 
     Returns
@@ -37,7 +37,7 @@ def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
     Drawing
         The figure, as wide as the page, with its caption.
     """
-    n = shared.size(ask)
+    n = shared.size(options)
     examples = [
         *(shared.user_columns(data, PAPER, n) or [shared.generated_column(data["classic"], "gbn", n)]),
         shared.generated_column(data["sobol"], "sobol", n),
@@ -76,7 +76,7 @@ def draw(data: Mapping[str, Any], ask: Ask) -> Drawing:
         "projections on either axis are stratified n-fold. "
         f"{shared.counted(examples)}, d = 2."
     )
-    if "bnot" not in ask.sets:
+    if "bnot" not in options.sets:
         caption += " The first example here is GBN; sets given as --sets bnot=PATH take its place."
     return Drawing(PAGE, 3.7, paint, caption)
 

@@ -18,7 +18,7 @@ from gbnbench.opencl import choose
 from gbnbench.reports import style
 from gbnbench.reports.comparison.figure_files import pdf, png
 from gbnbench.reports.paper.data import FigureData, folder_name, obtain
-from gbnbench.reports.paper.figure import Ask, PaperFigure, compose, signs
+from gbnbench.reports.paper.figure import FigureOptions, PaperFigure, compose, signs
 from gbnbench.runs.resumable_folder import ResumableFolder, explain_interruption
 
 DPI = 220
@@ -50,7 +50,7 @@ class FinishedFigure:
 def make(
     figures: Sequence[PaperFigure],
     folder: Path,
-    ask: Ask,
+    options: FigureOptions,
     jobs: int,
     progress: Progress,
     captions: bool = True,
@@ -64,7 +64,7 @@ def make(
     folder : Path
         ``figure-03.png`` and ``.pdf`` go there, ``captions.md``, ``index.html``, and everything they are
         drawn from below ``data``, where another call finds it.
-    ask : Ask
+    options : FigureOptions
         Scale, sets, seed.
     jobs : int
         Worker processes.
@@ -85,11 +85,11 @@ def make(
     UnfinishedError
         If some could not be made, when the others are.
     """
-    foot = f"Seed {ask.seed}; {_device()}; gbnbench {__version__}."
+    foot = f"Seed {options.seed}; {_device()}; gbnbench {__version__}."
     store = FigureFolder(folder, {"holds": "figures"})
     with store.lock(), explain_interruption(folder):
         store.begin()
-        made, failures = _make_all(figures, folder, ask, jobs, progress, captions, foot)
+        made, failures = _make_all(figures, folder, options, jobs, progress, captions, foot)
         _write_pages(folder, made, captions)
     if failures:
         raise UnfinishedError(
@@ -116,7 +116,7 @@ def _device() -> str:
 def _make_all(
     figures: Sequence[PaperFigure],
     folder: Path,
-    ask: Ask,
+    options: FigureOptions,
     jobs: int,
     progress: Progress,
     captions: bool,
@@ -130,12 +130,12 @@ def _make_all(
         progress.say(f"{_heading(figure)} {figure.title}")
         try:
             data: dict[str, Any] = {}
-            for name, request in figure.needs(ask).items():
-                place = folder_name(request, ask.seed)
+            for name, request in figure.needs(options).items():
+                place = folder_name(request, options.seed)
                 if place not in known:
-                    known[place] = obtain(request, folder / "data" / place, ask.seed, jobs, progress)
+                    known[place] = obtain(request, folder / "data" / place, options.seed, jobs, progress)
                 data[name] = known[place]
-            made.append(_draw(figure, folder, ask, data, foot, captions))
+            made.append(_draw(figure, folder, options, data, foot, captions))
         except GbnbenchError as error:
             failures.append(f"{_heading(figure)} {error}")
             progress.say(failures[-1])
@@ -144,9 +144,9 @@ def _make_all(
 
 @style.styled
 def _draw(
-    figure: PaperFigure, folder: Path, ask: Ask, data: dict[str, Any], foot: str, captions: bool
+    figure: PaperFigure, folder: Path, options: FigureOptions, data: dict[str, Any], foot: str, captions: bool
 ) -> FinishedFigure:
-    drawing = figure.draw(data, ask)
+    drawing = figure.draw(data, options)
     page = compose(drawing, _heading(figure), foot, captions)
     stem = f"figure-{int(figure.name):02d}" if figure.name.isdigit() else f"figure-{figure.name}"
     write_whole(folder / f"{stem}.png", png(page, DPI))

@@ -19,7 +19,7 @@ from gbnbench.generators.registry import find
 from gbnbench.reports import style
 from gbnbench.reports.comparison import spectrum
 from gbnbench.reports.paper.data import ComparisonRequest
-from gbnbench.reports.paper.figure import Ask
+from gbnbench.reports.paper.figure import FigureOptions
 from gbnbench.runs.comparison_result import Run, SourceResult
 
 NAMES = {
@@ -74,34 +74,34 @@ class Column:
     stroke: style.Stroke
 
 
-def size(ask: Ask) -> int:
+def size(options: FigureOptions) -> int:
     """Return the number of points of a set in the galleries."""
-    n: int = ask.pick(100, 1024, 1024)
+    n: int = options.pick(100, 1024, 1024)
     return n
 
 
-def sets(ask: Ask) -> int:
+def sets(options: FigureOptions) -> int:
     """Return the number of sets of each method in the galleries."""
-    count: int = ask.pick(2, 16, 1000)
+    count: int = options.pick(2, 16, 1000)
     return count
 
 
-def classic(ask: Ask) -> ComparisonRequest:
+def classic(options: FigureOptions) -> ComparisonRequest:
     """Return the request for FPO and GBN that figures 1 and 8 make."""
-    return ComparisonRequest(("fpo", "gbn"), (size(ask),), (2,), sets(ask))
+    return ComparisonRequest(("fpo", "gbn"), (size(options),), (2,), sets(options))
 
 
-def relaxed(ask: Ask) -> ComparisonRequest:
+def relaxed(options: FigureOptions) -> ComparisonRequest:
     """Return the request for Lloyd's method that figures 5 and 8 make."""
-    return ComparisonRequest(("lloyd",), (size(ask),), (2,), sets(ask))
+    return ComparisonRequest(("lloyd",), (size(options),), (2,), sets(options))
 
 
-def methods_with_sets(ask: Ask, paper: Sequence[str]) -> tuple[str, ...]:
+def methods_with_sets(options: FigureOptions, paper: Sequence[str]) -> tuple[str, ...]:
     """List the methods without a generator whose sets the user gave for a figure.
 
     Parameters
     ----------
-    ask : Ask
+    options : FigureOptions
         Scale, sets of the user and seed.
     paper : sequence of str
         Methods of the paper's figure, in its order.
@@ -112,17 +112,17 @@ def methods_with_sets(ask: Ask, paper: Sequence[str]) -> tuple[str, ...]:
         Those of the paper first, then methods that the paper does not name.
     """
     return (
-        *(name for name in paper if name in ask.sets),
-        *(name for name in ask.sets if name not in NAMES),
+        *(name for name in paper if name in options.sets),
+        *(name for name in options.sets if name not in NAMES),
     )
 
 
-def user_set_requests(ask: Ask, methods: Iterable[str]) -> dict[str, ComparisonRequest]:
+def user_set_requests(options: FigureOptions, methods: Iterable[str]) -> dict[str, ComparisonRequest]:
     """Return requests for the user's sets of these methods, equal in every figure so that they are shared.
 
     Parameters
     ----------
-    ask : Ask
+    options : FigureOptions
         Scale, sets of the user and seed.
     methods : iterable of str
         Names of methods.
@@ -132,15 +132,15 @@ def user_set_requests(ask: Ask, methods: Iterable[str]) -> dict[str, ComparisonR
     dict
         Method -> request, for the methods that the user gave sets of.
     """
-    return {name: ComparisonRequest((ask.sets[name],)) for name in methods if name in ask.sets}
+    return {name: ComparisonRequest((options.sets[name],)) for name in methods if name in options.sets}
 
 
-def missing_sets_note(ask: Ask, methods: Iterable[str], whose: str = "of the paper") -> str:
+def missing_sets_note(options: FigureOptions, methods: Iterable[str], whose: str = "of the paper") -> str:
     """Name the methods without sets in a sentence for the caption.
 
     Parameters
     ----------
-    ask : Ask
+    options : FigureOptions
         Scale, sets of the user and seed.
     methods : iterable of str
         Methods that the figure could show.
@@ -152,7 +152,7 @@ def missing_sets_note(ask: Ask, methods: Iterable[str], whose: str = "of the pap
     str
         The sentence, empty where the user gave sets of all.
     """
-    names = [name for name in methods if name not in ask.sets]
+    names = [name for name in methods if name not in options.sets]
     if not names:
         return ""
     verb, them = ("is", "it") if len(names) == 1 else ("are", "them")

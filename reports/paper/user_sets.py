@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 from gbnbench.core.errors import InputError
 from gbnbench.generators.registry import GENERATORS
-from gbnbench.reports.paper.figure import Ask, PaperFigure
+from gbnbench.reports.paper.figure import FigureOptions, PaperFigure
 from gbnbench.reports.paper.shared import NAMES
 from gbnbench.runs.sources import resolve
 
@@ -16,14 +16,14 @@ CLOSE = 0.7  # likeness of names beyond which one is taken for a slip of the oth
 ANY_DIMENSION = ("9",)  # figures that show sets of the plane and others
 
 
-def check_sets(figures: Sequence[PaperFigure], ask: Ask) -> None:
+def check_sets(figures: Sequence[PaperFigure], options: FigureOptions) -> None:
     """Refuse sets that no figure would show.
 
     Parameters
     ----------
     figures : sequence of PaperFigure
         Figures to be made.
-    ask : Ask
+    options : FigureOptions
         Settings with the sets.
 
     Raises
@@ -32,7 +32,7 @@ def check_sets(figures: Sequence[PaperFigure], ask: Ask) -> None:
         If a method has a generator here, if its name is close to that of a method of the paper, if none
         of the figures shows the method, or if they show it in other dimensions than those of its sets.
     """
-    for name, path in ask.sets.items():
+    for name, path in options.sets.items():
         if name in GENERATORS:
             raise InputError(
                 f"--sets {name}: {name} has a generator here, whose sets the figures show; give yours "
@@ -42,8 +42,8 @@ def check_sets(figures: Sequence[PaperFigure], ask: Ask) -> None:
         slips = difflib.get_close_matches(name, methods, 1, CLOSE)
         if name not in methods and slips:
             raise InputError(f"--sets {name}: no method is named so; did you mean {slips[0]}?")
-        without = dataclasses.replace(ask, sets={k: v for k, v in ask.sets.items() if k != name})
-        shows = [figure.name for figure in figures if figure.needs(ask) != figure.needs(without)]
+        without = dataclasses.replace(options, sets={k: v for k, v in options.sets.items() if k != name})
+        shows = [figure.name for figure in figures if figure.needs(options) != figure.needs(without)]
         if not shows:
             asked = ", ".join(figure.name for figure in figures)
             raise InputError(

@@ -7,7 +7,7 @@ from gbnbench.benchmarks.experiments import gradient_rate
 
 def test_rows_hang_together(monkeypatch):
     monkeypatch.setattr(gradient_rate, "SECONDS", 0.05)
-    rows = gradient_rate.measure(gradient_rate.Case(64, 2, sets=2))
+    rows = gradient_rate.measure(gradient_rate.GradientCase(64, 2, sets=2))
     assert {row["precision"] for row in rows} == {"double", "float"}
     for row in rows:
         assert 0 < row["share"] < 1

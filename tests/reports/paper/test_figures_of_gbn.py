@@ -19,7 +19,7 @@ from gbnbench.generators.monitor import Monitor, Trace
 from gbnbench.reports import style
 from gbnbench.reports.paper import axes, figure_07
 from gbnbench.reports.paper.data import folder_name, obtain
-from gbnbench.reports.paper.figure import Ask, compose
+from gbnbench.reports.paper.figure import FigureOptions, compose
 from gbnbench.reports.paper.registry import find
 from tests.oracles.power import mean_power
 from tests.smallest_sizes import smallest_sizes
@@ -30,7 +30,7 @@ NAMES = ("3", "4", "6", "7", "13", "depth")
 
 
 @pytest.fixture(scope="module")
-def made(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Ask]:
+def made(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, FigureOptions]:
     folder = tmp_path_factory.mktemp("figures")
     theirs = folder / "given.txt"
     save(theirs, generate("jittered", n=100, seed=3))
@@ -38,20 +38,20 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Ask]:
     with smallest_sizes():
         result = CliRunner().invoke(gbnbench, [*arguments, "--out", str(folder / "out")])
     assert result.exit_code == 0, result.output
-    return folder / "out", Ask("tiny", {"bnot": str(theirs)})
+    return folder / "out", FigureOptions("tiny", {"bnot": str(theirs)})
 
 
 @style.styled
-def drawn(made: tuple[Path, Ask], name: str) -> tuple[Figure, dict[str, Any], str]:
+def drawn(made: tuple[Path, FigureOptions], name: str) -> tuple[Figure, dict[str, Any], str]:
     """Draw a figure again from what the command kept."""
-    folder, ask = made
+    folder, options = made
     (figure,) = find([name])
     data = {}
-    for what, request in figure.needs(ask).items():
-        kept = folder / "data" / folder_name(request, ask.seed)
+    for what, request in figure.needs(options).items():
+        kept = folder / "data" / folder_name(request, options.seed)
         assert kept.is_dir()
-        data[what] = obtain(request, kept, ask.seed, 1, Progress())
-    drawing = figure.draw(data, ask)
+        data[what] = obtain(request, kept, options.seed, 1, Progress())
+    drawing = figure.draw(data, options)
     return compose(drawing, "", "", captions=False), data, drawing.caption
 
 
@@ -70,7 +70,7 @@ def lines(ax: Axes) -> dict[str, tuple[np.ndarray, np.ndarray]]:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_picture_page_and_caption(made: tuple[Path, Ask], name: str) -> None:
+def test_picture_page_and_caption(made: tuple[Path, FigureOptions], name: str) -> None:
     folder, _ = made
     stem = f"figure-{int(name):02d}" if name.isdigit() else f"figure-{name}"
     assert (folder / f"{stem}.png").read_bytes().startswith(b"\x89PNG")
@@ -84,7 +84,7 @@ def test_picture_page_and_caption(made: tuple[Path, Ask], name: str) -> None:
         assert "n = " in about["caption"] or "points" in about["caption"]
 
 
-def test_widths_and_dimensions_are_the_library_s(made: tuple[Path, Ask]) -> None:
+def test_widths_and_dimensions_are_the_library_s(made: tuple[Path, FigureOptions]) -> None:
     figure, _, caption = drawn(made, "3")
     widths, dimensions = lines(panel(figure, "a")), lines(panel(figure, "b"))
     assert list(widths) == ["0.5", "0.7", "0.85", "1", "1.25", "1.5"]
@@ -109,7 +109,7 @@ def test_ideal_profile_is_equation_19() -> None:
     assert np.diff(np.log(power)) / np.diff(nu**2) == pytest.approx(4 * math.pi**2)
 
 
-def test_transforms_are_those_of_the_kernels_drawn(made: tuple[Path, Ask]) -> None:
+def test_transforms_are_those_of_the_kernels_drawn(made: tuple[Path, FigureOptions]) -> None:
     """By the trapezoid over the kernel's own curve, which shares nothing with the closed forms."""
     figure, _, _ = drawn(made, "4")
     kernels = list(panel(figure, "a").get_lines())
@@ -124,7 +124,7 @@ def test_transforms_are_those_of_the_kernels_drawn(made: tuple[Path, Ask]) -> No
         assert np.asarray(log.get_ydata()) == pytest.approx(np.abs(found))
 
 
-def test_energy_profiles_are_sums_of_images(made: tuple[Path, Ask]) -> None:
+def test_energy_profiles_are_sums_of_images(made: tuple[Path, FigureOptions]) -> None:
     figure, _, _ = drawn(made, "6")
     found = lines(figure.axes[0])
     assert list(found) == ["1", "2", "4", "8", "16", "32", "64"]
@@ -134,7 +134,7 @@ def test_energy_profiles_are_sums_of_images(made: tuple[Path, Ask]) -> None:
         assert energy == pytest.approx(total / total.max(), rel=1e-9)
 
 
-def test_evolution_is_that_of_the_points(made: tuple[Path, Ask]) -> None:
+def test_evolution_is_that_of_the_points(made: tuple[Path, FigureOptions]) -> None:
     figure, data, caption = drawn(made, "7")
     assert [figure_07.gradients(steps) for steps in (1, 100, 10_000)] == [3, 30, 300]
     trace = Trace(keep_at=(30,))
@@ -154,7 +154,7 @@ def test_evolution_is_that_of_the_points(made: tuple[Path, Ask]) -> None:
     assert "Eq. 14" in caption
 
 
-def test_line_is_empty_below_the_edge(made: tuple[Path, Ask]) -> None:
+def test_line_is_empty_below_the_edge(made: tuple[Path, FigureOptions]) -> None:
     figure, data, _ = drawn(made, "13")
     power = next(line for line in panel(figure, "c").get_lines() if len(np.asarray(line.get_xdata())) > 2)
     nu, found = np.asarray(power.get_xdata()), np.asarray(power.get_ydata())
@@ -170,7 +170,7 @@ def test_line_is_empty_below_the_edge(made: tuple[Path, Ask]) -> None:
     assert np.sort(turns) == pytest.approx(np.sort(sets[0]))
 
 
-def test_depth_draws_what_was_measured(made: tuple[Path, Ask]) -> None:
+def test_depth_draws_what_was_measured(made: tuple[Path, FigureOptions]) -> None:
     figure, data, caption = drawn(made, "depth")
     spectra = lines(panel(figure, "a"))
     deep = next(source for source in data["sets"].sources if source.label == "deep")

@@ -22,7 +22,7 @@ from gbnbench.execution.progress import Progress
 from gbnbench.reports import style
 from gbnbench.reports.paper import figure_12, shared
 from gbnbench.reports.paper.data import folder_name, obtain
-from gbnbench.reports.paper.figure import Ask, Drawing
+from gbnbench.reports.paper.figure import Drawing, FigureOptions
 from gbnbench.reports.paper.registry import find
 from tests.smallest_sizes import smallest_sizes
 
@@ -36,23 +36,23 @@ class Folder:
     """What the command left, and the same data read again."""
 
     path: Path
-    ask: Ask
+    options: FigureOptions
     captions: dict[str, dict[str, str]]
 
-    def data(self, name: str, ask: Ask | None = None) -> Mapping[str, Any]:
+    def data(self, name: str, options: FigureOptions | None = None) -> Mapping[str, Any]:
         (figure,) = find([name])
-        ask = ask or self.ask
+        options = options or self.options
         return {
             key: obtain(request, self.path / "data" / folder_name(request, 0), 0, 1, Progress())
-            for key, request in figure.needs(ask).items()
+            for key, request in figure.needs(options).items()
         }
 
-    def drawing(self, name: str, ask: Ask | None = None) -> Drawing:
+    def drawing(self, name: str, options: FigureOptions | None = None) -> Drawing:
         (figure,) = find([name])
-        return figure.draw(self.data(name, ask), ask or self.ask)
+        return figure.draw(self.data(name, options), options or self.options)
 
-    def axes(self, name: str, ask: Ask | None = None) -> list[Any]:
-        drawing = self.drawing(name, ask)
+    def axes(self, name: str, options: FigureOptions | None = None) -> list[Any]:
+        drawing = self.drawing(name, options)
         page = Figure(figsize=(drawing.width, drawing.height), layout="constrained")
         style.styled(drawing.paint)(page.subfigures(1, 1, squeeze=False)[0, 0])
         return page.axes
@@ -77,7 +77,7 @@ def made(tmp_path_factory):
     with smallest_sizes():
         result = CliRunner().invoke(gbnbench, arguments)
     assert result.exit_code == 0, result.output
-    return Folder(out, Ask("tiny", sets), json.loads((out / "captions.json").read_bytes()))
+    return Folder(out, FigureOptions("tiny", sets), json.loads((out / "captions.json").read_bytes()))
 
 
 def lines(ax):
@@ -134,7 +134,7 @@ def test_figure_1_s_guides_are_the_ideal_profiles(made):
 
 
 def test_without_sets_the_column_is_left_out_and_the_caption_says_so(made):
-    plain = Ask("tiny")
+    plain = FigureOptions("tiny")
     drawing = made.drawing("1", plain)
     assert "BNOT, KDM, VnC and BlueNets of the paper are left out" in drawing.caption
     assert "Shaded" in made.caption("1")
@@ -225,8 +225,8 @@ def test_sets_of_another_size_are_taken_where_there_are_none_of_this_one(tmp_pat
     for n in (30, 50):
         save(tmp_path / f"{n}.npy", np.random.default_rng(n).random((n, 2)))
     save(tmp_path / "solid.npy", np.random.default_rng(1).random((20, 3)))
-    ask = Ask("tiny", {"kdm": str(tmp_path)})
-    request = shared.user_set_requests(ask, ("bnot", "kdm"))["kdm"]
+    options = FigureOptions("tiny", {"kdm": str(tmp_path)})
+    request = shared.user_set_requests(options, ("bnot", "kdm"))["kdm"]
     run = obtain(request, tmp_path / "run", 0, 1, Progress())
     assert sorted((s.n, s.d) for s in run.sources) == [(20, 3), (30, 2), (50, 2)]
     assert [c.source.n for c in shared.user_columns({"kdm": run}, ("bnot", "kdm"), 30)] == [30]

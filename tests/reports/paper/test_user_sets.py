@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from gbnbench import generate, save
 from gbnbench.cli import run as command
 from gbnbench.core.errors import InputError
-from gbnbench.reports.paper.figure import Ask
+from gbnbench.reports.paper.figure import FigureOptions
 from gbnbench.reports.paper.registry import find
 from gbnbench.reports.paper.shared import stroke
 from gbnbench.reports.paper.user_sets import check_sets
@@ -36,26 +36,26 @@ def flat(tmp_path):
 )
 def test_sets_that_would_not_be_seen_are_refused(figures, name, message, flat):
     with pytest.raises(InputError, match=message):
-        check_sets(find(figures), Ask("tiny", {name: flat}))
+        check_sets(find(figures), FigureOptions("tiny", {name: flat}))
 
 
 def test_sets_of_another_dimension_are_refused_where_no_figure_shows_it(tmp_path):
     solid = tmp_path / "solid.npy"
     save(solid, generate("random", n=16, d=3))
     with pytest.raises(InputError, match=r"its sets are of d=3, and figure 1 shows d=2"):
-        check_sets(find(["1"]), Ask("tiny", {"bnot": str(solid)}))
-    check_sets(find(["9"]), Ask("tiny", {"bnot": str(solid)}))
+        check_sets(find(["1"]), FigureOptions("tiny", {"bnot": str(solid)}))
+    check_sets(find(["9"]), FigureOptions("tiny", {"bnot": str(solid)}))
 
 
 def test_sets_that_figures_show_pass(flat):
     for name in ("bnot", "mine"):
-        check_sets(find(["1", "2", "9"]), Ask("tiny", {name: flat}))
+        check_sets(find(["1", "2", "9"]), FigureOptions("tiny", {name: flat}))
 
 
 def test_figure_9_names_the_users_sets_by_their_method_whatever_their_folder_is_called():
     """A folder called gbn holds VnC's sets: neither takes the other's name."""
     (figure,) = find(["9"])
-    ask = Ask("tiny", {"vnc": "sets/gbn"})
+    options = FigureOptions("tiny", {"vnc": "sets/gbn"})
 
     def study(source, n, d, variance):
         rows = [
@@ -72,7 +72,7 @@ def test_figure_9_names_the_users_sets_by_their_method_whatever_their_folder_is_
     flat = [[0.0, 1.0], [1.0, 0.0]]
     data["integrands"] = {"plane": {"gaussians": flat, "half-space": flat}}
     page = Figure(layout="constrained").subfigures(1, 1, squeeze=False)[0, 0]
-    figure.draw(data, ask).paint(page)
+    figure.draw(data, options).paint(page)
     drawn = {
         line.get_color(): list(line.get_ydata()) for line in page.axes[0].lines if line.get_marker() == "o"
     }
