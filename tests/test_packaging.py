@@ -50,3 +50,11 @@ def test_the_version_is_said_once_in_each_place_and_agrees():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     assert gbnbench.__version__ == project["version"]
     assert f"## {project['version']}" in (ROOT / "CHANGELOG.md").read_text()
+
+
+def test_every_package_of_the_tree_is_named():
+    """Setuptools drops a package that is not named, and says nothing."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())
+    named = set(project["tool"]["setuptools"]["packages"])
+    inits = {Path(name).parent for name in tracked() if name.endswith("/__init__.py")}
+    assert named == {path.as_posix().replace("/", ".") for path in inits}
