@@ -19,6 +19,7 @@ MODULES = sorted(
     if not any(link in path.parents for link in LINKS)
 )
 QUESTION = re.compile(r"(What|Which|How|Whether|Where|Who|Why)\b")
+INHERITED = re.compile(r"(those of|as) ``[A-Z]\w+\.\w+``")  # a method that refers to the one it overrides
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 
@@ -66,6 +67,8 @@ def faults(path: Path) -> list[str]:
         text = ast.get_docstring(function)
         if text is None:
             found.append(f"{name} has no docstring")
+            continue
+        if INHERITED.search(text):
             continue
         names = arguments(function)
         described = section(text, "Parameters")

@@ -62,26 +62,7 @@ class CubeProduct(DeviceEvaluator):
     def cube(
         self, x: FloatArray, fmax: int, weights: FloatArray | None, *, half: bool, mean: bool
     ) -> tuple[FloatArray, Errors]:
-        """Evaluate the power of a cube, as ``Evaluator.cube`` describes it.
-
-        Parameters
-        ----------
-        x : (sets, n, d) float64
-            Checked points.
-        fmax : int
-            Largest harmonic on each axis.
-        weights : (sets or 1, n) float64 or None
-            Weights of the points.
-        half : bool
-            Only the half with f_0 >= 0.
-        mean : bool
-            Average over sets; otherwise the power of each set.
-
-        Returns
-        -------
-        power : (2*fmax+1,)*d float64
-        errors : Errors
-        """
+        """Evaluate the power of a cube, as ``Evaluator.cube`` describes it."""
         return cube_powers(self.on_device, x, fmax, weights, half, mean)
 
 

@@ -48,22 +48,7 @@ class DirectSum(DeviceEvaluator):
     def listed(
         self, x: FloatArray, frequencies: NDArray[np.int64], weights: FloatArray | None
     ) -> tuple[FloatArray, Errors]:
-        """Evaluate the power at listed frequencies, as ``Evaluator.listed`` describes it.
-
-        Parameters
-        ----------
-        x : (sets, n, d) float64
-            Checked points.
-        frequencies : (m, d) int64
-            Cycles per unit length.
-        weights : (sets or 1, n) float64 or None
-            Weights of the points.
-
-        Returns
-        -------
-        power : (m,) float64
-        errors : Errors
-        """
+        """Evaluate the power at listed frequencies, as ``Evaluator.listed`` describes it."""
         return listed_power(self.on_device, x, frequencies, weights)
 
 

@@ -69,22 +69,6 @@ class ShellProduct(DeviceEvaluator):
         """Evaluate the shells, as ``Evaluator.shells`` describes it.
 
         In one dimension there is no second group of axes, and the whole cube is evaluated.
-
-        Parameters
-        ----------
-        x : (sets, n, d) float64
-            Checked points.
-        request : SpectrumRequest
-            A request for shells.
-        weights : (sets or 1, n) float64 or None
-            Weights of the points.
-        progress : callable, optional
-            Called now and then with the share done.
-
-        Returns
-        -------
-        moments : ShellMoments
-        errors : Errors
         """
         if request.d == 1:
             return CubeProduct(self.precision).shells(x, request, weights, progress)

@@ -46,20 +46,7 @@ class GriddedProduct(DeviceEvaluator):
     ) -> GriddedProduct | None:
         """Offer itself where the grid fits and the product takes less than the plain one, set-up included.
 
-        Parameters
-        ----------
-        request : SpectrumRequest
-            The frequencies, points and sets.
-        precision : {"double", "float"}
-            Precision of the arithmetic.
-        floor : float, optional
-            Smallest power that must be known to 1%; not used, since the method is exact.
-        forced : bool
-            Whether the user asked for this method.
-
-        Returns
-        -------
-        GriddedProduct or None
+        Parameters and returns are those of ``Evaluator.offer``.
         """
         if request.what not in cls.serves or not griddable(request.d, request.fmax, precision):
             return None
@@ -77,17 +64,7 @@ class GriddedProduct(DeviceEvaluator):
     def why_not(cls, request: SpectrumRequest, precision: str) -> str:
         """Say which dimensions and frequencies it serves.
 
-        Parameters
-        ----------
-        request : SpectrumRequest
-            The request that it cannot serve.
-        precision : {"double", "float"}
-            Precision that was asked for.
-
-        Returns
-        -------
-        str
-            A sentence for an error message.
+        Parameters and returns are those of ``Evaluator.why_not``.
         """
         return (
             f"the gridded product in {precision} needs two dimensions and fmax of at least "
@@ -122,26 +99,7 @@ class GriddedProduct(DeviceEvaluator):
     def cube(
         self, x: FloatArray, fmax: int, weights: FloatArray | None, *, half: bool, mean: bool
     ) -> tuple[FloatArray, Errors]:
-        """Evaluate the power of a cube, as ``Evaluator.cube`` describes it.
-
-        Parameters
-        ----------
-        x : (sets, n, d) float64
-            Checked points.
-        fmax : int
-            Largest harmonic on each axis.
-        weights : (sets or 1, n) float64 or None
-            Weights of the points.
-        half : bool
-            Only the half with f_0 >= 0.
-        mean : bool
-            Average over sets; otherwise the power of each set.
-
-        Returns
-        -------
-        power : (2*fmax+1,)*d float64
-        errors : Errors
-        """
+        """Evaluate the power of a cube, as ``Evaluator.cube`` describes it."""
         return gridded_powers(self.on_device, x, fmax, weights, half, mean)
 
 

@@ -34,21 +34,7 @@ class NonuniformFFT(Evaluator):
     ) -> NonuniformFFT | None:
         """Offer itself at the loosest tolerance that resolves the floor, or at its tightest.
 
-        Parameters
-        ----------
-        request : SpectrumRequest
-            The frequencies, points and sets.
-        precision : {"double", "float"}
-            Precision of the arithmetic.
-        floor : float, optional
-            Smallest power that must be known to 1%; the tightest tolerance is taken where it is not given or
-            out of reach.
-        forced : bool
-            Whether the user asked for this method.
-
-        Returns
-        -------
-        NonuniformFFT or None
+        Parameters and returns are those of ``Evaluator.offer``.
         """
         if request.what not in cls.serves or precision != "double":
             return None
@@ -64,17 +50,7 @@ class NonuniformFFT(Evaluator):
     def why_not(cls, request: SpectrumRequest, precision: str) -> str:
         """Say what is missing: FINUFFT, a lower dimension, or double precision.
 
-        Parameters
-        ----------
-        request : SpectrumRequest
-            The request that it cannot serve.
-        precision : {"double", "float"}
-            Precision that was asked for.
-
-        Returns
-        -------
-        str
-            A sentence for an error message.
+        Parameters and returns are those of ``Evaluator.why_not``.
         """
         if request.d > DIMENSIONS:
             return f"the non-uniform FFT does up to {DIMENSIONS} dimensions; got d={request.d}"
@@ -106,26 +82,7 @@ class NonuniformFFT(Evaluator):
     def cube(
         self, x: FloatArray, fmax: int, weights: FloatArray | None, *, half: bool, mean: bool
     ) -> tuple[FloatArray, Errors]:
-        """Evaluate the power of a cube, as ``Evaluator.cube`` describes it.
-
-        Parameters
-        ----------
-        x : (sets, n, d) float64
-            Checked points.
-        fmax : int
-            Largest harmonic on each axis.
-        weights : (sets or 1, n) float64 or None
-            Weights of the points.
-        half : bool
-            Only the half with f_0 >= 0.
-        mean : bool
-            Average over sets; otherwise the power of each set.
-
-        Returns
-        -------
-        power : (2*fmax+1,)*d float64
-        errors : Errors
-        """
+        """Evaluate the power of a cube, as ``Evaluator.cube`` describes it."""
         _, n, d = x.shape
 
         def one_set(one: FloatArray, w: FloatArray | None) -> tuple[FloatArray, Errors]:

@@ -33,20 +33,7 @@ class NumpyProduct(Evaluator):
     ) -> NumpyProduct | None:
         """Offer itself where there is no device, for shells only if their whole cube fits in memory.
 
-        Parameters
-        ----------
-        request : SpectrumRequest
-            The frequencies, points and sets.
-        precision : {"double", "float"}
-            Precision of the arithmetic.
-        floor : float, optional
-            Smallest power that must be known to 1%; not used, since the method is exact.
-        forced : bool
-            Whether the user asked for this method.
-
-        Returns
-        -------
-        NumpyProduct or None
+        Parameters and returns are those of ``Evaluator.offer``.
         """
         if forced:
             return cls(precision)
@@ -81,26 +68,7 @@ class NumpyProduct(Evaluator):
     def cube(
         self, x: FloatArray, fmax: int, weights: FloatArray | None, *, half: bool, mean: bool
     ) -> tuple[FloatArray, Errors]:
-        """Evaluate the power of a cube, as ``Evaluator.cube`` describes it.
-
-        Parameters
-        ----------
-        x : (sets, n, d) float64
-            Checked points.
-        fmax : int
-            Largest harmonic on each axis.
-        weights : (sets or 1, n) float64 or None
-            Weights of the points.
-        half : bool
-            Only the half with f_0 >= 0.
-        mean : bool
-            Average over sets; otherwise the power of each set.
-
-        Returns
-        -------
-        power : (2*fmax+1,)*d float64
-        errors : Errors
-        """
+        """Evaluate the power of a cube, as ``Evaluator.cube`` describes it."""
         _, n, d = x.shape
 
         def one_set(one: FloatArray, w: FloatArray | None) -> tuple[FloatArray, Errors]:
@@ -113,22 +81,7 @@ class NumpyProduct(Evaluator):
     def listed(
         self, x: FloatArray, frequencies: NDArray[np.int64], weights: FloatArray | None
     ) -> tuple[FloatArray, Errors]:
-        """Evaluate the power at listed frequencies, as ``Evaluator.listed`` describes it.
-
-        Parameters
-        ----------
-        x : (sets, n, d) float64
-            Checked points.
-        frequencies : (m, d) int64
-            Cycles per unit length.
-        weights : (sets or 1, n) float64 or None
-            Weights of the points.
-
-        Returns
-        -------
-        power : (m,) float64
-        errors : Errors
-        """
+        """Evaluate the power at listed frequencies, as ``Evaluator.listed`` describes it."""
         _, n, d = x.shape
         largest = int(np.abs(frequencies.astype(np.float64)).max())
 
