@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 from dataclasses import dataclass
 
 from gbnbench.analysis.spectrum.error_model import Errors
@@ -107,7 +108,10 @@ def unavailable(request: SpectrumRequest, method: str | None, precision: str) ->
     """
     serving = {kind.method: kind for kind in EVALUATORS if request.what in kind.serves}
     if method not in serving:
-        return f"method must be one of {', '.join(serving)} for {request.what}; got {method!r}"
+        words = {kind.title: name for name, kind in serving.items()} | {name: name for name in serving}
+        close = difflib.get_close_matches(str(method), words, n=1)
+        hint = f"; did you mean {words[close[0]]!r}?" if close else ""
+        return f"method must be one of {', '.join(serving)} for {request.what}; got {method!r}{hint}"
     return serving[method].why_not(request, precision)
 
 

@@ -196,6 +196,8 @@ def choose(selector: str | None = None) -> Device:
     DeviceError
         If there is no device, or the selector fits none or several.
     """
+    if selector is not None and not isinstance(selector, str):
+        raise DeviceError(f"device must be a text, an index such as '0' or part of a name; got {selector!r}")
     present = devices()
     if not present:
         raise DeviceError(f"no OpenCL device found. {INSTALL}")

@@ -179,3 +179,9 @@ def test_a_fork_is_refused_in_words_instead_of_hanging():
         "os.waitpid(child, 0)"
     )
     assert "spawn" in done.stdout
+
+
+@pytest.mark.parametrize("selector", [0, 7, 1.5, True])
+def test_a_selector_that_is_no_text_is_refused_in_words(selector):
+    with pytest.raises(DeviceError, match="device must be a text"):
+        choose(selector)

@@ -89,3 +89,9 @@ def test_every_evaluator_is_a_method_that_users_can_ask_for():
     for kind in EVALUATORS:
         assert kind.serves
         assert title_of(kind.method) == kind.title
+
+
+@pytest.mark.parametrize(("word", "meant"), [("two-group product", "product"), ("grided", "gridded")])
+def test_a_title_or_a_slip_is_answered_by_the_word(word, meant):
+    with pytest.raises(InputError, match=f"did you mean '{meant}'"):
+        periodogram(np.random.default_rng(3).random((20, 2)), 5, method=word)
