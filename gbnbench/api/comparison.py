@@ -96,6 +96,28 @@ class Comparison:
 
         return pd.DataFrame(long_table(self.run))
 
+    def to_markdown(self, measures: Sequence[str] | None = None, *, errors: bool = False) -> str:
+        """Return the table in Markdown, as the README shows it.
+
+        Parameters
+        ----------
+        measures : sequence of str, optional
+            Names of measures, or ``cpu_seconds``, as the columns; those of the terminal where not given.
+        errors : bool
+            Show standard errors beside the values.
+
+        Returns
+        -------
+        str
+            A row a source, the best of each column in bold.
+
+        Raises
+        ------
+        InputError
+            If there is no column of such a name.
+        """
+        return table.markdown_table(self.run, measures, errors=errors)
+
     @property
     def sources(self) -> tuple[SourceResult, ...]:
         """What was measured of each source, in order."""

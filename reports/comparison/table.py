@@ -14,6 +14,7 @@ from rich.table import Table
 from rich.text import Text
 
 from gbnbench.analysis.measure_definitions import DEFINITIONS, Definition, comparable_value
+from gbnbench.core.errors import InputError
 from gbnbench.core.number_text import error_number, number
 from gbnbench.reports.style import Group, groups, members
 from gbnbench.runs.comparison_result import Run, SourceResult
@@ -279,7 +280,10 @@ def markdown_table(run: Run, columns: Sequence[str] | None = None, *, errors: bo
 
 
 def _by_name(name: str) -> Definition:
-    return next(column for column in COLUMNS if column.name == name)
+    for column in COLUMNS:
+        if column.name == name:
+            return column
+    raise InputError(f"the table has no column {name!r}; it has {', '.join(c.name for c in COLUMNS)}")
 
 
 def _without_last(chosen: Sequence[str]) -> list[str]:

@@ -65,6 +65,14 @@ def test_figures_are_drawn_by_name_and_a_wrong_name_lists_them(made):
         made.figure("galery")
 
 
+def test_the_table_in_markdown_has_the_columns_asked_for(made):
+    lines = made.to_markdown(["noise_floor", "cpu_seconds"]).splitlines()
+    assert len(lines) == 2 + len(made.sources)
+    assert lines[2].startswith("| random | ")
+    with pytest.raises(InputError, match="no column 'floor'; it has noise_floor"):
+        made.to_markdown(["floor"])
+
+
 def test_the_report_is_made_when_it_is_missing(made):
     path = made.folder / "report.html"
     assert not path.exists()
