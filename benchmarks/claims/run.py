@@ -52,7 +52,7 @@ def write(path: Path, table: Mapping[str, list[dict[str, str]]]) -> None:
         Rows by claim.
     """
     text = io.StringIO()
-    writer = csv.DictWriter[str](text, COLUMNS, lineterminator="\n")
+    writer: csv.DictWriter[str] = csv.DictWriter(text, COLUMNS, lineterminator="\n")
     writer.writeheader()
     for claim in CLAIMS:
         writer.writerows(table.get(claim.name, []))
