@@ -50,6 +50,7 @@ def test_means_over_sets_and_of_the_mean_spectrum():
         assert together.standard_error[name] == pytest.approx(values.std(ddof=1) / math.sqrt(5), rel=1e-9)
 
 
+@pytest.mark.slow
 def test_standard_errors_of_the_mean_spectrum_match_the_spread_over_repetitions():
     rng = np.random.default_rng(3)
     found = [measures(rng.random((8, 36, 2))) for _ in range(40)]

@@ -132,6 +132,7 @@ def test_exact_forces_are_the_slope_of_the_energy(n, d):
     assert on_device == pytest.approx(found.astype(float), abs=1e-12)
 
 
+@pytest.mark.slow
 def test_forces_grow_exact_with_the_cutoff(whole):
     rows = whole[1].forces
     double = rows[(rows.precision == "double") & (rows.kernel == "cut off")].sort_values("cutoff")

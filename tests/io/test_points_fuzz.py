@@ -17,6 +17,8 @@ from hypothesis import strategies as st
 from gbnbench.core.errors import FormatError
 from gbnbench.io.points import read, save
 
+pytestmark = pytest.mark.slow  # thousands of damaged files
+
 Sets = list[list[tuple[float, ...]]]
 
 FUZZ = settings(max_examples=350, derandomize=True, deadline=None, database=None)

@@ -23,6 +23,7 @@ def small(tmp_path_factory: pytest.TempPathFactory) -> ComparisonOutcome:
     return run_comparison(sources, tmp_path_factory.mktemp("small") / "run", seed=9, jobs=2)
 
 
+@pytest.mark.slow
 def test_the_split_of_the_work_changes_no_bit(small: ComparisonOutcome, tmp_path: Path) -> None:
     sources, _ = resolve(["random", "latin"], (16,), (1,), 4)
     alone = run_comparison(sources, tmp_path / "run", seed=9, jobs=1)

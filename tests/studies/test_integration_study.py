@@ -48,6 +48,7 @@ def test_the_table_is_what_a_plain_loop_gives(done):
                 assert (row.low, row.high) == pytest.approx((expected.low, expected.high), rel=1e-8)
 
 
+@pytest.mark.slow
 def test_random_sets_have_the_variance_of_monte_carlo(tmp_path):
     """Korobov of smoothness 4 in 2D: variance of one value is (1 + 2 zeta(8))^2 - 1, by Parseval."""
     found = study(
@@ -79,6 +80,7 @@ def test_one_worker_and_another_order_give_the_same_numbers(done, tmp_path):
     pd.testing.assert_frame_equal(first, second, check_exact=True)
 
 
+@pytest.mark.slow
 def test_more_instances_and_sets_begin_with_the_same(tmp_path):
     few, more = (
         study(tmp_path / "few", ("random",)),
@@ -92,6 +94,7 @@ def test_more_instances_and_sets_begin_with_the_same(tmp_path):
             assert np.array_equal(b[key][:5, :6], a[key]), name
 
 
+@pytest.mark.slow
 def test_a_stopped_study_goes_on_and_a_finished_one_is_read(done, tmp_path):
     folder = tmp_path / "stopped"
     whole = study(folder)
@@ -168,6 +171,7 @@ def test_reading_what_is_no_study_is_refused(tmp_path, done):
         read_integration(run)
 
 
+@pytest.mark.slow
 def test_the_command_prints_keeps_and_draws(tmp_path, capsys):
     folder = tmp_path / "out"
     arguments = ["integrate", "random", "jittered", "-n", "4,16", "--realizations", "3", "--instances", "4",

@@ -114,6 +114,7 @@ def test_high_dimensions_against_the_sum_itself():
     assert shells(on_grid((4, 10)), 2).count.tolist() == [20, 180, 960, 3380]
 
 
+@pytest.mark.slow
 def test_every_frequency_of_twelve_dimensions_in_little_memory():
     code = """
 import json, resource, numpy as np, gbnbench.analysis.spectrum.shell_spectrum

@@ -48,6 +48,7 @@ def test_all_nested_permutations_are_equally_likely() -> None:
     assert chisquare(list(seen.values())).pvalue > 1e-4
 
 
+@pytest.mark.slow
 def test_power_is_that_of_nested_scrambling() -> None:
     """A pair that first differs in digit j of an axis lies in sibling halves of width h = 2**-j."""
     n, d, sets = 16, 2, 800

@@ -87,6 +87,7 @@ def test_the_curvature_is_the_published_one():
     assert step_size(1024, 2, 1.0) == pytest.approx(1.2 / 4.62, rel=0.01)
 
 
+@pytest.mark.slow
 def test_long_boxes_of_few_points_converge_too():
     x = GaussianBlueNoise()(1024, 1, realization_rng(0, 0))
     assert profile_measures.power_at_1(radial(periodogram(x, 4))) < 1e-20

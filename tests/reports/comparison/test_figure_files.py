@@ -67,6 +67,7 @@ def test_files_are_whole_named_and_repeatable(tmp_path: Path) -> None:
     assert pdf(again) == (tmp_path / "figures" / "loglog.pdf").read_bytes()
 
 
+@pytest.mark.slow
 def test_several_n_get_files_each_and_a_sweep() -> None:
     sources = [
         samples.source(label, make(n, 2, 2), 3)
@@ -82,6 +83,7 @@ def test_several_n_get_files_each_and_a_sweep() -> None:
     assert_drawn(png(sweep.figure(run)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("n", "d", "fmax", "realizations"),
     [(8, 1, 6, 3), (27, 3, 3, 1), (4, 8, 1, 2), (1, 2, 4, 1), (2, 2, 4, 2), (3, 1, 1, 1), (5, 2, 1, 3)],
@@ -94,6 +96,7 @@ def test_any_dimension_and_few_points(n: int, d: int, fmax: int, realizations: i
     assert ("zone-plate" in needing) == ("valence" in needing) == (d == 2)
 
 
+@pytest.mark.slow
 def test_labels_are_drawn_as_they_stand() -> None:
     run = odd_run(samples.random(16, 2, 2), ODD)
     assert_drawn(png(FIGURES["gallery"].draw(run, None), 40))
@@ -111,6 +114,7 @@ def test_one_source_and_twenty(count: int) -> None:
         assert_drawn(png(FIGURES[name].draw(run, None), 40))
 
 
+@pytest.mark.slow
 def test_exact_zeros_and_tall_harmonics_of_a_lattice() -> None:
     source = samples.source("grid", samples.grid(64, 2), 16)
     exact = np.where(source.radial.power < 1e-9, 0.0, source.radial.power)
