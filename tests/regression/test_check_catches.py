@@ -154,7 +154,9 @@ def test_float_where_double_was_asked():
     assert "(at most 1.00e-12)" in said
     caught(
         """
-        wrap(generator, "field", lambda field, n, d, sigma, precision, **more: field(n, d, sigma, "float"))
+        def single(make, n, d, sigma, precision, **_):
+            return make(n, d, sigma, "float")
+        wrap(generator, "energy_evaluation", single)
         """,
         "gbn-1d-64",
     )
