@@ -73,6 +73,7 @@ def test_the_table_in_markdown_has_the_columns_asked_for(made):
         made.to_markdown(["floor"])
 
 
+@pytest.mark.slow
 def test_the_report_is_made_when_it_is_missing(made):
     path = made.folder / "report.html"
     assert not path.exists()

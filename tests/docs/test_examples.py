@@ -38,7 +38,14 @@ def document(page: Path) -> Document:
     return Document.parse(str(page), PythonCodeBlockParser(), SkipParser(), *shells)
 
 
-@pytest.mark.parametrize("page", PAGES, ids=NAMES)
+HEAVY = ("README.md", "scaling.md", "integration.md", "domains.md", "formats.md")  # seconds each
+
+
+@pytest.mark.parametrize(
+    "page",
+    [pytest.param(page, marks=pytest.mark.slow) if page.name in HEAVY else page for page in PAGES],
+    ids=NAMES,
+)
 def test_the_python_of_a_page_runs(page, tmp_path, monkeypatch, subtests):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("MPLBACKEND", "agg")
