@@ -61,7 +61,7 @@ numpydoc_xref_aliases = {
     "GbnbenchError": "gbnbench.GbnbenchError",
     "InputError": "gbnbench.core.errors.InputError",
     "Measures": "gbnbench.core.results.Measures",
-    "Plan": "gbnbench.Plan",
+    "SpectrumPlan": "gbnbench.SpectrumPlan",
     "RadialPower": "gbnbench.core.results.RadialPower",
     "RefusalError": "gbnbench.core.errors.RefusalError",
     "ShellSpectrum": "gbnbench.ShellSpectrum",

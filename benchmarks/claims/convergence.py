@@ -251,7 +251,7 @@ def hessian_of(x: FloatArray, h: float = 1e-4) -> FloatArray:
     x : (n, d) float64
         The set.
     h : float
-        Half the step of the differences, in spacings.
+        Distance that each coordinate is moved to either side, in spacings.
 
     Returns
     -------

@@ -316,6 +316,7 @@ def redrawn(sets: Sets, generator: str, d: int, further: int = AGAIN) -> list[fl
     Returns
     -------
     list of float
+        One exponent for each further draw.
     """
     many = 64
     drawn = [sets.draw(generator, n=n, d=d, sets=(further + 1) * many).x for n in SIZES[d]]

@@ -101,7 +101,7 @@ def predicted(energy: Callable[[NDArray[np.int64]], FloatArray], x: FloatArray, 
     Parameters
     ----------
     energy : callable
-        Squared modulus of the transform of the integrand at frequencies.
+        Mean over the family of |transform|^2, (m, d) frequencies -> (m,).
     x : (sets, n, d) float64
         Points.
     fmax : int
@@ -134,7 +134,7 @@ def rows(
     Parameters
     ----------
     cases : tuple
-        n, d, settings of the families and number of integrands of each case.
+        n, d, the edges named in ``SOURCES``, and the largest harmonic of the predicted variance.
     sets, shifts : int
         Number of sets, and of random shifts of each.
 

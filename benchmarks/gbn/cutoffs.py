@@ -63,7 +63,7 @@ def forces(n: int, d: int, seconds: float, probes: int) -> Iterator[dict[str, An
     n, d : int
         Points in a set, and dimension.
     seconds : float
-        Time given to each measurement.
+        Time given to all cut-offs together; at least three rounds are timed.
     probes : int
         Number of points whose forces are checked.
 

@@ -86,7 +86,7 @@ class FloorCase:
 
 @dataclass(frozen=True)
 class FloorBenchmark:
-    """How much of it is done.
+    """The sizes that the benchmark runs over, and the time given to each.
 
     Attributes
     ----------
@@ -95,7 +95,7 @@ class FloorBenchmark:
     forces : tuple of (int, int)
         Sizes (n, d) whose forces are timed and checked at every cut-off.
     seconds : float
-        For timing one of these.
+        Time given to the forces of one of these sizes, all cut-offs together.
     probes : int
         Points whose exact forces are taken.
     """
@@ -117,13 +117,13 @@ def race(ours: int, descent: int, authors: int = 0, in_float: int = 0) -> tuple[
     Parameters
     ----------
     ours : int
-        Gradients of Nesterov's method in double.
+        Gradients of Nesterov's method, in double and again in float.
     descent : int
-        Gradients of the paper's descent.
+        Gradients of the paper's descent in double, with our step.
     authors : int
-        Gradients of the descent with the authors' step; none for 0.
+        Gradients of the descent in double with the authors' step; 0 leaves it out.
     in_float : int
-        Gradients of Nesterov's method in float; none for 0.
+        Gradients of the paper's descent in float; 0 leaves it out.
 
     Returns
     -------
@@ -155,7 +155,7 @@ def truncated(gradients: int, cutoffs: tuple[float, ...] = CUTOFFS) -> tuple[Cur
 
 
 def full() -> FloorBenchmark:
-    """Under five minutes on one quiet core."""
+    """Return the benchmark that takes under five minutes on one quiet core."""
     cases = (
         FloorCase(256, 1, race(1000, 3162)),
         FloorCase(256, 2, race(1000, 15_000)),
@@ -170,7 +170,7 @@ def full() -> FloorBenchmark:
 
 
 def quick() -> FloorBenchmark:
-    """Under half a minute."""
+    """Return the benchmark that takes under half a minute."""
     cases = (
         FloorCase(256, 2, race(320, 1000), sets=2),
         FloorCase(1024, 2, race(320, 1000, in_float=320) + truncated(320), sets=1),
@@ -182,7 +182,7 @@ def quick() -> FloorBenchmark:
 
 
 def tiny() -> FloorBenchmark:
-    """Seconds: what tests run."""
+    """Return the benchmark that tests run, which takes seconds."""
     cases = (
         FloorCase(100, 2, race(56, 178, authors=56), sets=2),
         FloorCase(400, 2, truncated(100, (3.0, 9.0)), sets=1),

@@ -48,16 +48,16 @@ class SpectrumCase:
 
 @dataclass(frozen=True)
 class SpectrumBenchmark:
-    """How much of it is done.
+    """The sizes that the benchmark runs over, and the time given to each.
 
     Attributes
     ----------
     cases : tuple of SpectrumCase
-        With every rival.
+        Sizes on which every rival is timed.
     sweeps : dict of str to tuple of SpectrumCase
-        Ours alone, by what grows.
+        Sizes on which gbnbench alone is timed, by the quantity that grows.
     seconds, sweep_seconds : float
-        For a case, for one size of a sweep.
+        Time given to one case, and to one size of a sweep.
     longest : float
         Seconds a call of the naive kernel may take.
     probes : int
@@ -65,7 +65,7 @@ class SpectrumBenchmark:
     quick : bool
         Whether the hard cases leave out a million points.
     core_rounds, core_seconds : int, float
-        Of the throughput of two cores; 0 rounds leave it out.
+        Rounds of measuring the throughput of two cores, and the time of each; 0 rounds leave it out.
     """
 
     cases: tuple[SpectrumCase, ...]
@@ -110,18 +110,18 @@ def _sweeps(most: float) -> Iterator[tuple[str, tuple[SpectrumCase, ...]]]:
 
 
 def full() -> SpectrumBenchmark:
-    """Under five minutes on two cores."""
+    """Return the benchmark that takes under five minutes on two cores."""
     return SpectrumBenchmark(CASES, dict(_sweeps(1e10)), 14.0, 1.2, 2.0, 200, False, 3, 2.0)
 
 
 def quick() -> SpectrumBenchmark:
-    """Under half a minute."""
+    """Return the benchmark that takes under half a minute."""
     sweeps = {name: cases[:: 3 if len(cases) > 8 else 2] for name, cases in _sweeps(3e9)}
     return SpectrumBenchmark(CASES, sweeps, 1.0, 0.1, 0.1, 40, True, 1, 0.7)
 
 
 def tiny() -> SpectrumBenchmark:
-    """Seconds: what tests run."""
+    """Return the benchmark that tests run, which takes seconds."""
     cases = (
         SpectrumCase(64, 2, 8),
         SpectrumCase(64, 2, 8, 3),

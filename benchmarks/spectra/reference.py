@@ -58,12 +58,12 @@ def reference_roots(x: ArrayLike, frequencies: ArrayLike, weights: ArrayLike | N
 
     Parameters
     ----------
-    x : (n, d) or (sets, n, d) array_like
-        Points.
+    x : (n, d) array_like
+        Points of one set.
     frequencies : (m, d) array_like of int
         Frequencies.
-    weights : array_like, optional
-        Weights of the points.
+    weights : (n,) array_like, optional
+        Weights of the points; all 1 where not given.
 
     Returns
     -------

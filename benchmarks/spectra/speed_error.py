@@ -143,7 +143,7 @@ def compare(case: SpectrumCase, plan: SpectrumBenchmark, most: Mapping[str, floa
     case : SpectrumCase
         Points in a set, dimension, largest harmonic, number of sets.
     plan : SpectrumBenchmark
-        Rounds and seconds.
+        Gives the time to spend, the longest call and the number of probes.
     most : mapping
         The multiply-add peak of one core by precision.
 
@@ -206,7 +206,7 @@ def grow(sweep: str, case: SpectrumCase, plan: SpectrumBenchmark, most: Mapping[
     case : SpectrumCase
         The size.
     plan : SpectrumBenchmark
-        Rounds and seconds.
+        Gives the time to spend.
     most : mapping
         The multiply-add peak of one core by precision.
 
@@ -238,8 +238,8 @@ def sample(case: SpectrumCase, x: FloatArray, probes: int) -> tuple[Any, LongArr
     ----------
     case : SpectrumCase
         The size.
-    x : (sets, n, d) float64
-        Points.
+    x : (n, d) float64
+        Points of one set.
     probes : int
         Number of frequencies.
 
@@ -259,8 +259,8 @@ def errors(rival: Rival, x: FloatArray, fmax: int, f: Any, truth: LongArray) -> 
     ----------
     rival : Rival
         The way to the power.
-    x : (sets, n, d) float64
-        Points.
+    x : (n, d) float64
+        Points of one set.
     fmax : int
         Largest harmonic on each axis.
     f : (m, d) int64

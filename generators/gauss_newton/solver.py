@@ -89,7 +89,7 @@ def solve_for_amplitudes(
 
     Returns
     -------
-    Outcome
+    AmplitudeSolution
         The best set met, which is not always converged.
 
     Raises
