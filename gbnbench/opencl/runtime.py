@@ -164,6 +164,21 @@ class Runtime:
             )
         return self._cl.Buffer(self.context, self._cl.mem_flags.READ_WRITE, max(int(nbytes), 1))
 
+    def shared(self, array: NDArray[Any]) -> Any:
+        """Make a buffer of a host array's own memory, which a CPU device reads and writes in place.
+
+        Parameters
+        ----------
+        array : array
+            C-contiguous; it must live as long as the buffer.
+
+        Returns
+        -------
+        pyopencl.Buffer
+        """
+        flags = self._cl.mem_flags.READ_WRITE | self._cl.mem_flags.USE_HOST_PTR
+        return self._cl.Buffer(self.context, flags, hostbuf=array)
+
     def download(self, buffer: Any, out: NDArray[Any]) -> NDArray[Any]:
         """Copy the beginning of a buffer to the host, after the kernels before it have ended.
 

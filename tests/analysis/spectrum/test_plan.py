@@ -220,7 +220,7 @@ def test_a_refused_floor_names_the_least_that_is_served():
 @pytest.mark.parametrize(("n", "d", "fmax"), [(4096, 3, 300), (10_000, 3, 390), (100_000, 2, 9000)])
 def test_what_is_chosen_fits_in_the_devices_buffers(n, d, fmax):
     from gbnbench.analysis.spectrum.digits import half_size, whole_axes
-    from gbnbench.analysis.spectrum.evaluators.gridded.kaiser_bessel import nodes_for
+    from gbnbench.analysis.spectrum.evaluators.kaiser_bessel import nodes_for
 
     try:
         found = plan(n, d, fmax)
