@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gbnbench.api.comparison import Comparison
+from gbnbench.api.comparison import Comparison, draw
 from gbnbench.api.source_arguments import SourceLike, as_sources
 from gbnbench.execution import progress
 from gbnbench.opencl import use_device
