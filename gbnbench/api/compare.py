@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from gbnbench.api.comparison import Comparison, draw
 from gbnbench.api.source_arguments import SourceLike, as_sources
@@ -12,9 +11,6 @@ from gbnbench.execution import progress
 from gbnbench.opencl import use_device
 from gbnbench.runs.sources import DEFAULT_SOURCES
 from gbnbench.studies.comparison import run_comparison
-
-if TYPE_CHECKING:
-    pass
 
 
 def compare(
