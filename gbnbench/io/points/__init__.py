@@ -97,7 +97,7 @@ def load(
     >>> import tempfile
     >>> from pathlib import Path
     >>> with tempfile.TemporaryDirectory() as folder:
-    ...     _ = (Path(folder) / "pixels.csv").write_text("x,y\\n128,256\\n51.2,384\\n")
+    ...     _ = (Path(folder) / "pixels.csv").write_text("x,y\n128,256\n51.2,384\n")
     ...     load(Path(folder) / "pixels.csv", period=(512, 512))
     array([[0.25, 0.5 ],
            [0.1 , 0.75]])
