@@ -23,8 +23,9 @@ if TYPE_CHECKING:
     from gbnbench.analysis.measures import measures
     from gbnbench.analysis.radial.radial_power import radial
     from gbnbench.analysis.spectrum.periodogram import periodogram
-    from gbnbench.analysis.spectrum.plan import SpectrumPlan, plan
+    from gbnbench.analysis.spectrum.plan import plan
     from gbnbench.analysis.spectrum.shell_spectrum import shells
+    from gbnbench.analysis.spectrum.spectrum_plan import SpectrumPlan
     from gbnbench.api.comparison import Comparison, compare
     from gbnbench.api.integration import Integration, integrate
     from gbnbench.core.errors import GbnbenchError
@@ -62,7 +63,7 @@ _MODULES = {
     "Integration": "gbnbench.api.integration",
     "ShellSpectrum": "gbnbench.core.results",
     "Spectrum": "gbnbench.core.results",
-    "SpectrumPlan": "gbnbench.analysis.spectrum.plan",
+    "SpectrumPlan": "gbnbench.analysis.spectrum.spectrum_plan",
     "compare": "gbnbench.api.comparison",
     "generate": "gbnbench.generators.registry",
     "integrate": "gbnbench.api.integration",

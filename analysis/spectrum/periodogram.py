@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gbnbench.analysis.precision import PrecisionName
+from gbnbench.analysis.spectrum.choice import choose
 from gbnbench.analysis.spectrum.error_model import Errors
 from gbnbench.analysis.spectrum.evaluators.protocol import Evaluator
 from gbnbench.analysis.spectrum.evaluators.registry import Method
 from gbnbench.analysis.spectrum.limits import check_fmax
-from gbnbench.analysis.spectrum.plan import choose
 from gbnbench.analysis.spectrum.request import SpectrumRequest
 from gbnbench.core.errors import InputError
 from gbnbench.core.results import Spectrum

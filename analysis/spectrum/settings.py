@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 from gbnbench.analysis.precision import PrecisionName
 from gbnbench.analysis.spectrum.limits import default_fmax, default_shell_fmax
 from gbnbench.analysis.spectrum.periodogram import periodogram
-from gbnbench.analysis.spectrum.plan import SpectrumPlan, plan
+from gbnbench.analysis.spectrum.plan import plan
 from gbnbench.analysis.spectrum.shell_spectrum import shells
+from gbnbench.analysis.spectrum.spectrum_plan import SpectrumPlan
 from gbnbench.core.results import ShellSpectrum, Spectrum
 from gbnbench.core.torus import FloatArray
 

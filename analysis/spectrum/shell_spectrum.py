@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gbnbench.analysis.precision import PrecisionName
+from gbnbench.analysis.spectrum.choice import choose
 from gbnbench.analysis.spectrum.limits import default_shell_fmax
 from gbnbench.analysis.spectrum.periodogram import check_weights
-from gbnbench.analysis.spectrum.plan import choose
 from gbnbench.analysis.spectrum.request import shell_request
 from gbnbench.core.results import ShellSpectrum
 from gbnbench.core.torus import as_realizations, spacing

@@ -8,7 +8,7 @@ import numpy as np
 
 from gbnbench.analysis.precision import precision_of
 from gbnbench.analysis.spectrum.digits import cheapest_division
-from gbnbench.analysis.spectrum.evaluators.frequency_tables import Group
+from gbnbench.analysis.spectrum.evaluators.frequency_group import Group
 from gbnbench.analysis.spectrum.evaluators.point_slots import tile_rows
 from gbnbench.analysis.spectrum.evaluators.two_group_product import TwoGroupProduct
 from gbnbench.opencl.peak_rate import fma_peak

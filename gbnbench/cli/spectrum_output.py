@@ -15,7 +15,7 @@ from gbnbench.io.points.writer import write_atomically
 from gbnbench.runs.spectrum_files import DATA, check_writable, encode
 
 if TYPE_CHECKING:
-    from gbnbench.analysis.spectrum.plan import SpectrumPlan
+    from gbnbench.analysis.spectrum.spectrum_plan import SpectrumPlan
 
 PICTURES = (".png", ".pdf")
 

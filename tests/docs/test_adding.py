@@ -62,18 +62,19 @@ def test_the_python_runs_and_its_assertions_hold(place: Path) -> None:
 
 
 def apply(patch: str, root: Path) -> None:
-    """Put the + lines after the one line of the file that stands before them."""
-    path, anchor = root, ""
+    """Put the + lines after the one line of the file that stands before them, or in place of a - line."""
+    path, anchor, replaced = root, "", False
     for line in patch.splitlines():
         if line.startswith("--- "):
             path = root / line[4:]
         elif line.startswith("+"):
             text = path.read_text(encoding="utf-8")
             assert text.count(f"\n{anchor}\n") == 1, f"{path.name} has not one line {anchor!r}"
-            path.write_text(text.replace(f"\n{anchor}\n", f"\n{anchor}\n{line[1:]}\n"), encoding="utf-8")
-            anchor = f"{anchor}\n{line[1:]}"
+            new = line[1:] if replaced else f"{anchor}\n{line[1:]}"
+            path.write_text(text.replace(f"\n{anchor}\n", f"\n{new}\n"), encoding="utf-8")
+            anchor, replaced = new, False
         elif not line.startswith("@@"):
-            anchor = line[1:]
+            anchor, replaced = line[1:], line.startswith("-")
 
 
 @pytest.mark.slow

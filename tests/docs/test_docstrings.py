@@ -19,7 +19,9 @@ MODULES = sorted(
     if not any(link in path.parents for link in LINKS)
 )
 QUESTION = re.compile(r"(What|Which|How|Whether|Where|Who|Why)\b")
-INHERITED = re.compile(r"(those of|as) ``[A-Z]\w+\.\w+``")  # a method that refers to the one it overrides
+INHERITED = re.compile(
+    r"(those of ``[\w.]+|as ``[A-Z]\w+\.\w+)``"
+)  # refers to a function or method that says it
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 

@@ -44,7 +44,7 @@ def values(gradient, excess) -> dict[str, list[float]]:
 
 
 if __name__ == "__main__":
-    for n, d, sigma in ((2, 2, 1.0), (64, 2, 1.0)):
-        print(json.dumps([n, d, sigma, values(*theta_field(points(n, d, 1), sigma))]), flush=True)
-    for n, d, sigma in ((64, 1, 1.0), (64, 2, 1.0), (1024, 2, 1.0), (343, 3, 1.0), (64, 8, 1.0)):
+    for n, d, sigma in ((2, 2, 1.0), (64, 2, 1.0), (64, 8, 1.0)):
+        print(json.dumps([n, d, sigma, values(*theta_field(points(n, d, 1), sigma, 40))]), flush=True)
+    for n, d, sigma in ((64, 1, 1.0), (1024, 2, 1.0), (343, 3, 1.0)):
         print(json.dumps([n, d, sigma, values(*image_field(points(n, d, 1), sigma))]), flush=True)

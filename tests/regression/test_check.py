@@ -54,10 +54,8 @@ def test_fixed_points_are_those_of_plain_integers():
 def test_expected_fields_are_those_of_image_sums_in_long_double(name):
     case = OWN[name]
     values = exact_energy.values(*image_field(exact_energy.points(case.n, case.d, case.seed), case.sigma))
-    uniform = (2 * math.pi) ** (case.d / 2) * case.sigma**case.d  # whose rounding the excess energy keeps
-    lost = 2 * float(np.finfo(np.longdouble).eps) * uniform
     for measure, expectation in case.measures.items():
-        allowed = 1e-15 * max(map(abs, values[measure])) + lost
+        allowed = 1e-15 * max(map(abs, values[measure]))
         assert expectation.expected == pytest.approx(values[measure], abs=allowed)
         assert OWN[name.replace("double", "float")].measures[measure].expected == expectation.expected
 

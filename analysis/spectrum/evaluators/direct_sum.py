@@ -16,7 +16,8 @@ from gbnbench.analysis.spectrum.error_model import (
     rounded_at_worst,
     sum_errors,
 )
-from gbnbench.analysis.spectrum.evaluators.protocol import DeviceEvaluator, EvaluationCost
+from gbnbench.analysis.spectrum.evaluators.device_evaluator import DeviceEvaluator
+from gbnbench.analysis.spectrum.evaluators.protocol import EvaluationCost
 from gbnbench.analysis.spectrum.evaluators.two_group_product import norms_of
 from gbnbench.analysis.spectrum.evaluators.work_model import COSINE, device_cost
 from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest

@@ -1,4 +1,4 @@
-"""Tables of two groups' frequencies on the device, and the product of such tables.
+"""Tables of two groups' frequencies on the device.
 
 One half space of a group's frequencies is tabulated as cosines and sines of exact fixed-point phases. The
 group is divided once more for this, so that a table's entry is the complex product of two entries of smaller
@@ -14,37 +14,35 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.analysis.precision import SUM_POINTS, Precision, padded
-from gbnbench.analysis.spectrum.digits import Axes, even_division, half_size, half_space, multiples
-from gbnbench.analysis.spectrum.evaluators.point_slots import Slots, items_of, tile_rows
+from gbnbench.analysis.precision import Precision, padded
+from gbnbench.analysis.spectrum.digits import Axes, even_division, half_space, multiples
+from gbnbench.analysis.spectrum.evaluators.frequency_group import Group
+from gbnbench.analysis.spectrum.evaluators.point_slots import Slots, tile_rows
 from gbnbench.core.errors import RefusalError
 from gbnbench.opencl import Program
 
-COLUMN_BYTES = 512 << 10  # of trailing tables that all row tiles are multiplied with before the next
-LEAST_COLUMNS = 32  # columns in these at least, so that fetching a row tile pays
 MOST_ENTRIES = 1 << 15  # table entries for one point, of the two smaller tables of a group
 DIGITS_GROUP = 64  # frequencies that a work-group decodes
 
 
 @dataclass(frozen=True)
-class Group:
-    """All or some frequencies of the half space of a group of axes.
+class DevicePoints:
+    """A batch of point sets on the device.
 
     Attributes
     ----------
-    axes : tuple of Axis
-        The axes.
-    order : (count,) uint64 or None
-        Indices of the frequencies in base-(2F+1) digits; None for the whole half space in its own order.
+    turns, weight : buffer
+        Fixed-point coordinates, and weights, which are 0 beyond the last point.
+    stride : int
+        Numbers from one coordinate of a set to the next.
+    weight_stride : int
+        Numbers from one set's weights to the next set's; 0 where all sets share them.
     """
 
-    axes: Axes
-    order: NDArray[np.uint64] | None = None
-
-    @property
-    def count(self) -> int:
-        """Number of frequencies."""
-        return half_size(self.axes) if self.order is None else len(self.order)
+    turns: Any
+    weight: Any
+    stride: int
+    weight_stride: int
 
 
 class FrequencyTables:
@@ -210,66 +208,6 @@ class FrequencyTables:
             np.uint32(slots.splits),
         )
 
-    def multiply(
-        self,
-        program: Program,
-        tables: tuple[Any, Any],
-        sizes: tuple[int, int],
-        length: int,
-        slots: int,
-        bounds: Any,
-        amplitude: Any,
-        again: bool = False,
-    ) -> None:
-        """Sum the products of both tables over their points.
-
-        Parameters
-        ----------
-        program : Program
-            Kernels that ``program`` built.
-        tables : (buffer, buffer)
-            Leading and trailing table.
-        sizes : (int, int)
-            Numbers from one slot's tables to the next slot's; 0 for a table that all slots share.
-        length : int
-            Points of a slot.
-        slots : int
-            Number of slots.
-        bounds : buffer
-            First and end of the columns that each row tile takes, such as ``all_columns``.
-        amplitude : buffer
-            Amplitudes, which are written.
-        again : bool
-            Add to the amplitudes that are there.
-        """
-        step, each = length, 1
-        if self.width == 1:
-            of_a_point = sizes[1] // self.columns // length * np.dtype(self.p.real).itemsize
-            step = min(length, max(SUM_POINTS * self.p.lanes, COLUMN_BYTES // (LEAST_COLUMNS * of_a_point)))
-            blocks = min(self.columns, -(-items_of(self.p) // (self.tiles * slots)))
-            most = max(1, COLUMN_BYTES // (step * of_a_point))
-            each = -(-self.columns // max(blocks, -(-self.columns // most)))
-        columns = -(-self.columns // each)
-        items = (self.tiles, columns) if self.width == 1 else (padded(columns, self.width), self.tiles)
-        for begin in range(0, length, step):
-            program.run(
-                "product",
-                (*items, slots),
-                (self.width, 1, 1),
-                tables[0],
-                np.uint64(sizes[0]),
-                tables[1],
-                np.uint64(sizes[1]),
-                np.uint32(length),
-                np.uint32(begin),
-                np.uint32(min(begin + step, length)),
-                bounds,
-                np.uint32(self.columns),
-                np.uint32(each),
-                amplitude,
-                np.uint32(again),
-            )
-
     @cached_property
     def all_columns(self) -> Any:
         """Bounds by which every row tile takes every column."""
@@ -294,23 +232,3 @@ def whole_group_tables(p: Precision, d: int, leading: Axes, trailing: Axes) -> F
     FrequencyTables
     """
     return FrequencyTables(p, d, Group(leading), Group(trailing))
-
-
-@dataclass(frozen=True)
-class DevicePoints:
-    """A batch of point sets on the device.
-
-    Attributes
-    ----------
-    turns, weight : buffer
-        Fixed-point coordinates, and weights, which are 0 beyond the last point.
-    stride : int
-        Numbers from one coordinate of a set to the next.
-    weight_stride : int
-        Numbers from one set's weights to the next set's; 0 where all sets share them.
-    """
-
-    turns: Any
-    weight: Any
-    stride: int
-    weight_stride: int

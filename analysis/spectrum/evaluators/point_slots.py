@@ -44,7 +44,7 @@ class Slots:
 
     @property
     def span(self) -> int:
-        """DevicePoints of a set that one launch takes."""
+        """Points of a set that one launch takes."""
         return self.splits * self.length
 
     def launches(self, n: int) -> int:

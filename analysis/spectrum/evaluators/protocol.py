@@ -1,8 +1,8 @@
 """Protocol of evaluators, each of which is one way to compute the power of point sets.
 
 An evaluator states the frequencies that it serves, its cost and its errors, and evaluates. Each stands in a
-module of its own and is named once, in ``registry.py``. ``gbnbench.analysis.spectrum.plan`` asks every one of
-them and knows none by name.
+module of its own and is named once, in ``registry.py``. ``gbnbench.analysis.spectrum.choice`` asks every one
+of them and knows none by name.
 """
 
 from __future__ import annotations
@@ -23,7 +23,6 @@ from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest
 from gbnbench.analysis.spectrum.shell_moments import ShellMoments, moments_of_cube
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
-from gbnbench.opencl import devices_present
 
 
 @dataclass(frozen=True)
@@ -225,78 +224,3 @@ class Evaluator(ABC):
         fmax = min(request.fmax, math.isqrt(request.high))
         power, errors = self.cube(x, fmax, weights, half=False, mean=True)
         return moments_of_cube(power, fmax, request), errors
-
-
-class DeviceEvaluator(Evaluator, ABC):
-    """An exact evaluator that runs on the OpenCL device, where there is one."""
-
-    @classmethod
-    def offer(
-        cls, request: SpectrumRequest, precision: str, *, floor: float | None = None, forced: bool = False
-    ) -> Evaluator | None:
-        """Offer itself wherever there is a device that has the precision.
-
-        Parameters
-        ----------
-        request : SpectrumRequest
-            The frequencies, points and sets.
-        precision : {"double", "float"}
-            Precision of the arithmetic.
-        floor : float, optional
-            Smallest power that must be known to 1%; not used, since the method is exact.
-        forced : bool
-            Whether the user asked for this method.
-
-        Returns
-        -------
-        Evaluator or None
-        """
-        if request.what not in cls.serves or not devices_present():
-            return None
-        if precision == "double" and not precision_of("float").runtime.device.has_double:
-            return None
-        return cls(precision)
-
-
-def set_by_set(
-    x: FloatArray,
-    weights: FloatArray | None,
-    evaluate: Callable[[FloatArray, FloatArray | None], tuple[FloatArray, Errors]],
-    *,
-    mean: bool,
-) -> tuple[FloatArray, Errors]:
-    """Evaluate one set after another, for methods that take one at a time.
-
-    Parameters
-    ----------
-    x : (sets, n, d) float64
-        Checked points.
-    weights : (sets or 1, n) float64 or None
-        Weights of the points.
-    evaluate : callable
-        From one set and its weights to its power and errors.
-    mean : bool
-        Average over sets; otherwise the power of each set.
-
-    Returns
-    -------
-    power : float64
-        What ``evaluate`` returns, averaged, or one row a set.
-    errors : Errors
-        The largest of all sets.
-    """
-    total: FloatArray | None = None
-    each, rms, bound = [], 0.0, 0.0
-    for k, one in enumerate(x):
-        w = None if weights is None else weights[k if len(weights) > 1 else 0]
-        power, errors = evaluate(one, w)
-        rms, bound = max(rms, errors.rms), max(bound, errors.bound)
-        if not mean:
-            each.append(power)
-        elif total is None:
-            total = np.array(power)
-        else:
-            total += power
-    if total is None:
-        return np.stack(each), Errors(rms, bound)
-    return total / len(x), Errors(rms, bound)

@@ -14,13 +14,14 @@ from numpy.typing import NDArray
 
 from gbnbench.analysis.precision import SUM_POINTS, Precision, padded
 from gbnbench.analysis.spectrum.error_model import Coordinates, Errors, sum_errors
+from gbnbench.analysis.spectrum.evaluators.frequency_group import Group
 from gbnbench.analysis.spectrum.evaluators.frequency_tables import (
     DevicePoints,
     FrequencyTables,
-    Group,
     whole_group_tables,
 )
 from gbnbench.analysis.spectrum.evaluators.point_slots import COMPENSATED_FROM, Slots, choose_slots
+from gbnbench.analysis.spectrum.evaluators.table_product import multiply
 from gbnbench.core.torus import FloatArray
 
 
@@ -114,8 +115,15 @@ class TwoGroupProduct:
         again : bool
             Add to the amplitudes of the points before.
         """
-        self.frequencies.multiply(
-            *(self.program, self._tables, self._sizes, self.slots.length, sets * self.slots.splits),
+        multiply(
+            *(
+                self.frequencies,
+                self.program,
+                self._tables,
+                self._sizes,
+                self.slots.length,
+                sets * self.slots.splits,
+            ),
             bounds=self._bounds,
             amplitude=self.amplitude,
             again=again,

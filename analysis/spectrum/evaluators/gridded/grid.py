@@ -15,6 +15,7 @@ from gbnbench.analysis.spectrum.evaluators.frequency_tables import DevicePoints,
 from gbnbench.analysis.spectrum.evaluators.gridded.cells import SortedPoints
 from gbnbench.analysis.spectrum.evaluators.gridded.kaiser_bessel import Window, nodes_for, window
 from gbnbench.analysis.spectrum.evaluators.point_slots import Slots
+from gbnbench.analysis.spectrum.evaluators.table_product import multiply
 from gbnbench.core.torus import FloatArray
 
 WIDTH = {"double": 16, "float": 8}  # cells of the window
@@ -183,8 +184,15 @@ class Grid:
 
     def multiply(self, count: int) -> None:
         """Evaluate the amplitudes of a batch that was carried, ``count`` sets."""
-        self._frequencies.multiply(
-            *(self.program, (self._leading, self._trailing), (0, self._trailing_size), self._folded, count),
+        multiply(
+            *(
+                self._frequencies,
+                self.program,
+                (self._leading, self._trailing),
+                (0, self._trailing_size),
+                self._folded,
+                count,
+            ),
             bounds=self._frequencies.all_columns,
             amplitude=self.amplitude,
         )

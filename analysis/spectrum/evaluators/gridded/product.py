@@ -16,7 +16,8 @@ import numpy as np
 from gbnbench.analysis.precision import SUM_POINTS, Precision
 from gbnbench.analysis.spectrum.digits import Division, whole_axes
 from gbnbench.analysis.spectrum.error_model import BITS, UNIT, Coordinates, Errors, coordinates, sum_errors
-from gbnbench.analysis.spectrum.evaluators.cube_product import CubeWriter, cube_powers
+from gbnbench.analysis.spectrum.evaluators.cube_product import cube_powers
+from gbnbench.analysis.spectrum.evaluators.cube_writer import CubeWriter
 from gbnbench.analysis.spectrum.evaluators.gridded.cells import sorted_by_cell
 from gbnbench.analysis.spectrum.evaluators.gridded.grid import DEGREE, WIDTH, Grid, window_transform
 from gbnbench.analysis.spectrum.evaluators.gridded.kaiser_bessel import nodes_for, window

@@ -12,7 +12,8 @@ from gbnbench.analysis.spectrum.evaluators.nufft.cost import nufft_bytes, nufft_
 from gbnbench.analysis.spectrum.evaluators.nufft.errors import nufft_errors, nufft_tolerance
 from gbnbench.analysis.spectrum.evaluators.nufft.limits import DIMENSIONS, TIGHTEST
 from gbnbench.analysis.spectrum.evaluators.nufft.transform import nufft_power
-from gbnbench.analysis.spectrum.evaluators.protocol import EvaluationCost, Evaluator, set_by_set
+from gbnbench.analysis.spectrum.evaluators.protocol import EvaluationCost, Evaluator
+from gbnbench.analysis.spectrum.evaluators.set_by_set import set_by_set
 from gbnbench.analysis.spectrum.evaluators.work_model import CALL_SECONDS, NUMPY_RATE
 from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest
 from gbnbench.core.errors import InputError

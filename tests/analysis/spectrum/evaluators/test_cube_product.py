@@ -12,8 +12,9 @@ from hypothesis import strategies as st
 from gbnbench.analysis.precision import Precision, precision_of
 from gbnbench.analysis.spectrum.digits import cheapest_division, half_size
 from gbnbench.analysis.spectrum.evaluators import cube_product, point_slots
-from gbnbench.analysis.spectrum.evaluators.cube_product import covered, cube_powers, row_blocks
-from gbnbench.analysis.spectrum.evaluators.frequency_tables import Group
+from gbnbench.analysis.spectrum.evaluators.cube_product import cube_powers, row_blocks
+from gbnbench.analysis.spectrum.evaluators.cube_writer import covered
+from gbnbench.analysis.spectrum.evaluators.frequency_group import Group
 from gbnbench.analysis.spectrum.evaluators.point_slots import COMPENSATED_FROM
 from gbnbench.analysis.spectrum.evaluators.two_group_product import TwoGroupProduct
 from gbnbench.opencl import runtime

@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 
 from gbnbench.analysis.spectrum import candidates as candidates_module
-from gbnbench.analysis.spectrum import plan as plan_module
+from gbnbench.analysis.spectrum import choice as choice_module
 from gbnbench.analysis.spectrum.error_model import Errors
-from gbnbench.analysis.spectrum.evaluators.protocol import EvaluationCost, Evaluator, set_by_set
+from gbnbench.analysis.spectrum.evaluators.protocol import EvaluationCost, Evaluator
 from gbnbench.analysis.spectrum.evaluators.registry import EVALUATORS, Method, title_of
+from gbnbench.analysis.spectrum.evaluators.set_by_set import set_by_set
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.plan import plan
 from gbnbench.analysis.spectrum.shell_spectrum import shells
@@ -57,7 +58,7 @@ class PlainSum(Evaluator):
 
 @pytest.fixture
 def with_plain_sum(monkeypatch):
-    for module in (candidates_module, plan_module):
+    for module in (candidates_module, choice_module):
         monkeypatch.setattr(module, "EVALUATORS", (*EVALUATORS, PlainSum))
 
 
