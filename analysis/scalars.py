@@ -21,7 +21,8 @@ from gbnbench.analysis.radial.psa import spectral_statistics
 from gbnbench.analysis.radial.radial_power import mean_over_groups
 from gbnbench.analysis.spatial.bond_order import bond_order, psi6
 from gbnbench.analysis.spatial.delaunay import Neighbours, neighbours
-from gbnbench.analysis.spatial.discrepancy import discrepancies
+from gbnbench.analysis.spatial.discrepancy import measure_discrepancies
+from gbnbench.analysis.spatial.discrepancy_kernels import Discrepancy
 from gbnbench.analysis.spatial.distances import mean_distance, min_distance
 from gbnbench.analysis.spatial.valence import valence6
 from gbnbench.analysis.spectrum.limits import check_fmax, default_fmax
@@ -159,9 +160,15 @@ class Scalars:
                 (statistics.oscillations, statistics.oscillations_error),
             ]
 
-        def discrepancy() -> list[Estimate]:
-            each = discrepancies(self.points, ("WD", "L2-star"))
-            return [mean_over_sets(each["WD"]), mean_over_sets(each["L2-star"])]
+        def discrepancy(kind: Discrepancy) -> Callable[[], list[Estimate]]:
+            def estimates() -> list[Estimate]:
+                found = measure_discrepancies(self.points, (kind,))[kind]
+                unknown = [reason for reason in found.reasons if reason]
+                if unknown:
+                    raise RefusalError(unknown[0])
+                return [mean_over_sets(found.value)]
+
+            return estimates
 
         return [
             (("evacuated_energy",), energy),
@@ -171,5 +178,6 @@ class Scalars:
             (("psi6",), lambda: [mean_over_sets(psi6(self.neighbours()))]),
             (("valence6",), lambda: [mean_over_sets(valence6(self.neighbours()))]),
             (("effective_nyquist", "oscillations"), psa),
-            (("discrepancy_wd", "discrepancy_star"), discrepancy),
+            (("discrepancy_wd",), discrepancy("WD")),
+            (("discrepancy_star",), discrepancy("L2-star")),
         ]
