@@ -32,10 +32,8 @@ def lead_caches() -> None:
     if not (_all_writable(named) if named else _all_writable(*usual)):
         os.environ["MPLCONFIGDIR"] = str(cache_folder() / "matplotlib")
     if not _all_writable(user_folder("cache", "pytools")):
-        os.environ[VARIABLE] = str(
-            cache_folder()
-        )  # it stays where it is in the processes that this one starts
         os.environ["XDG_CACHE_HOME"] = str(cache_folder())
+        os.environ[VARIABLE] = str(cache_folder())  # not a folder within it, in the processes started here
 
 
 def _all_writable(*folders: str | Path | None) -> bool:

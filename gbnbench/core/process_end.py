@@ -1,4 +1,4 @@
-"""What ended a process, in words: its exit code or signal, and the last line that it complained."""
+"""The end of a process in words: its exit code or signal, and the last line that it complained."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import signal
 
 
 def cause_of_end(code: int, complaints: bytes) -> str:
-    """Say what a process ended of.
+    r"""Say what a process ended of.
 
     Parameters
     ----------

@@ -15,6 +15,7 @@ import threading
 import traceback
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import IO, Any, Self
 
 from gbnbench.core.errors import GbnbenchError
@@ -188,7 +189,7 @@ def _scratch() -> IO[bytes]:
     try:
         return tempfile.TemporaryFile()
     except OSError:
-        return open(os.devnull, "w+b")
+        return Path(os.devnull).open("w+b")
 
 
 def _send(pipe: IO[bytes] | None, message: bytes) -> None:

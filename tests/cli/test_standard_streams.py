@@ -89,7 +89,7 @@ def test_any_encoding_prints_what_it_can(encoding: str):
     output = io.BytesIO()
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(standard_streams.OutputFile, "write", lambda _, data: output.write(data))
-        with open(os.devnull, "w") as null:
+        with Path(os.devnull).open("w") as null:
             codecs.register_error(standard_streams.ERRORS, standard_streams._spelt)
             before = io.TextIOWrapper(io.BytesIO(), encoding)
             text = standard_streams._text(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+import tempfile
 from pathlib import Path
 
 import pytest
@@ -24,9 +25,7 @@ WHERE = (
 @pytest.fixture
 def open_folder(tmp_path: Path):
     """A folder that anyone may write, reached by a path that anyone may follow."""
-    import tempfile
-
-    folder = Path(tempfile.mkdtemp(dir="/tmp" if Path("/tmp").is_dir() else None))
+    folder = Path(tempfile.mkdtemp())
     folder.chmod(0o777)
     yield folder
     shutil.rmtree(folder)
@@ -74,19 +73,16 @@ def test_a_temporary_folder_that_cannot_be_written_gives_way_to_the_systems(tmp_
     assert not done.stdout.startswith(str(tmp_path))
 
 
-def test_a_folder_on_a_full_disk_is_not_writable() -> None:
+def test_a_folder_on_a_full_disk_is_not_writable(tmp_path, monkeypatch) -> None:
     full = Path("/dev/full")
     if not full.exists():
         pytest.skip("there is no /dev/full here")
-    written = cache_folder.tempfile.TemporaryFile
 
     def on_a_full_disk(**_: object):
         return full.open("wb")
 
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(cache_folder.tempfile, "TemporaryFile", on_a_full_disk)
-        assert not cache_folder.is_writable(Path("/tmp"))
-    assert cache_folder.tempfile.TemporaryFile is written
+    monkeypatch.setattr(cache_folder.tempfile, "TemporaryFile", on_a_full_disk)
+    assert not cache_folder.is_writable(tmp_path)
 
 
 def test_an_unusable_temporary_folder_of_someone_else_is_left_alone(tmp_path, monkeypatch) -> None:

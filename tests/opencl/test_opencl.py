@@ -130,7 +130,7 @@ def test_a_probe_that_dies_before_it_proves_anything_says_of_what(monkeypatch, t
     assert not list(tmp_path.glob("widths-*"))  # what died may be mended: it is asked again
     opened = Runtime(device)
     opened.__dict__["widths"] = widths
-    with pytest.raises(DeviceError, match="does not compute in float .*killed by SIGSEGV: bad binary"):
+    with pytest.raises(DeviceError, match=r"does not compute in float .*killed by SIGSEGV: bad binary"):
         opened.lanes("float")
 
 
