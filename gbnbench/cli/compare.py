@@ -11,6 +11,7 @@ import click
 
 from gbnbench.cli import options
 from gbnbench.cli.json_text import json_text
+from gbnbench.cli.standard_streams import wants_colour
 
 if TYPE_CHECKING:
     from gbnbench.api.comparison import Comparison
@@ -87,7 +88,7 @@ def _show(comparison: Comparison, as_json: bool) -> None:
     if as_json:
         click.echo(json_text(comparison.measures))
     else:
-        click.echo(terminal_text(comparison.run, colour=sys.stdout.isatty()))
+        click.echo(terminal_text(comparison.run, colour=wants_colour()))
     for source in comparison.sources:
         for warning in source.warnings:
             click.echo(f"gbnbench: warning: {source.label} (n={source.n}, d={source.d}): {warning}", err=True)
