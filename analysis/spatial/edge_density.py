@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gbnbench.core.errors import InputError
+from gbnbench.core.sides import as_sides
 from gbnbench.core.torus import FloatArray, as_realizations
 
 if TYPE_CHECKING:
@@ -61,7 +62,9 @@ class EdgeDensity:
         )
 
 
-def edge_density(x: ArrayLike, width: float = 0.25, depth: float = 8.0) -> EdgeDensity:
+def edge_density(
+    x: ArrayLike, width: float = 0.25, depth: float = 8.0, sides: ArrayLike | None = None
+) -> EdgeDensity:
     """Profile of the density over the distance to the nearest face.
 
     Parameters
@@ -72,6 +75,8 @@ def edge_density(x: ArrayLike, width: float = 0.25, depth: float = 8.0) -> EdgeD
         Width of a bin, spacings.
     depth : float
         End of the last bin, spacings; the centre of the box where that is nearer.
+    sides : (d,) array_like, optional
+        Lengths of the box's sides, whose ratios count; a cube if not given.
 
     Returns
     -------
@@ -81,11 +86,12 @@ def edge_density(x: ArrayLike, width: float = 0.25, depth: float = 8.0) -> EdgeD
     Raises
     ------
     InputError
-        If x is not points of the unit box, or width and depth are not 0 < width <= depth.
+        If x is not points of the unit box, width and depth are not 0 < width <= depth, or sides are not d
+        lengths.
 
     Notes
     -----
-    A bin [a, b) is the shell between two cubes, of volume (1 - 2 a / L)^d - (1 - 2 b / L)^d with
+    A bin [a, b) is the shell between two boxes, in a cube of volume (1 - 2 a / L)^d - (1 - 2 b / L)^d with
     L = n^(1/d): so corners, which belong to several faces, are counted once and need no correction.
 
     Examples
@@ -98,16 +104,25 @@ def edge_density(x: ArrayLike, width: float = 0.25, depth: float = 8.0) -> EdgeD
     if not 0 < width <= depth < math.inf:
         raise InputError(f"width and depth must be 0 < width <= depth, spacings; got {width} and {depth}")
     sets, n, d = points.shape
-    side = n ** (1 / d)
-    last = min(depth, side / 2)
+    lengths = as_sides(sides, d)
+    unit = n ** (1 / d)
+    side = unit if lengths is None else unit * np.array(lengths)
+    last = min(depth, float(np.min(side)) / 2)
     edges = np.append(np.arange(0, last - width / 1e6, width), last)
-    distance = np.minimum(points, 1 - points).min(axis=2) * side  # (sets, n)
-    volume = -np.diff((1 - np.minimum(2 * edges / side, 1)) ** d)
+    depths = np.minimum(points, 1 - points)
+    if lengths is None:
+        distance = depths.min(axis=2) * side  # (sets, n)
+        volume = -np.diff((1 - np.minimum(2 * edges / side, 1)) ** d)
+        gaps = [points.min(axis=1), 1 - points.max(axis=1)]
+        extremes = np.concatenate(gaps, axis=1).mean(axis=1) * side
+    else:
+        distance = (depths * side).min(axis=2)
+        volume = -np.diff(np.prod(1 - np.minimum(2 * edges[:, None] / side, 1), axis=1))
+        gaps = [points.min(axis=1) * side, (1 - points.max(axis=1)) * side]
+        extremes = np.concatenate(gaps, axis=1).mean(axis=1)
     counts = np.stack([np.histogram(each, edges)[0] for each in distance])
     share = counts / n
     density = share / volume
-    low, high = points.min(axis=1), 1 - points.max(axis=1)
-    extremes = np.concatenate([low, high], axis=1).mean(axis=1) * side
     return EdgeDensity(
         edges,
         density.mean(axis=0),
