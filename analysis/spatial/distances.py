@@ -5,11 +5,20 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 from scipy.spatial import cKDTree
 
 from gbnbench.core.errors import RefusalError
-from gbnbench.core.torus import HERMITE, FloatArray, as_realizations, densest_spacing
+from gbnbench.core.torus import (
+    HERMITE,
+    FloatArray,
+    as_realizations,
+    densest_spacing,
+    toroidal_distance,
+)
+
+NEAR = 1e-9  # box sides; a distance below which the tree's rounding may exceed 1e-7 of it
+CANDIDATES = 8
 
 
 def nearest_distances(x: ArrayLike) -> FloatArray:
@@ -39,9 +48,30 @@ def nearest_distances(x: ArrayLike) -> FloatArray:
         )
     if n < 2:
         raise RefusalError("a distance between points needs n >= 2; got n=1")
-    box = np.ones(d)
-    nearest = [np.asarray(cKDTree(points, boxsize=box).query(points, k=2)[0])[:, 1] for points in sets]
-    return np.array(nearest, dtype=np.float64) / unit
+    return np.array([_nearest(points) for points in sets]) / unit
+
+
+def _nearest(points: FloatArray) -> FloatArray:
+    """Distance from each point to its nearest neighbour, in box sides: (n,).
+
+    The tree's own distances are rounded to 1e-16 of the box where the neighbour lies across the border, so
+    it only names candidates; more of them where that rounding might hide which is the nearest.
+    """
+    n, d = points.shape
+    tree = cKDTree(points, boxsize=np.ones(d))
+    nearest = _shortest(points, np.arange(n), np.asarray(tree.query(points, k=2)[1]))
+    near = np.flatnonzero(nearest < NEAR)
+    if len(near):
+        candidates = tree.query(points[near], k=min(n, CANDIDATES))[1]
+        nearest[near] = _shortest(points, near, np.asarray(candidates))
+    return nearest
+
+
+def _shortest(points: FloatArray, of: NDArray[np.intp], candidates: NDArray[np.intp]) -> FloatArray:
+    """Shortest distance from each of some points to its candidates, itself left out."""
+    distance = toroidal_distance(points[candidates], points[of][:, None])
+    distance[candidates == of[:, None]] = np.inf
+    return np.asarray(distance.min(axis=1))
 
 
 def min_distance(x: ArrayLike) -> FloatArray:

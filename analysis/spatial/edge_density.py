@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gbnbench.analysis.standard_errors import sample_variance
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray, as_realizations
 
@@ -102,7 +103,7 @@ def edge_density(x: ArrayLike, width: float = 0.25, depth: float = 8.0) -> EdgeD
     last = min(depth, side / 2)
     edges = np.append(np.arange(0, last - width / 1e6, width), last)
     distance = np.minimum(points, 1 - points).min(axis=2) * side  # (sets, n)
-    volume = -np.diff((1 - np.minimum(2 * edges / side, 1)) ** d)
+    volume = _shell_volumes(np.minimum(2 * edges / side, 1), d)
     counts = np.stack([np.histogram(each, edges)[0] for each in distance])
     share = counts / n
     density = share / volume
@@ -123,4 +124,10 @@ def _error(values: FloatArray) -> FloatArray:
     """Return the standard error of the mean over the first axis; nan for a single value."""
     if len(values) < 2:
         return np.full(values.shape[1:], np.nan)
-    return np.asarray(values.std(axis=0, ddof=1) / math.sqrt(len(values)))
+    return np.sqrt(sample_variance(values) / len(values))
+
+
+def _shell_volumes(cut: FloatArray, d: int) -> FloatArray:
+    """(1 - a)^d - (1 - b)^d between consecutive cuts a < b, without the difference of two powers near 1."""
+    outer, inner = 1 - cut[:-1], 1 - cut[1:]
+    return np.diff(cut) * sum(outer**k * inner ** (d - 1 - k) for k in range(d))
