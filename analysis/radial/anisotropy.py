@@ -11,7 +11,8 @@ from gbnbench.analysis.radial.profile_measures import ROUNDING_POWER
 from gbnbench.analysis.radial.radial_power import shells_from_cube
 from gbnbench.analysis.spectrum.shells import EDGE, Shells, in_band
 from gbnbench.core.errors import InputError, RefusalError
-from gbnbench.core.results import ShellSpectrum, Spectrum
+from gbnbench.core.results.radial import ShellSpectrum
+from gbnbench.core.results.spectrum import Spectrum
 from gbnbench.core.torus import FloatArray
 
 if TYPE_CHECKING:

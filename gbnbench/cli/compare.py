@@ -57,7 +57,7 @@ def compare(
     SOURCES are generators with settings, files and folders, any mix; a folder is one source for each (n, d)
     in it. Stopped in any way, the same command goes on where it was.
     """
-    from gbnbench.api.comparison import compare as make
+    from gbnbench.api.compare import compare as make
     from gbnbench.runs.sources import DEFAULT_SOURCES
 
     comparison = make(

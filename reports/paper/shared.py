@@ -13,7 +13,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from gbnbench.core.results import RadialPower
+from gbnbench.core.results.radial import RadialPower
 from gbnbench.core.settings import specification
 from gbnbench.generators.registry import find
 from gbnbench.reports import style
