@@ -28,7 +28,7 @@ from gbnbench.analysis.spatial.valence import valence6
 from gbnbench.analysis.spectrum.limits import check_fmax, default_fmax
 from gbnbench.analysis.spectrum.periodogram import each_power
 from gbnbench.analysis.spectrum.shells import Shells, exact_shells
-from gbnbench.analysis.standard_errors import Estimate, jackknife, mean_over_sets
+from gbnbench.analysis.standard_errors import Estimate, jackknife, left_out_sums, mean_over_sets
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.results.measures import Measures
 from gbnbench.core.results.radial import RadialPower
@@ -104,21 +104,20 @@ class Scalars:
             def with_power(power: FloatArray) -> RadialPower:
                 return RadialPower(self.radial.frequency, self.radial.nu, power, self.radial.count)
 
-            def left_out(k: int) -> Sequence[float]:
-                return compute(with_power((rows.sum(axis=0) - rows[k]) / (realizations - 1)))
+            def estimates() -> list[Estimate]:
+                others = (compute(with_power(p / (realizations - 1))) for p in left_out_sums(rows))
+                return jackknife(compute(self.radial), others, realizations)
 
-            return lambda: jackknife(compute(self.radial), left_out, realizations)
+            return estimates
 
         def directional() -> list[Estimate]:
-            spacing, total = self.spectrum.spacing, self.powers.sum(axis=0)
+            def decibels(power: FloatArray, sets: int) -> list[float]:
+                return [anisotropy_db(power, self.shells, sets, self.spectrum.spacing)]
 
-            def left_out(k: int) -> Sequence[float]:
-                rest = (total - self.powers[k]) / (realizations - 1)
-                return [anisotropy_db(rest, self.shells, realizations - 1, spacing)]
-
-            whole = [anisotropy_db(self.spectrum.power, self.shells, realizations, spacing)]
             # Left-out spectra read -10 log10(M - 1): the same shift for each, so the spread is not touched.
-            return jackknife(whole, left_out, realizations)
+            rest = realizations - 1
+            others = (decibels(total / rest, rest) for total in left_out_sums(self.powers))
+            return jackknife(decibels(self.spectrum.power, realizations), others, realizations)
 
         def exponential(radial: RadialPower) -> Sequence[float]:
             fit = exponential_fit(radial)
