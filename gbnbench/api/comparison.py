@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from gbnbench.api.source_arguments import SourceLike, as_sources
 from gbnbench.core.errors import InputError
 from gbnbench.execution import progress
+from gbnbench.io.points import ReadingOptions
 from gbnbench.opencl import use_device
 from gbnbench.reports.comparison import table
 from gbnbench.reports.comparison.figure_files import planned, png, write_figures
@@ -19,7 +20,7 @@ from gbnbench.reports.html.page import write_report
 from gbnbench.runs.baseline import Change
 from gbnbench.runs.comparison_folder import long_table, read_run, wide_table
 from gbnbench.runs.comparison_result import Run, SourceResult
-from gbnbench.runs.sources import DEFAULT_SOURCES
+from gbnbench.runs.sources import DEFAULT_READING, DEFAULT_SOURCES
 from gbnbench.studies.comparison import run_comparison
 
 if TYPE_CHECKING:
@@ -201,6 +202,7 @@ def compare(
     jobs: int | None = None,
     quiet: bool = False,
     device: str | None = None,
+    reading: ReadingOptions = DEFAULT_READING,
     pictures: bool = False,
     command: str = "gbnbench.compare",
 ) -> Comparison:
@@ -230,6 +232,8 @@ def compare(
         No progress on standard error.
     device : str, optional
         Part of the name of the OpenCL device, or its position, as in ``GBNBENCH_DEVICE``, which it overrides.
+    reading : ReadingOptions
+        How files are read: columns, box and so on, as ``load`` takes them; the same for all.
     pictures : bool
         Also write report.html and the figures into the folder; ``Comparison.report`` makes them later.
     command : str
@@ -265,7 +269,7 @@ def compare(
     True
     """
     with use_device(device):
-        found, skipped = as_sources(sources, n, d, realizations)
+        found, skipped = as_sources(sources, n, d, realizations, reading)
         with progress.choose(quiet) as shown:
             done = run_comparison(
                 found,
