@@ -85,7 +85,7 @@ def compare(
 
 def _show(comparison: Comparison, as_json: bool) -> None:
     """Print the table, warnings, the verdicts against the baseline, and where everything is."""
-    from gbnbench.reports.comparison.table import terminal_text
+    from gbnbench.reports.comparison.terminal import terminal_text
 
     for line in comparison.skipped:
         click.echo(f"gbnbench: skipped: {line}", err=True)
