@@ -13,7 +13,7 @@ import numpy as np
 from gbnbench.analysis.spectrum.limits import FLOOR_NU
 from gbnbench.analysis.spectrum.shells import EDGE, in_band, squared_radius
 from gbnbench.core.errors import RefusalError
-from gbnbench.core.results import RadialPower
+from gbnbench.core.results.radial import RadialPower
 from gbnbench.core.torus import FloatArray
 
 TIE = 1e-9  # relative difference at or below which two powers count as equal

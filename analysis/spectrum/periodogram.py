@@ -15,7 +15,7 @@ from gbnbench.analysis.spectrum.evaluators.registry import Method
 from gbnbench.analysis.spectrum.limits import check_fmax
 from gbnbench.analysis.spectrum.request import SpectrumRequest
 from gbnbench.core.errors import InputError
-from gbnbench.core.results import Spectrum
+from gbnbench.core.results.spectrum import Spectrum
 from gbnbench.core.torus import FloatArray, as_realizations
 from gbnbench.opencl import use_device
 

@@ -13,7 +13,10 @@ from gbnbench.analysis.measures import measures
 from gbnbench.analysis.radial.radial_power import radial
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.core.errors import GbnbenchError, InputError
-from gbnbench.core.results import Measures, RadialPower, Spectrum, gaussian_response
+from gbnbench.core.results.measures import Measures
+from gbnbench.core.results.radial import RadialPower
+from gbnbench.core.results.resolution import gaussian_response
+from gbnbench.core.results.spectrum import Spectrum
 from gbnbench.core.torus import FloatArray, as_realizations
 from gbnbench.generators.monitor import Monitor, Trace
 from gbnbench.generators.registry import find, generate

@@ -18,7 +18,7 @@ from gbnbench.analysis.spatial.valence import valence6
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.shells import exact_shells
 from gbnbench.core.errors import RefusalError
-from gbnbench.core.results import RadialPower
+from gbnbench.core.results.radial import RadialPower
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn.energy import energy_evaluation
 

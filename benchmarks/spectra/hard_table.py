@@ -22,7 +22,8 @@ from gbnbench.analysis.spectrum.evaluators.registry import Method, title_of
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.benchmarks.spectra.hard_cases import Frequencies, HardCase, hard_cases
 from gbnbench.core.atomic_write import write_whole
-from gbnbench.core.results import Spectrum, resolvable_power
+from gbnbench.core.results.resolution import resolvable_power
+from gbnbench.core.results.spectrum import Spectrum
 from gbnbench.core.torus import FloatArray
 from gbnbench.opencl import runtime
 

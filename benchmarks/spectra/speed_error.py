@@ -25,7 +25,7 @@ from gbnbench.benchmarks.timing.machine import Rows, describe, peaks
 from gbnbench.benchmarks.timing.threads import one_blas_thread
 from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.errors import InputError
-from gbnbench.core.results import resolvable_power
+from gbnbench.core.results.resolution import resolvable_power
 from gbnbench.core.torus import FloatArray
 from gbnbench.execution.progress import Progress
 

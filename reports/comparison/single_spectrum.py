@@ -12,7 +12,9 @@ from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
 from gbnbench import __version__
 from gbnbench.analysis.radial.radial_power import shells_from_cube
-from gbnbench.core.results import Measures, ShellSpectrum, Spectrum
+from gbnbench.core.results.measures import Measures
+from gbnbench.core.results.radial import ShellSpectrum
+from gbnbench.core.results.spectrum import Spectrum
 from gbnbench.reports import style
 from gbnbench.reports.comparison import radial, spectrum
 from gbnbench.reports.comparison.loglog import ZERO

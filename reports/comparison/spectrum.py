@@ -12,7 +12,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Colormap, LogNorm
 from matplotlib.figure import Figure
 
-from gbnbench.core.results import Spectrum
+from gbnbench.core.results.spectrum import Spectrum
 from gbnbench.core.torus import FloatArray
 from gbnbench.reports import style
 from gbnbench.runs.comparison_result import Run, SourceResult

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import SubFigure
 
 from gbnbench.analysis.radial.profile_measures import exponential_fit, powerlaw_fit
-from gbnbench.core.results import RadialPower
+from gbnbench.core.results.radial import RadialPower
 from gbnbench.reports import style
 from gbnbench.reports.comparison import spectrum
 from gbnbench.reports.paper import shared

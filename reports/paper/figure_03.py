@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from gbnbench.analysis.radial.profile_measures import peak
 from gbnbench.analysis.spectrum.shell_spectrum import shells
 from gbnbench.core.number_text import number
-from gbnbench.core.results import RadialPower
+from gbnbench.core.results.radial import RadialPower
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.generators.registry import find

@@ -15,7 +15,7 @@ from gbnbench.analysis.radial.profile_measures import exponential_fit, noise_flo
 from gbnbench.analysis.spectrum.shell_spectrum import shells
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.number_text import number
-from gbnbench.core.results import RadialPower
+from gbnbench.core.results.radial import RadialPower
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.monitor import Monitor, Trace

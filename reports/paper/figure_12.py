@@ -9,7 +9,7 @@ from typing import Any
 from matplotlib.figure import SubFigure
 from matplotlib.ticker import FixedLocator, FuncFormatter
 
-from gbnbench.core.results import RadialPower
+from gbnbench.core.results.radial import RadialPower
 from gbnbench.reports import style
 from gbnbench.reports.comparison import spectrum
 from gbnbench.reports.paper import shared

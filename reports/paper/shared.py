@@ -13,7 +13,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from gbnbench.core.results import RadialPower
+from gbnbench.core.results.radial import RadialPower
 from gbnbench.core.settings import specification
 from gbnbench.generators.registry import find
 from gbnbench.reports import style
@@ -132,7 +132,11 @@ def user_set_requests(options: FigureOptions, methods: Iterable[str]) -> dict[st
     dict
         Method -> request, for the methods that the user gave sets of.
     """
-    return {name: ComparisonRequest((options.sets[name],)) for name in methods if name in options.sets}
+    return {
+        name: ComparisonRequest((options.sets[name],), reading=options.reading)
+        for name in methods
+        if name in options.sets
+    }
 
 
 def missing_sets_note(options: FigureOptions, methods: Iterable[str], whose: str = "of the paper") -> str:

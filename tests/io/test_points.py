@@ -74,7 +74,6 @@ GOOD: list[tuple[str, str, bytes, list[list[list[float]]]]] = [
     ("text called .rps", "a.rps", b"0.5 0.25\n0.125 0.75\n", [A]),
     ("rps", "a.rps", struct.pack("<4f", 0.5, 0.25, 0.125, 0.75), [A]),
     ("rps holding 1", "a.RPS", struct.pack("<2f", 1.0, 0.875), [B]),
-    ("rps by content", "a.bin", struct.pack("<4f", 0.5, 0.25, 0.125, 0.75) * 8, [A * 8]),
     ("eps", "a.eps", PSA_EPS, [[[0.600459, 0.549315], [4.62451e-06, 0.0]]]),
     ("eps without its name", "a.txt", PSA_EPS, [[[0.600459, 0.549315], [4.62451e-06, 0.0]]]),
     ("eps, points alone", "a.eps", b"0.5 0.25 p\n0.125 0.75 p\n", [A]),
@@ -84,9 +83,9 @@ GOOD: list[tuple[str, str, bytes, list[list[list[float]]]]] = [
     ("npy of float32 big-endian", "a.npy", npy(np.array(A, ">f4")), [A]),
     ("npy of float32 holding 1", "a.npy", npy(np.array([[1, 0.875]], "f4")), [B]),
     ("npz, points", "a.npz", npz(points=np.array(A), weight=np.ones(5)), [A]),
-    ("npz, x", "a.npz", npz(other=np.eye(3), x=np.array([A, A])), [A, A]),
+    ("npz, x", "a.npz", npz(x=np.array([A, A])), [A, A]),
     ("npz, only one", "a.zip", npz(anything=np.array(A)), [A]),
-    ("npz, several", "a.npz", npz(a=np.array(A), b=np.array(B)), [A, B]),
+    ("npz, several", "a.npz", npz(set_1=np.array(B), set_0=np.array(A)), [A, B]),
 ]
 
 
@@ -187,8 +186,16 @@ BAD: list[tuple[str, str, bytes, int | None, str]] = [
     ("junk called npy", "a.npy", bytes(range(64)), None, "is not a .npy file"),
     ("npz truncated", "a.npz", npz(points=np.array(A))[:-30], None, "damaged .npz"),
     ("npz of nothing", "a.npz", npz(), None, "no arrays"),
-    ("npz of unlike arrays", "a.npz", npz(a=np.array(A), b=np.eye(3)), None, "different dimensions"),
-    ("npz with a stack among sets", "a.npz", npz(a=np.array(A), b=np.array([A])), None, "shape (1, 2, 2)"),
+    ("npz of other arrays", "a.npz", npz(pos=np.array(A), v=np.eye(3)), None, "arrays pos, v: say which"),
+    ("npz of unlike sets", "a.npz", npz(set_0=np.array(A), set_1=np.eye(3)), None, "different dimensions"),
+    ("npz with a stack among sets", "a.npz", npz(set_0=np.array(A), set_1=np.array([A])), None, "(1, 2, 2)"),
+    (
+        "floats without a name",
+        "a.bin",
+        struct.pack("<4f", 0.5, 0.25, 0.125, 0.75) * 8,
+        None,
+        "--raw float32,3",
+    ),
 ]
 
 

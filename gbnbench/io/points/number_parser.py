@@ -13,18 +13,15 @@ from numpy.typing import NDArray
 
 from gbnbench.core.errors import FormatError
 from gbnbench.core.torus import FloatArray
+from gbnbench.io.points.columns import SET_NAMES, fault_of_names
 from gbnbench.io.points.file_format import NUMERIC
-
-IntArray = NDArray[np.int64]
+from gbnbench.io.points.point_sets import IntArray
 
 BLOCK = 1 << 21
 NUMBER = re.compile(rb"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 
 _COMMENT = re.compile(rb"^[ \t]*#[^\n]*", re.MULTILINE)
 _BARE = re.compile(rb"[0-9]+(?![0-9.eE+-])")
-_NAME = re.compile(r"(?:[xyzwuvstcdp]|dim|dimension|coord|coordinate|column|axis)[_ ]?[\[(]?[0-9]*[\])]?")
-SET_NAMES = ("set", "realization")
-
 # line, width, value and bare of one block; see Lexed
 Tokens = tuple[IntArray, IntArray, FloatArray, NDArray[np.bool_]]
 
@@ -146,25 +143,10 @@ def _take_names(path: Path, block: bytes, before: int) -> tuple[tuple[str, ...],
     ):
         return (), block
     names = tuple(cell.decode("utf-8", "backslashreplace").lower() for cell in cells)
-    for at, name in enumerate(names):
-        if name in names[:at] or not (name in SET_NAMES or _NAME.fullmatch(name)):
-            number = before + 1 + block.count(b"\n", 0, start)
-            said = (
-                f"column {shown(cells[at])} is no coordinate; the names are x, y, z or x0, x1, ..., once each"
-            )
-            raise FormatError(path, f"{said}, and set", number)
-    coordinates = [name for name in names if name not in SET_NAMES]
-    if coordinates != sorted(coordinates, key=_axis):
-        number = before + 1 + block.count(b"\n", 0, start)
-        ordered = ", ".join(sorted(coordinates, key=_axis))
-        raise FormatError(path, f"coordinates stand out of order; put the columns as {ordered}", number)
+    fault = fault_of_names([name for name in names if name not in SET_NAMES])
+    if fault is not None:
+        raise FormatError(path, fault, before + 1 + block.count(b"\n", 0, start))
     return names, block[:start] + block[end:]
-
-
-def _axis(name: str) -> tuple[int, int]:
-    """Tell the axis of a column's name: its number, else its letter."""
-    digits = "".join(character for character in name if character.isdigit())
-    return int(digits or 0), "xyzwuvstcdp".find(name[0])
 
 
 def _fast(block: bytes, before: int) -> Tokens | None:

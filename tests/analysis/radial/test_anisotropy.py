@@ -8,7 +8,7 @@ import pytest
 from gbnbench.analysis.radial.anisotropy import anisotropy, anisotropy_db
 from gbnbench.analysis.spectrum.shells import exact_shells
 from gbnbench.core.errors import InputError, RefusalError
-from gbnbench.core.results import Spectrum
+from gbnbench.core.results.spectrum import Spectrum
 
 FMAX, N = 24, 24**2
 

@@ -8,7 +8,8 @@ import pytest
 from matplotlib.figure import Figure
 from matplotlib.image import imread
 
-from gbnbench.core.results import Measures, Spectrum
+from gbnbench.core.results.measures import Measures
+from gbnbench.core.results.spectrum import Spectrum
 from gbnbench.reports import style
 from gbnbench.reports.comparison import loglog, radial, spectrum, sweep, valence
 from gbnbench.reports.comparison.figure_files import FIGURES, pdf, planned, png, write_figures
