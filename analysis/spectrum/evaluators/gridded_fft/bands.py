@@ -14,6 +14,8 @@ from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import RealGrid
 from gbnbench.core.torus import FloatArray
 
 CACHE_BYTES = 1 << 20  # of a grid that needs no sorting
+DIVIDED_FROM = 1 << 22  # nodes reached by the points of a set that is worth dividing among cores
+BAND_ROWS = 64  # rows of a band in two dimensions
 TILE = {1: (4096,), 2: (32, 64), 3: (8, 8)}  # nodes of a tile, on the leading axes
 
 
@@ -62,7 +64,7 @@ def dealt_to_bands(p: Precision, grid: RealGrid, x: FloatArray) -> Bands:
     """
     sets, n, d = x.shape
     turns = p.turns(x, n)
-    bands, rows = _division(p.runtime.device.compute_units, grid, sets)
+    bands, rows = _division(p.runtime.device.compute_units, grid, sets, n)
     starts = np.full((sets, bands + 1), n, np.uint32)
     starts[:, 0] = 0
     if bands == 1 and grid.size * grid.itemsize <= CACHE_BYTES:
@@ -80,11 +82,13 @@ def dealt_to_bands(p: Precision, grid: RealGrid, x: FloatArray) -> Bands:
     return Bands(np.take_along_axis(turns, order[:, None], axis=2), order, starts, rows)
 
 
-def _division(cores: int, grid: RealGrid, sets: int) -> tuple[int, int]:
+def _division(cores: int, grid: RealGrid, sets: int, n: int) -> tuple[int, int]:
     """Count the bands of a set, and the rows of one: at least the window's reach, and whole tiles."""
     tile = TILE[grid.d][0]
     bands = 1
-    if grid.d > 1 and sets % cores:
+    if grid.d == 2 and grid.size * grid.itemsize > CACHE_BYTES:  # a band stays in the cache while it is filled
+        bands = max(1, grid.nodes // BAND_ROWS)
+    elif grid.d > 1 and sets % cores and n * grid.width**grid.d > DIVIDED_FROM:
         bands = max(1, min(cores, grid.nodes // max(tile, grid.width)))
     if bands == 1:
         return 1, grid.nodes

@@ -1,24 +1,27 @@
-"""Power of a cube by the gridded FFT: spreading and power on the OpenCL device, the transform on the host."""
+"""Power of a cube by the gridded FFT: spreading and power on the OpenCL device, the transform on the host.
+
+F(f) is the transform of the grid over the product of the window's transforms (kaiser_bessel.py). The strengths of
+points are real, so the grid is, and half of its transform is enough. In double the error of the window is less
+than rounding, and cells and places are exact, so that no digit is lost.
+"""
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 from gbnbench.analysis.precision import Precision
-from gbnbench.analysis.spectrum.error_model import Errors, coordinates
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.bands import dealt_to_bands
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.errors import fft_errors
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import (
-    RealGrid,
-    real_grid,
-    transform_of_window,
-    window_terms,
-)
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.bands import Bands, dealt_to_bands
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import RealGrid, real_grid
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.transform import harmonics
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.workspace import Workspace, workspace
 from gbnbench.analysis.spectrum.evaluators.two_group_product import norms_of
 from gbnbench.core.torus import FloatArray
 
-BATCH_BYTES = 16 << 20  # of the grids of a batch
+BATCH_BYTES = 4 << 20  # of the grids of a batch
+RUN_CROWD = 64  # points of a run that reach a node, on average
 
 
 def fft_powers(
@@ -28,57 +31,50 @@ def fft_powers(
     weights: FloatArray | None = None,
     half: bool = False,
     mean: bool = True,
-) -> tuple[FloatArray, Errors]:
+) -> FloatArray:
+    """Evaluate the power at all frequencies with |f_a| <= fmax.
+
+    Parameters
+    ----------
+    p : Precision
+        Precision on the device, a CPU.
+    x : (sets, n, d) float64
+        Checked points, d <= 3.
+    fmax : int
+        Largest harmonic on each axis.
+    weights : (sets or 1, n) float64, optional
+        Weights of the points; power is divided by the sum of their squares.
+    half : bool
+        Only the half with f_0 >= 0.
+    mean : bool
+        Average over sets; otherwise the power of each set.
+
+    Returns
+    -------
+    (2*fmax+1,)*d float64
+        The first axis is only fmax+1 long for a half. An axis of sets precedes it unless ``mean``.
+    """
     sets, n, d = x.shape
-    grid = real_grid(d, fmax, p.name)
-    rt, threads = p.runtime, p.runtime.device.compute_units
-    together = max(1, min(sets, BATCH_BYTES // (grid.size * grid.itemsize)))
-    if together > threads:
-        together = together // threads * threads
+    grid, base, rt = real_grid(d, fmax, p.name), 2 * fmax + 1, p.runtime
+    run = run_length(grid)
+    together = sets_together(p, grid, sets)
+    work = workspace(p, grid, together, run < n)
+    power = np.empty((1 if mean else sets, fmax + 1 if half else base, *(base,) * (d - 1)), p.sum)
     norms = norms_of(weights, sets, n)
-    base = 2 * fmax + 1
-    shape = (fmax + 1 if half else base,) + (base,) * (d - 1)
-    power = np.empty((1 if mean else sets, *shape), p.sum)
-    out = rt.shared(power)
-    gains = rt.upload((transform_of_window(grid) ** -2.0).astype(p.sum))
-    over = rt.upload(norms.astype(p.sum))
-    terms = rt.upload(window_terms(p.name).astype(p.real))
-    nodes = np.empty((together, *grid.shape), p.real)
-    grids = rt.shared(nodes)
-    run = RUN
-    part = rt.empty(nodes.nbytes if run < n else 4)
-    spread = p.program("grid_spread.cl", AXES=d, WIDTH=grid.width, TERMS=len(window_terms(p.name)))
-    finish = p.program("grid_power.cl", AXES=d)
+    out, over = rt.shared(power), rt.upload((1 / norms).astype(p.sum))
     for first in range(0, sets, together):
         some = x[first : first + together]
         bands = dealt_to_bands(p, grid, some)
-        weight, stride = _weights(p, weights, first, len(some), n, bands.order)
-        spread.run(
-            "grid_spread",
-            (bands.count, len(some)),
-            (1, 1),
-            rt.upload(bands.turns),
-            np.uint32(n),
-            rt.upload(weight),
-            np.uint32(stride),
-            rt.upload(bands.starts),
-            np.uint32(bands.count),
-            np.uint32(run),
-            np.uint32(grid.nodes),
-            np.uint32(bands.rows),
-            np.uint32(grid.row_length),
-            terms,
-            grids,
-            part,
-            np.uint64(grid.size),
-        )
+        weight = None if weights is None or len(weights) == 1 else weights[first : first + together]
+        spread(p, grid, work, bands, weights if weight is None else weight, run)
         rt.finish()
-        transformed = np.ascontiguousarray(harmonics(grid, nodes[: len(some)], threads))
-        finish.run(
+        transformed = work.harmonics[: len(some)]
+        harmonics(grid, work.nodes[: len(some)], transformed, rt.device.compute_units)
+        work.power.run(
             "grid_power",
-            (fmax + 1 if d == 1 else base,),
-            (1,),
-            rt.shared(transformed),
+            {1: (1, 1), 2: (base, 1), 3: (base, base)}[d],
+            (1, 1),
+            work.transforms,
             np.uint64(transformed[0].size * 2),
             np.uint32(transformed.shape[-1]),
             np.uint32(grid.nodes),
@@ -87,24 +83,83 @@ def fft_powers(
             np.uint32(len(some)),
             over,
             np.uint32(first),
-            gains,
+            work.gains,
             np.uint32(half),
             out,
             np.uint64(0 if mean else power[0].size),
         )
         rt.finish()
+    total = norms if weights is None else np.broadcast_to(weights.sum(axis=1), (sets,)) ** 2 / norms
+    centre = (slice(None), 0 if half else fmax, *(fmax,) * (d - 1))
+    power[centre] = total.sum() if mean else total  # DC is known, and its error would be coherent
     if mean and sets > 1:
         power /= sets
-    return (power[0] if mean else power), fft_errors(p, grid, n, coordinates(x, p.name, weights))
+    found = np.asarray(power, np.float64)
+    return found[0] if mean else found
 
 
-RUN = 1 << 30
+def spread(
+    p: Precision, grid: RealGrid, work: Workspace, bands: Bands, weights: FloatArray | None, run: int
+) -> None:
+    """Carry the points of a batch to their grids.
+
+    Parameters
+    ----------
+    p : Precision
+        Precision on the device.
+    grid : RealGrid
+        Layout of a grid.
+    work : Workspace
+        The grids, which are written, and the kernels.
+    bands : Bands
+        The points.
+    weights : (sets or 1, n) float64 or None
+        Weights of the points, in the order before they were dealt to bands.
+    run : int
+        Points that are summed before they are added to the others.
+    """
+    sets, _, n = bands.turns.shape
+    rt = p.runtime
+    weight, stride = _in_order(p, weights, bands.order, sets, n)
+    work.spread.run(
+        "grid_spread",
+        (bands.count, sets),
+        (1, 1),
+        rt.upload(bands.turns),
+        np.uint32(n),
+        rt.upload(weight),
+        np.uint32(stride),
+        rt.upload(bands.starts),
+        np.uint32(bands.count),
+        np.uint32(run),
+        np.uint32(grid.nodes),
+        np.uint32(bands.rows),
+        np.uint32(grid.row_length),
+        work.terms,
+        work.grids,
+        work.parts,
+        np.uint64(grid.size),
+    )
 
 
-def _weights(p, weights, first, count, n, order):
+def _in_order(
+    p: Precision, weights: FloatArray | None, order: NDArray[np.intp] | None, sets: int, n: int
+) -> tuple[NDArray[Any], int]:
+    """Bring weights in the order of the points; the numbers from one set's to the next set's, 0 if shared."""
     if weights is None:
         return np.ones(n, p.real), 0
-    if order is None:
-        return (weights if len(weights) == 1 else weights[first : first + count]).astype(p.real), 0 if len(weights) == 1 else n
-    dealt = np.broadcast_to(weights if len(weights) == 1 else weights[first : first + count], (count, n))
-    return np.take_along_axis(dealt, order, axis=1).astype(p.real), n
+    if order is not None:
+        return np.take_along_axis(np.broadcast_to(weights, (sets, n)), order, axis=1).astype(p.real), n
+    return weights.astype(p.real), 0 if len(weights) == 1 else n
+
+
+def run_length(grid: RealGrid) -> int:
+    """Count the points of a run, of which ``RUN_CROWD`` reach a node if points are scattered."""
+    return max(1 << 14, int(RUN_CROWD * (grid.nodes / grid.width) ** grid.d))
+
+
+def sets_together(p: Precision, grid: RealGrid, sets: int) -> int:
+    """Count the sets of a batch: as many as their grids fit in the cache, and a multiple of the cores."""
+    cores = p.runtime.device.compute_units
+    fitting = max(1, min(sets, BATCH_BYTES // (grid.size * grid.itemsize)))
+    return fitting if fitting < cores else fitting // cores * cores
