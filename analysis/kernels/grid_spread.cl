@@ -5,10 +5,11 @@
  * Strengths are real, so the grid is.
  *
  * One work-item takes the nodes first_row .. end_row of the first axis (all, if there is only one axis) of one set.
- * It takes the points of its own band and of the band before, whose windows reach into its own, in runs of `run`
- * points: a run is summed in `part`, which is then added to `grid`, so that the rounding of a node's sum grows with
- * the points of a run and the number of runs. The last axes have WIDTH cells beyond the end, which are folded back.
- * Points are [set][axis][stride]; band b of a set holds those from starts[b] on.
+ * It takes the points of its own band and of the band before, whose windows reach into its own. Where there are
+ * several runs, each takes every runs-th point and is summed in `part`, which is then added to `grid`, so that the
+ * rounding of a node's sum grows with the points of a run and the number of runs. A run's mean is left out then:
+ * it is part of no frequency but 0, and would be most of what is rounded. The last axes have WIDTH cells beyond the
+ * end, which are folded back. Points are [set][axis][stride]; band b of a set holds those from starts[b] on.
  */
 #define REAL4 JOIN(REAL, 4)
 #define LOAD4(p) ((REAL4)((p)[0], (p)[1], (p)[2], (p)[3]))
@@ -83,114 +84,109 @@ static void clear(__global REAL *at, const ulong count)
     for (ulong i = 0; i < count; i += 4) STORE4((REAL4)0, at + i);
 }
 
-/* `part` is added to `sum`, and cleared */
-static void give(__global REAL *restrict part, __global REAL *restrict sum, const ulong count)
+/* The cells beyond the ends of the last axes are added to those at their beginnings. */
+static void fold(__global REAL *at, const uint rows, const ulong plane, const uint nodes, const uint row_length)
+{
+    const ulong lines = rows * plane / row_length;
+    for (ulong line = 0; line < lines; line++)
+        for (uint j = 0; j < WIDTH; j++) at[line * row_length + j] += at[line * row_length + nodes + j];
+#if AXES == 3
+    for (uint row = 0; row < rows; row++)
+        for (uint i = 0; i < WIDTH; i++)
+            for (uint j = 0; j < nodes; j += 4) {
+                __global REAL *to = at + row * plane + (ulong)i * row_length + j;
+                ADD4(LOAD4(to + (ulong)nodes * row_length), to);
+            }
+#endif
+}
+
+/* `part` less `mean` is added to `sum`, and cleared */
+static void give(__global REAL *restrict part, __global REAL *restrict sum, const ulong count, const REAL mean)
 {
     for (ulong i = 0; i < count; i += 4) {
-        ADD4(LOAD4(part + i), sum + i);
+        ADD4(LOAD4(part + i) - mean, sum + i);
         STORE4((REAL4)0, part + i);
     }
 }
 
 __kernel void grid_spread(__global const TURN *turns, const uint stride, __global const REAL *weight,
                           const uint weight_stride, __global const uint *starts, const uint bands,
-                          const uint run, const uint nodes, const uint rows_a_band, const uint row_length,
-                          __constant REAL *terms, __global REAL *grids, __global REAL *parts,
-                          const ulong grid_size)
+                          const uint runs, __global const REAL *means, const uint nodes, const uint rows_a_band,
+                          const uint row_length, __constant REAL *terms, __global REAL *grids,
+                          __global REAL *parts, const ulong grid_size)
 {
     const uint band = get_global_id(0), set = get_global_id(1);
 #if AXES == 1
-    const ulong plane = row_length;
     const uint first_row = 0, end_row = 1;
-#elif AXES == 2
-    const ulong plane = row_length;
-    const uint first_row = band * rows_a_band;
-    const uint end_row = first_row + rows_a_band < nodes ? first_row + rows_a_band : nodes;
 #else
-    const ulong plane = (ulong)(nodes + WIDTH) * row_length;
     const uint first_row = band * rows_a_band;
     const uint end_row = first_row + rows_a_band < nodes ? first_row + rows_a_band : nodes;
 #endif
+    const ulong plane = AXES == 3 ? (ulong)(nodes + WIDTH) * row_length : row_length;
     const ulong begin = set * grid_size + first_row * plane, count = (end_row - first_row) * plane;
     __global const uint *start = starts + set * (bands + 1);
-    const uint n = start[bands];
     __global REAL *grid = grids + begin;
+    __global REAL *into = runs > 1 ? parts + begin : grid;
     clear(grid, count);
-    const uint in_runs = run < n;
-    __global REAL *into = in_runs ? parts + begin : grid;
-    if (in_runs) clear(into, count);
-    uint taken = 0;
-    /* Where there is one axis, windows are folded back from the row's end and a band has no neighbour. */
-    for (uint before = 0; before < (AXES > 1 ? 2 : 1); before++) {
-        const uint from_band = (band + (before ? bands - 1 : 0)) % bands;
-        const int shift = before && band == 0 ? (int)nodes : 0;
-        for (uint k = start[from_band]; k < start[from_band + 1]; k++) {
-            __global const TURN *turn = turns + (ulong)set * AXES * stride + k;
-            REAL place;
-            const uint cell = cell_of(turn[0], nodes, &place);
+    if (runs > 1) clear(into, count);
+    for (uint run = 0; run < runs; run++) {
+        /* Where there is one axis, windows are folded back from the row's end and a band has no neighbour. */
+        for (uint before = 0; before < (AXES > 1 ? 2 : 1); before++) {
+            const uint from_band = (band + (before ? bands - 1 : 0)) % bands;
+            const int shift = before && band == 0 ? (int)nodes : 0;
+            for (uint k = start[from_band] + run; k < start[from_band + 1]; k += runs) {
+                __global const TURN *turn = turns + (ulong)set * AXES * stride + k;
+                REAL place;
+                const uint cell = cell_of(turn[0], nodes, &place);
 #if AXES > 1
-            if (before && (int)cell - shift + WIDTH <= (int)first_row) continue;
+                if (before && (int)cell - shift + WIDTH <= (int)first_row) continue;
 #endif
-            const REAL w = weight[(ulong)set * weight_stride + k];
+                const REAL w = weight[(ulong)set * weight_stride + k];
 #if AXES == 1
-            WINDOW(x, place)
-            __global REAL *at = into + cell;
-            ADD_ROW(w, x, at);
+                WINDOW(x, place)
+                __global REAL *at = into + cell;
+                ADD_ROW(w, x, at);
 #else
-            REAL leading[WIDTH];
-            {
-                WINDOW(v, place)
-                TO_ARRAY(v, leading);
-            }
-#if AXES == 2
-            const uint column = cell_of(turn[stride], nodes, &place);
-            WINDOW(v, place)
-            SCALED(x, w, v);
-            ROWS_WITHIN(u) {
-                __global REAL *at = into + (row + u - first_row) * plane + column;
-                const REAL by = leading[u];
-                ADD_ROW(by, x, at);
-            }
-#else
-            REAL middle[WIDTH];
-            const uint line = cell_of(turn[stride], nodes, &place);
-            {
-                WINDOW(v, place)
-                TO_ARRAY(v, middle);
-            }
-            const uint column = cell_of(turn[2 * stride], nodes, &place);
-            WINDOW(v, place)
-            SCALED(x, w, v);
-            ROWS_WITHIN(u) {
-                __global REAL *at = into + (row + u - first_row) * plane + (ulong)line * row_length + column;
-                SCALED(y, leading[u], x);
-                for (uint v = 0; v < WIDTH; v++, at += row_length) {
-                    const REAL by = middle[v];
-                    ADD_ROW(by, y, at);
+                REAL leading[WIDTH];
+                {
+                    WINDOW(v, place)
+                    TO_ARRAY(v, leading);
                 }
-            }
+#if AXES == 2
+                const uint column = cell_of(turn[stride], nodes, &place);
+                WINDOW(v, place)
+                SCALED(x, w, v);
+                ROWS_WITHIN(u) {
+                    __global REAL *at = into + (row + u - first_row) * plane + column;
+                    const REAL by = leading[u];
+                    ADD_ROW(by, x, at);
+                }
+#else
+                REAL middle[WIDTH];
+                const uint line = cell_of(turn[stride], nodes, &place);
+                {
+                    WINDOW(v, place)
+                    TO_ARRAY(v, middle);
+                }
+                const uint column = cell_of(turn[2 * stride], nodes, &place);
+                WINDOW(v, place)
+                SCALED(x, w, v);
+                ROWS_WITHIN(u) {
+                    __global REAL *at = into + (row + u - first_row) * plane + (ulong)line * row_length + column;
+                    SCALED(y, leading[u], x);
+                    for (uint v = 0; v < WIDTH; v++, at += row_length) {
+                        const REAL by = middle[v];
+                        ADD_ROW(by, y, at);
+                    }
+                }
 #endif
 #endif
-            if (in_runs && ++taken == run) {
-                give(into, grid, count);
-                taken = 0;
             }
         }
+        if (runs > 1) {
+            fold(into, end_row - first_row, plane, nodes, row_length);
+            give(into, grid, count, means[set]);
+        }
     }
-    if (in_runs && taken > 0) give(into, grid, count);
-    const ulong lines = count / row_length;
-    for (ulong line = 0; line < lines; line++) {
-        __global REAL *at = grid + line * row_length;
-        for (uint j = 0; j < WIDTH; j++) at[j] += at[nodes + j];
-    }
-#if AXES == 3
-    for (uint row = first_row; row < end_row; row++) {
-        __global REAL *at = grid + (row - first_row) * plane;
-        for (uint i = 0; i < WIDTH; i++)
-            for (uint j = 0; j < nodes; j += 4) {
-                __global REAL *to = at + (ulong)i * row_length + j;
-                ADD4(LOAD4(to + (ulong)nodes * row_length), to);
-            }
-    }
-#endif
+    if (runs == 1) fold(grid, end_row - first_row, plane, nodes, row_length);
 }

@@ -107,6 +107,8 @@ def periodogram(
     request = SpectrumRequest("half cube" if half else "cube", n, d, f, sets, (2 * f + 1) ** d)
     with use_device(device):
         evaluator = choose(request, precision, floor, method)
+        if method is None:
+            evaluator = evaluator.for_points(points, f, floor)
         power, errors = evaluator.cube(points, f, w, half=half, mean=True)
         errors = errors.averaged(sets, n)
         return _spectrum(power, request, evaluator, errors, half=half, weighted=w is not None)
@@ -131,7 +133,7 @@ def each_power(x: FloatArray, fmax: int, precision: PrecisionName = "double") ->
     """
     sets, n, d = x.shape
     request = SpectrumRequest("cube", n, d, fmax, sets, (2 * fmax + 1) ** d)
-    evaluator = choose(request, precision, None)
+    evaluator = choose(request, precision, None).for_points(x, fmax, None)
     powers, errors = evaluator.cube(x, fmax, None, half=False, mean=False)
     return powers, _spectrum(powers.mean(axis=0), request, evaluator, errors.averaged(sets, n))
 

@@ -30,7 +30,7 @@ class Program:
     """A built program, which holds one kernel object for each entry point."""
 
     def __init__(self, owner: Runtime, built: Any) -> None:
-        self._runtime = owner
+        self.owner = owner
         self._kernels = {kernel.function_name: kernel for kernel in built.all_kernels()}
 
     def run(self, name: str, global_size: Sequence[int], local_size: Sequence[int], *args: Any) -> None:
@@ -46,7 +46,7 @@ class Program:
             Buffers and numpy scalars of the kernel's own types.
         """
         with LAUNCH:
-            self._kernels[name](self._runtime.queue, tuple(global_size), tuple(local_size), *args)
+            self._kernels[name](self.owner.queue, tuple(global_size), tuple(local_size), *args)
 
 
 class Runtime:

@@ -49,6 +49,11 @@ class RealGrid:
         return WIDTH[self.precision]
 
     @property
+    def bins(self) -> int:
+        """Bins of an axis, each as wide as a window, by which points are sorted and counted."""
+        return -(-self.nodes // self.width)
+
+    @property
     def size(self) -> int:
         """Numbers of a grid."""
         rows = self.nodes * (self.nodes + self.width) if self.d == 3 else self.nodes
@@ -118,7 +123,7 @@ def transform_of_window(grid: RealGrid) -> FloatArray:
 
 @lru_cache(maxsize=4)
 def window_terms(precision: str) -> FloatArray:
-    """Give the window's polynomials in the lower half of its cells, as even and odd ones in the place less 1/2.
+    """Give the window's polynomials in the lower half of its cells, as even and odd ones in place less 1/2.
 
     Parameters
     ----------
@@ -128,7 +133,7 @@ def window_terms(precision: str) -> FloatArray:
     Returns
     -------
     (terms, width) float64
-        Highest power of the square first: the even parts of all lower cells, then the odd ones, divided by the
+        Highest power of the square first: the even parts of all lower cells, then the odd ones divided by the
         place. The upper cells are mirror images: even less odd.
     """
     shape = window(WIDTH[precision], DEGREE[precision], OVERSAMPLING[precision])

@@ -1,8 +1,8 @@
 """Power of a cube by the gridded FFT: spreading and power on the OpenCL device, the transform on the host.
 
-F(f) is the transform of the grid over the product of the window's transforms (kaiser_bessel.py). The strengths of
-points are real, so the grid is, and half of its transform is enough. In double the error of the window is less
-than rounding, and cells and places are exact, so that no digit is lost.
+F(f) is the transform of the grid over the product of the window's transforms (kaiser_bessel.py). The strengths
+of points are real, so the grid is, and half of its transform is enough. In double the error of the window is
+less than rounding, and cells and places are exact, so that no digit is lost.
 """
 
 from __future__ import annotations
@@ -13,15 +13,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.analysis.precision import Precision
+from gbnbench.analysis.spectrum.error_model import Errors, coordinates
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.bands import Bands, dealt_to_bands
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import RealGrid, real_grid
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.errors import fft_errors
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import RealGrid, real_grid, transform_of_window
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.transform import harmonics
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.workspace import Workspace, workspace
 from gbnbench.analysis.spectrum.evaluators.two_group_product import norms_of
 from gbnbench.core.torus import FloatArray
 
 BATCH_BYTES = 4 << 20  # of the grids of a batch
-RUN_CROWD = 64  # points of a run that reach a node, on average
 
 
 def fft_powers(
@@ -31,7 +32,7 @@ def fft_powers(
     weights: FloatArray | None = None,
     half: bool = False,
     mean: bool = True,
-) -> FloatArray:
+) -> tuple[FloatArray, Errors]:
     """Evaluate the power at all frequencies with |f_a| <= fmax.
 
     Parameters
@@ -51,22 +52,25 @@ def fft_powers(
 
     Returns
     -------
-    (2*fmax+1,)*d float64
+    power : (2*fmax+1,)*d float64
         The first axis is only fmax+1 long for a half. An axis of sets precedes it unless ``mean``.
+    errors : Errors
+        Errors of the square root of the power of any one set.
     """
     sets, n, d = x.shape
     grid, base, rt = real_grid(d, fmax, p.name), 2 * fmax + 1, p.runtime
-    run = run_length(grid)
     together = sets_together(p, grid, sets)
-    work = workspace(p, grid, together, run < n)
+    work = workspace(p, grid, together)
     power = np.empty((1 if mean else sets, fmax + 1 if half else base, *(base,) * (d - 1)), p.sum)
     norms = norms_of(weights, sets, n)
     out, over = rt.shared(power), rt.upload((1 / norms).astype(p.sum))
+    at, errors = coordinates(x, p.name, weights), Errors(0.0, 0.0)
     for first in range(0, sets, together):
         some = x[first : first + together]
         bands = dealt_to_bands(p, grid, some)
+        errors = errors.or_larger(fft_errors(p, grid, n, bands.crowd, bands.runs, at))
         weight = None if weights is None or len(weights) == 1 else weights[first : first + together]
-        spread(p, grid, work, bands, weights if weight is None else weight, run)
+        spread(p, grid, work, bands, weights if weight is None else weight)
         rt.finish()
         transformed = work.harmonics[: len(some)]
         harmonics(grid, work.nodes[: len(some)], transformed, rt.device.compute_units)
@@ -95,12 +99,10 @@ def fft_powers(
     if mean and sets > 1:
         power /= sets
     found = np.asarray(power, np.float64)
-    return found[0] if mean else found
+    return (found[0] if mean else found), errors
 
 
-def spread(
-    p: Precision, grid: RealGrid, work: Workspace, bands: Bands, weights: FloatArray | None, run: int
-) -> None:
+def spread(p: Precision, grid: RealGrid, work: Workspace, bands: Bands, weights: FloatArray | None) -> None:
     """Carry the points of a batch to their grids.
 
     Parameters
@@ -115,11 +117,11 @@ def spread(
         The points.
     weights : (sets or 1, n) float64 or None
         Weights of the points, in the order before they were dealt to bands.
-    run : int
-        Points that are summed before they are added to the others.
     """
     sets, _, n = bands.turns.shape
     rt = p.runtime
+    mean = transform_of_window(grid)[0] ** grid.d / grid.nodes**grid.d / bands.runs
+    means = np.broadcast_to(mean * (n if weights is None else weights.sum(axis=1)), (sets,))
     weight, stride = _in_order(p, weights, bands.order, sets, n)
     work.spread.run(
         "grid_spread",
@@ -131,13 +133,14 @@ def spread(
         np.uint32(stride),
         rt.upload(bands.starts),
         np.uint32(bands.count),
-        np.uint32(run),
+        np.uint32(bands.runs),
+        rt.upload(means.astype(p.real)),
         np.uint32(grid.nodes),
         np.uint32(bands.rows),
         np.uint32(grid.row_length),
         work.terms,
         work.grids,
-        work.parts,
+        work.parts(bands.runs),
         np.uint64(grid.size),
     )
 
@@ -151,11 +154,6 @@ def _in_order(
     if order is not None:
         return np.take_along_axis(np.broadcast_to(weights, (sets, n)), order, axis=1).astype(p.real), n
     return weights.astype(p.real), 0 if len(weights) == 1 else n
-
-
-def run_length(grid: RealGrid) -> int:
-    """Count the points of a run, of which ``RUN_CROWD`` reach a node if points are scattered."""
-    return max(1 << 14, int(RUN_CROWD * (grid.nodes / grid.width) ** grid.d))
 
 
 def sets_together(p: Precision, grid: RealGrid, sets: int) -> int:

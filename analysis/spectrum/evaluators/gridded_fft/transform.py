@@ -1,7 +1,7 @@
 """Transform of a real grid, of which only the harmonics that are wanted are kept, by SciPy's or ducc0's FFT.
 
-ducc0 (Reinecke) takes half to a third of the time of SciPy's pocketfft, its ancestor. It is under the GPL, so it is
-an extra (``pip install gbnbench[fast]``) that is used where it is installed.
+ducc0 (Reinecke) is faster than SciPy's pocketfft, its ancestor. It is under the GPL, so it is an extra
+(``pip install gbnbench[fast]``) that is used where it is installed.
 """
 
 from __future__ import annotations

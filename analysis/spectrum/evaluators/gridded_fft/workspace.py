@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -27,8 +27,8 @@ class Workspace:
         The grids.
     harmonics : (sets, ...) complex128 or complex64
         Their transforms, as ``transform.harmonics`` writes them.
-    grids, parts : buffer
-        The memory of the grids on the device, and that of a run of points where there are several.
+    grids : buffer
+        The memory of the grids on the device.
     transforms : buffer
         The memory of the transforms on the device.
     terms, gains : buffer
@@ -40,18 +40,26 @@ class Workspace:
     nodes: NDArray[Any]
     harmonics: NDArray[Any]
     grids: Any
-    parts: Any
     transforms: Any
     terms: Any
     gains: Any
     spread: Program
     power: Program
+    _parts: list[Any] = field(default_factory=list)
+
+    def parts(self, runs: int) -> Any:
+        """Give the memory where a run is summed: as large as the grids', where there are several runs."""
+        if runs == 1:
+            return self.grids
+        if not self._parts:
+            self._parts.append(self.spread.owner.empty(self.nodes.nbytes))
+        return self._parts[0]
 
 
 _kept = threading.local()
 
 
-def workspace(p: Precision, grid: RealGrid, sets: int, runs: bool) -> Workspace:
+def workspace(p: Precision, grid: RealGrid, sets: int) -> Workspace:
     """Give the workspace of this thread's last such request, or make one.
 
     Parameters
@@ -62,14 +70,12 @@ def workspace(p: Precision, grid: RealGrid, sets: int, runs: bool) -> Workspace:
         Layout of a grid.
     sets : int
         Sets of a batch.
-    runs : bool
-        Whether points are summed in several runs.
 
     Returns
     -------
     Workspace
     """
-    key = (p, grid, sets, runs)
+    key = (p, grid, sets)
     last: tuple[Any, Workspace] | None = getattr(_kept, "last", None)
     if last is not None and last[0] == key:
         return last[1]
@@ -82,7 +88,6 @@ def workspace(p: Precision, grid: RealGrid, sets: int, runs: bool) -> Workspace:
         nodes=nodes,
         harmonics=transforms,
         grids=rt.shared(nodes),
-        parts=rt.empty(nodes.nbytes if runs else 1),
         transforms=rt.shared(transforms),
         terms=rt.upload(terms.astype(p.real)),
         gains=rt.upload((transform_of_window(grid) ** -2.0).astype(p.sum)),
