@@ -21,7 +21,7 @@ from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.monitor import Monitor, Trace
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.reports import style
-from gbnbench.reports.paper import axes, shared
+from gbnbench.reports.paper import panels, radial_axes
 from gbnbench.reports.paper.data import DataRequest, TableRequest
 from gbnbench.reports.paper.figure import PAGE, Drawing, FigureOptions, PaperFigure
 
@@ -117,7 +117,7 @@ def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
     """
     counts = _counts(options)
     found = {method: _mean(data["evolution"], method) for method in METHODS}
-    colours = axes.family(len(counts["descent"]))[::-1]
+    colours = radial_axes.family(len(counts["descent"]))[::-1]
 
     def paint(panel: SubFigure) -> None:
         grid = panel.subplots(2, 3, width_ratios=(1, 1, 0.9))
@@ -125,12 +125,12 @@ def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
             raw, filtered, _ = grid[row]
             _raw(raw, found[method], counts[method], UNITS[method], colours)
             _filtered(filtered, found[method], colours)
-            shared.heading(raw, letters[0], METHODS[method])
-            shared.heading(filtered, letters[1], "the same, filtered")
+            panels.heading(raw, letters[0], METHODS[method])
+            panels.heading(filtered, letters[1], "the same, filtered")
         _progress(grid[0, 2], found, counts, colours, "excess")
         _progress(grid[1, 2], found, counts, colours, "floor")
-        shared.heading(grid[0, 2], "e", "excess energy a point")
-        shared.heading(grid[1, 2], "f", "noise floor")
+        panels.heading(grid[0, 2], "e", "excess energy a point")
+        panels.heading(grid[1, 2], "f", "noise floor")
 
     return Drawing(PAGE, 4.0, paint, _caption(found, counts, options))
 
@@ -158,7 +158,7 @@ def _raw(
 ) -> None:
     for count, power, colour in zip(counts, found["power"], colours, strict=True):
         ax.plot(found["nu"], power, color=colour, linewidth=0.7, label=f"{count:,}")
-    axes.loglog(ax, float(found["power"].min()) / 4, _span(found))
+    radial_axes.loglog(ax, float(found["power"].min()) / 4, _span(found))
     ax.set_ylabel("radial power")
     ax.legend(title=unit, fontsize=5.8, title_fontsize=6.5, loc="lower right", handlelength=1.2,
               labelspacing=0.12, borderaxespad=0.1)  # fmt: skip
@@ -174,7 +174,7 @@ def _filtered(ax: Axes, found: Mapping[str, FloatArray], colours: Sequence[str])
         r"$\sigma/\sqrt{2}$", (found["nu"][ridge], narrow[ridge]), xytext=(3, 2), textcoords="offset points",
         size=6.5, color=style.COLOURS[1],
     )  # fmt: skip
-    axes.loglog(ax, float(found["power"].min()) / 4, _span(found))
+    radial_axes.loglog(ax, float(found["power"].min()) / 4, _span(found))
 
 
 def _progress(
