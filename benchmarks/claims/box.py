@@ -8,15 +8,15 @@ from collections.abc import Iterator
 import numpy as np
 from scipy.integrate import dblquad
 
-from gbnbench.benchmarks.claims.claim import BESIDE, Row, holds, reported
-from gbnbench.benchmarks.claims.sets import FAST, Sets
+from gbnbench.benchmarks.claims.claim import BESIDE, ClaimRow, holds, reported
+from gbnbench.benchmarks.claims.sets import FAST, SetCache
 from gbnbench.benchmarks.timing.interleaved import interleave
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn.box import BoxEnergy, domain_pull
 from gbnbench.generators.gbn.energy import energy_evaluation
 
 
-def balance(_: Sets) -> Iterator[Row]:
+def balance(_: SetCache) -> Iterator[ClaimRow]:
     """Pull of the domain against the push of a continuum of points, near a face."""
     side, sigma, fine = 12.0, 1.0, 1200
     axis = (np.arange(fine) + 0.5) * side / fine
@@ -104,7 +104,7 @@ def outermost(u: FloatArray, side: float) -> FloatArray:
     return np.concatenate(found)
 
 
-def border(sets: Sets) -> Iterator[Row]:
+def border(sets: SetCache) -> Iterator[ClaimRow]:
     """Distance of a box's outermost points from its faces."""
     offsets = []
     for sigma in (0.7, 1.0, 1.5):
@@ -133,7 +133,7 @@ def border(sets: Sets) -> Iterator[Row]:
     )  # fmt: skip
 
 
-def box_cost(sets: Sets) -> Iterator[Row]:
+def box_cost(sets: SetCache) -> Iterator[ClaimRow]:
     """CPU time of a gradient in the box over one on the torus."""
     x = sets.draw(FAST, n=4096, sets=1).x
     box, torus = BoxEnergy(4096, 2, 1.0, "double"), energy_evaluation(4096, 2, 1.0, "double")

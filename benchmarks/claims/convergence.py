@@ -8,9 +8,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from gbnbench.benchmarks.claims.claim import BESIDE, Row, holds, reported
+from gbnbench.benchmarks.claims.claim import BESIDE, ClaimRow, holds, reported
 from gbnbench.benchmarks.claims.profile import STEEPNESS
-from gbnbench.benchmarks.claims.sets import Drawn, Sets
+from gbnbench.benchmarks.claims.sets import DrawnSets, SetCache
 
 STOPS = (3, 10, 15, 30, 100, 300, 500, 1000, 3000, 10_000)
 LARGER = (100, 300, 500, 1000)  # of them, those that 4,096 points take, too
@@ -19,13 +19,13 @@ SHAPED = (0.1, 2.0)  # departure of c from 4 pi^2 and residual in dB within whic
 RING = 0.025  # width in nu of the bands in which the fastest fall is looked for
 
 
-def shape(sets: Sets) -> Iterator[Row]:
+def shape(sets: SetCache) -> Iterator[ClaimRow]:
     """Profile after so many steps of the paper's descent, and whether the lowest frequency has come to it."""
     for n, stops in ((1024, STOPS), (4096, LARGER)):
         trace = sets.evolution(stops, n=n, sets=4 if n == 1024 else 2)
         ladder = dict(zip(stops, trace.keep_at, strict=True))
         for stop in LARGER:
-            drawn = Drawn(trace.points(ladder[stop]))
+            drawn = DrawnSets(trace.points(ladder[stop]))
             told = drawn.measures
             c = told["profile_c"]
             lowest = drawn.radial.power[0] / (
@@ -59,13 +59,13 @@ def shape(sets: Sets) -> Iterator[Row]:
             )
 
 
-def longer(sets: Sets) -> Iterator[Row]:
+def longer(sets: SetCache) -> Iterator[ClaimRow]:
     """Noise floor along the ladder, and order at its ends."""
     trace = sets.evolution(STOPS)
     floors = []
     for stop, at in zip(STOPS, trace.keep_at, strict=True):
         x = trace.points(at)
-        drawn = Drawn(x)
+        drawn = DrawnSets(x)
         told = drawn.measures
         floors.append(told["noise_floor"])
         if stop in (10, 15, 500, 1000, 10_000):
@@ -99,7 +99,7 @@ def longer(sets: Sets) -> Iterator[Row]:
     )
 
 
-def rate(sets: Sets) -> Iterator[Row]:
+def rate(sets: SetCache) -> Iterator[ClaimRow]:
     """Local exponents of the excess energy in the count of steps, and its share left by each step."""
     frame = sets.evolution(STOPS).to_frame()
     excess = frame.groupby("gradient").excess.mean()
@@ -135,10 +135,10 @@ def rate(sets: Sets) -> Iterator[Row]:
         )
 
 
-def dug(sets: Sets) -> Iterator[Row]:
+def dug(sets: SetCache) -> Iterator[ClaimRow]:
     """Find the band of nu that has lost most power after three steps."""
     trace = sets.evolution((3,), n=4096, sets=8)
-    drawn = Drawn(trace.points(trace.keep_at[0]))
+    drawn = DrawnSets(trace.points(trace.keep_at[0]))
     radial = drawn.radial
     band = np.floor(radial.nu / RING).astype(np.int64)
     mean = np.bincount(band, radial.count * radial.power) / np.maximum(np.bincount(band, radial.count), 1)

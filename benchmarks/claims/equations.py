@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from gbnbench.benchmarks.claims.claim import Row, holds, reported
-from gbnbench.benchmarks.claims.sets import SEED, Sets
+from gbnbench.benchmarks.claims.claim import ClaimRow, holds, reported
+from gbnbench.benchmarks.claims.sets import SEED, SetCache
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.kernel_profile import theta
@@ -77,7 +77,7 @@ def printed_variance(u: FloatArray, a: FloatArray, sigma: float) -> float:
     return total / len(u) - (2 * math.pi * sigma**2) ** 2
 
 
-def variance(_: Sets) -> Iterator[Row]:
+def variance(_: SetCache) -> Iterator[ClaimRow]:
     """Eq. (1), and its gradient by Eq. (18)."""
     rng = np.random.default_rng(SEED)
     u, ones, sigma = rng.random((N, 2)) * SIDE, np.ones(N), 0.8
@@ -113,7 +113,7 @@ def variance(_: Sets) -> Iterator[Row]:
     )
 
 
-def adaptive(_: Sets) -> Iterator[Row]:
+def adaptive(_: SetCache) -> Iterator[ClaimRow]:
     """Eq. (47) with shaping factors, and its reduction to Eq. (1)."""
     rng = np.random.default_rng(SEED)
     u, a, sigma = rng.random((N, 2)) * SIDE, rng.uniform(0.5, 2.0, N), 0.8

@@ -9,7 +9,7 @@ import numpy as np
 
 from gbnbench.analysis.integration.estimator import estimate_errors
 from gbnbench.analysis.integration.variance import slope_of
-from gbnbench.benchmarks.claims.claim import Row, holds, reported
+from gbnbench.benchmarks.claims.claim import ClaimRow, holds, reported
 from gbnbench.benchmarks.claims.integration_errors import (
     AGREES,
     OTHERS,
@@ -21,12 +21,12 @@ from gbnbench.benchmarks.claims.integration_errors import (
     slope,
     variance,
 )
-from gbnbench.benchmarks.claims.sets import FAST, Sets
+from gbnbench.benchmarks.claims.sets import FAST, SetCache
 
 AGAIN = 24  # further draws of sets and integrands, to tell how far a slope moves from draw to draw
 
 
-def half_spaces(sets: Sets) -> Iterator[Row]:
+def half_spaces(sets: SetCache) -> Iterator[ClaimRow]:
     """Fit the rates of the half space, and compare Owen-scrambled Sobol points with the others."""
     means = {}
     for d, sizes in SIZES.items():
@@ -61,12 +61,12 @@ def half_spaces(sets: Sets) -> Iterator[Row]:
         )  # fmt: skip
 
 
-def redrawn(sets: Sets, generator: str, d: int, further: int = AGAIN) -> list[float]:
+def redrawn(sets: SetCache, generator: str, d: int, further: int = AGAIN) -> list[float]:
     """Repeat the exponent of the half spaces' variance on further draws, 64 sets and 60 half spaces each.
 
     Parameters
     ----------
-    sets : Sets
+    sets : SetCache
         The sets that are drawn once and shared.
     generator : str
         The generator, with its settings.
@@ -91,7 +91,7 @@ def redrawn(sets: Sets, generator: str, d: int, further: int = AGAIN) -> list[fl
     ]
 
 
-def owen(sets: Sets) -> Iterator[Row]:
+def owen(sets: SetCache) -> Iterator[ClaimRow]:
     """Compare half spaces by Owen-scrambled Sobol points and by GBN."""
     for d, sizes in SIZES.items():
         a, b = (variance(sets, STEP, name, sizes[-1], d) for name in ("sobol", FAST))

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from gbnbench.benchmarks.claims.claim import BESIDE, Row, holds, reported
-from gbnbench.benchmarks.claims.sets import FAST, Sets
+from gbnbench.benchmarks.claims.claim import BESIDE, ClaimRow, holds, reported
+from gbnbench.benchmarks.claims.sets import FAST, SetCache
 
 
-def dimensions(sets: Sets) -> Iterator[Row]:
+def dimensions(sets: SetCache) -> Iterator[ClaimRow]:
     """Level eps of the lowest shell after 500 steps of descent, by the dimension and the step."""
     for step, title in (("auto", "the step that curvature allows"), ("authors", "the authors' step")):
         found: list[float] = []
@@ -25,7 +25,7 @@ def dimensions(sets: Sets) -> Iterator[Row]:
             )
 
 
-def high(sets: Sets) -> Iterator[Row]:
+def high(sets: SetCache) -> Iterator[ClaimRow]:
     """Floors of the same number of points in 2 to 8 dimensions, and that 20 dimensions move at all."""
     plane = sets.draw(FAST, sets=8)
     for d in (2, 3, 4, 6, 8):

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from gbnbench.analysis.integration.estimator import estimate_errors
 from gbnbench.analysis.integration.spectral_variance import fourier_series, predicted_variance
 from gbnbench.analysis.integration.variance import crossed_mean, slope_of, variance_of
-from gbnbench.benchmarks.claims.claim import BESIDE, NO, PARTLY, Row, holds, reported
+from gbnbench.benchmarks.claims.claim import BESIDE, NO, PARTLY, ClaimRow, holds, reported
 from gbnbench.benchmarks.claims.integration_errors import (
     AGREES,
     OTHERS,
@@ -22,13 +22,13 @@ from gbnbench.benchmarks.claims.integration_errors import (
     slope,
     variance,
 )
-from gbnbench.benchmarks.claims.sets import FAST, Sets
+from gbnbench.benchmarks.claims.sets import FAST, SetCache
 
 LADDER = (16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 16_384)
 CONSTANT = 0.25  # change of a rate from one span to the next that still counts as one rate
 
 
-def random(sets: Sets) -> Iterator[Row]:
+def random(sets: SetCache) -> Iterator[ClaimRow]:
     """Fit the rate of random points."""
     for family in (SMOOTH, STEP):
         for d, sizes in SIZES.items():
@@ -44,7 +44,7 @@ def random(sets: Sets) -> Iterator[Row]:
             )
 
 
-def best(sets: Sets) -> Iterator[Row]:
+def best(sets: SetCache) -> Iterator[ClaimRow]:
     """Compare variances of the smooth integrand: orders from GBN up to each other generator."""
     for d, sizes in SIZES.items():
         n = sizes[-1]
@@ -64,7 +64,7 @@ def best(sets: Sets) -> Iterator[Row]:
             )
 
 
-def sigmoid(sets: Sets) -> Iterator[Row]:
+def sigmoid(sets: SetCache) -> Iterator[ClaimRow]:
     """Follow GBN's variance of the smooth integrand through under- and oversampling, 2D."""
     ladder = LADDER[: sets.few(len(LADDER), 4)]
     found = {n: errors(sets, SMOOTH, FAST, n, 2) for n in ladder}
@@ -113,7 +113,7 @@ def sigmoid(sets: Sets) -> Iterator[Row]:
         )  # fmt: skip
 
 
-def predicted(sets: Sets) -> Iterator[Row]:
+def predicted(sets: SetCache) -> Iterator[ClaimRow]:
     """Lay the measured variance beside the inner product of the two spectra."""
     for n in (64, 256, 512, 1024):
         drawn = draw(sets, FAST, n, 2)
@@ -135,7 +135,7 @@ def predicted(sets: Sets) -> Iterator[Row]:
         )
 
 
-def exponents(sets: Sets) -> Iterator[Row]:
+def exponents(sets: SetCache) -> Iterator[ClaimRow]:
     """Compare beta of the points' spectrum with alpha of the integrand's, both over f^2."""
     alpha = (
         2 * math.pi * SMOOTH.width(2)

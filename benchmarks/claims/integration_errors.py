@@ -11,7 +11,7 @@ from gbnbench.analysis.integration.integrands.gaussians import Gaussians
 from gbnbench.analysis.integration.integrands.half_space import HalfSpaces
 from gbnbench.analysis.integration.integrands.protocol import Integrand
 from gbnbench.analysis.integration.variance import Slope, Variance, slope_of, variance_of
-from gbnbench.benchmarks.claims.sets import FAST, SEED, Drawn, Sets
+from gbnbench.benchmarks.claims.sets import FAST, SEED, DrawnSets, SetCache
 from gbnbench.core.torus import FloatArray
 
 SMOOTH, STEP = Gaussians(), HalfSpaces()
@@ -43,12 +43,12 @@ def integrands(family: Gaussians | HalfSpaces, d: int, further: int = 0) -> tupl
     return tuple(family.draw(d, rng) for _ in range(INSTANCES))
 
 
-def draw(sets: Sets, generator: str, n: int, d: int) -> Drawn:
+def draw(sets: SetCache, generator: str, n: int, d: int) -> DrawnSets:
     """Draw sets for integration, few of those that cost much.
 
     Parameters
     ----------
-    sets : Sets
+    sets : SetCache
         The sets that are drawn once and shared.
     generator : str
         The generator, with its settings.
@@ -57,18 +57,18 @@ def draw(sets: Sets, generator: str, n: int, d: int) -> Drawn:
 
     Returns
     -------
-    Drawn
+    DrawnSets
     """
     many = 64 if generator != FAST else 8 if n <= 2048 else 4 if n <= 4096 else 2
     return sets.draw(generator, n=n, d=d, sets=many)
 
 
-def errors(sets: Sets, family: Gaussians | HalfSpaces, generator: str, n: int, d: int) -> FloatArray:
+def errors(sets: SetCache, family: Gaussians | HalfSpaces, generator: str, n: int, d: int) -> FloatArray:
     """Estimate every integral with every set.
 
     Parameters
     ----------
-    sets : Sets
+    sets : SetCache
         The sets that are drawn once and shared.
     family : Gaussians or HalfSpaces
         The family of integrands.
@@ -85,12 +85,12 @@ def errors(sets: Sets, family: Gaussians | HalfSpaces, generator: str, n: int, d
     return estimate_errors(integrands(family, d), draw(sets, generator, n, d).x)
 
 
-def variance(sets: Sets, family: Gaussians | HalfSpaces, generator: str, n: int, d: int) -> Variance:
+def variance(sets: SetCache, family: Gaussians | HalfSpaces, generator: str, n: int, d: int) -> Variance:
     """Compute the variance of the estimates.
 
     Parameters
     ----------
-    sets : Sets
+    sets : SetCache
         The sets that are drawn once and shared.
     family : Gaussians or HalfSpaces
         The family of integrands.
@@ -107,13 +107,13 @@ def variance(sets: Sets, family: Gaussians | HalfSpaces, generator: str, n: int,
 
 
 def slope(
-    sets: Sets, family: Gaussians | HalfSpaces, generator: str, d: int, sizes: tuple[int, ...]
+    sets: SetCache, family: Gaussians | HalfSpaces, generator: str, d: int, sizes: tuple[int, ...]
 ) -> Slope:
     """Fit the exponent of the variance in n.
 
     Parameters
     ----------
-    sets : Sets
+    sets : SetCache
         The sets that are drawn once and shared.
     family : Gaussians or HalfSpaces
         The family of integrands.

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from gbnbench.benchmarks.claims.claim import BESIDE, PARTLY, Row, holds, reported
-from gbnbench.benchmarks.claims.sets import FAST, SEED, Sets
+from gbnbench.benchmarks.claims.claim import BESIDE, PARTLY, ClaimRow, holds, reported
+from gbnbench.benchmarks.claims.sets import FAST, SEED, SetCache
 from gbnbench.generators.gbn import kernel
 from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.kernel_profile import truncated_transform
@@ -16,7 +16,7 @@ from gbnbench.generators.gbn.kernel_profile import truncated_transform
 SIGMAS = (0.5, 0.7, 0.85, 1.0, 1.2, 1.5)
 
 
-def widths(sets: Sets) -> Iterator[Row]:
+def widths(sets: SetCache) -> Iterator[ClaimRow]:
     """Measure the trade-off of Fig. 3(a)."""
     drawn = {sigma: sets.draw(f"gbn[sigma={sigma:g}]" if sigma != 1 else FAST) for sigma in SIGMAS}
     for sigma, some in drawn.items():
@@ -79,7 +79,7 @@ def widths(sets: Sets) -> Iterator[Row]:
     )
 
 
-def alike(sets: Sets) -> Iterator[Row]:
+def alike(sets: SetCache) -> Iterator[ClaimRow]:
     """Compare the two settings of Fig. 2."""
     narrow = sets.draw("gbn[sigma=0.5,iterations=30]")
     wide = sets.draw("gbn[sigma=1.1,gradients=3000]")
@@ -110,7 +110,7 @@ def alike(sets: Sets) -> Iterator[Row]:
     )
 
 
-def leak(_: Sets) -> Iterator[Row]:
+def leak(_: SetCache) -> Iterator[ClaimRow]:
     """High frequencies that truncation lets in: the transform at nu = 1 over that at 0, sigma = 1 spacing."""
     levels = []
     for cutoff in (1.0, 2.0, 6.0, math.inf):
@@ -126,7 +126,7 @@ def leak(_: Sets) -> Iterator[Row]:
         )
 
 
-def truncated(sets: Sets) -> Iterator[Row]:
+def truncated(sets: SetCache) -> Iterator[ClaimRow]:
     """Draw sets of truncated kernels after 10,000 steps, and Lloyd's beside that of 1 sigma."""
     whole = sets.draw(FAST, sets=8)
     some = {
@@ -185,7 +185,7 @@ def truncated(sets: Sets) -> Iterator[Row]:
         )
 
 
-def support(sets: Sets) -> Iterator[Row]:
+def support(sets: SetCache) -> Iterator[ClaimRow]:
     """Measure what pairs beyond 6 and 9 sigma add: to an energy of 1 and to the forces."""
     x = sets.draw(FAST, n=1024).x[:1]
     whole = energy_evaluation(1024, 2, 1.0, "double", method="images")(x).gradient

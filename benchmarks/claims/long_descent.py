@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from gbnbench.benchmarks.claims.claim import BESIDE, Row, holds, reported
-from gbnbench.benchmarks.claims.sets import MILLION, PAPER, Sets
+from gbnbench.benchmarks.claims.claim import BESIDE, ClaimRow, holds, reported
+from gbnbench.benchmarks.claims.sets import MILLION, PAPER, SetCache
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn.energy import energy_evaluation
 
@@ -16,7 +16,7 @@ ALIKE = (1.5, 1.1)  # factors within which two ways leave the same depth and the
 ZERO = 1e-9  # of the largest curvature, below which one is 0: finite differences leave 1e-11
 
 
-def equivalence(sets: Sets) -> Iterator[Row]:
+def equivalence(sets: SetCache) -> Iterator[ClaimRow]:
     """Descent of 100,000 steps beside 1,000 gradients of Nesterov's method, on the same starts."""
     slow = sets.draw("gbn[iterations=100000]", n=256, sets=3)
     fast = sets.draw("gbn[gradients=1000]", n=256, sets=3)
@@ -49,7 +49,7 @@ def equivalence(sets: Sets) -> Iterator[Row]:
         )
 
 
-def million(sets: Sets) -> Iterator[Row]:
+def million(sets: SetCache) -> Iterator[ClaimRow]:
     """Isotropy and order of sets as deep as a million steps leave."""
     for row, spec in (("10k", PAPER), ("1M", MILLION)):
         drawn = sets.draw(spec, sets=8)
@@ -77,9 +77,9 @@ def million(sets: Sets) -> Iterator[Row]:
             )
 
 
-def repeated(_: Sets) -> Iterator[Row]:
+def repeated(_: SetCache) -> Iterator[ClaimRow]:
     """Run one start twice."""
-    first, second = (Sets().draw("gbn[iterations=300]", n=256, sets=2).x for _twice in range(2))
+    first, second = (SetCache().draw("gbn[iterations=300]", n=256, sets=2).x for _twice in range(2))
     away = float(np.abs(first - second).max())
     yield reported(
         "repeat",
@@ -116,7 +116,7 @@ def hessian_of(x: FloatArray, h: float = 1e-4) -> FloatArray:
     return np.asarray((slope + slope.T) / 2)
 
 
-def singular(sets: Sets) -> Iterator[Row]:
+def singular(sets: SetCache) -> Iterator[ClaimRow]:
     """Null directions of the Hessian, and what a second-order method reaches all the same."""
     x = sets.draw("gbn[iterations=10000]", n=64, sets=2).x[0]
     values = np.linalg.eigvalsh(hessian_of(x))

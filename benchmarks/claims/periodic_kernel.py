@@ -8,8 +8,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from gbnbench.analysis.radial.profile_measures import noise_floor
-from gbnbench.benchmarks.claims.claim import BESIDE, Row, holds, reported
-from gbnbench.benchmarks.claims.sets import SEED, Drawn, Sets
+from gbnbench.benchmarks.claims.claim import BESIDE, ClaimRow, holds, reported
+from gbnbench.benchmarks.claims.sets import SEED, DrawnSets, SetCache
 from gbnbench.core.torus import wrap
 from gbnbench.generators.gbn import kernel
 from gbnbench.generators.gbn.energy import energy_evaluation
@@ -18,7 +18,7 @@ from gbnbench.generators.gbn.optimiser import Descent, step_size
 from gbnbench.generators.protocol import realization_rng
 
 
-def images(_: Sets) -> Iterator[Row]:
+def images(_: SetCache) -> Iterator[ClaimRow]:
     """Add what the nearest image alone leaves out: all other images, the kernel's top being 1."""
     # The others are added by themselves: as a difference from theta 18 spacings would give its rounding.
     others = np.array([k for k in range(-20, 21) if k])[:, None]
@@ -34,7 +34,7 @@ def images(_: Sets) -> Iterator[Row]:
         )
 
 
-def series(_: Sets) -> Iterator[Row]:
+def series(_: SetCache) -> Iterator[ClaimRow]:
     """Eq. (22) and (23): both sides, in the paper's unit box."""
     for sigma in (0.05, 0.2, 0.5):
         x = np.linspace(0, 1, 257)
@@ -64,7 +64,7 @@ def series(_: Sets) -> Iterator[Row]:
         )
 
 
-def harmonics(_: Sets) -> Iterator[Row]:
+def harmonics(_: SetCache) -> Iterator[ClaimRow]:
     """Run one descent by images and by harmonics, from one start."""
     n, steps = 256, 300
     start = realization_rng(SEED, 0).random((1, n, 2))
@@ -85,7 +85,7 @@ def harmonics(_: Sets) -> Iterator[Row]:
         sets=1,
         holds=holds(away < 1e-3),
     )
-    floors = [noise_floor(Drawn(wrap(end)).radial) for end in ends]
+    floors = [noise_floor(DrawnSets(wrap(end)).radial) for end in ends]
     yield reported(
         "floor",
         "ratio of the noise floors",
@@ -98,7 +98,7 @@ def harmonics(_: Sets) -> Iterator[Row]:
     )
 
 
-def flat(_: Sets) -> Iterator[Row]:
+def flat(_: SetCache) -> Iterator[ClaimRow]:
     """Measure the profiles of Fig. 6: how flat, and whether Gaussian or raised cosine."""
     for side in (1.0, 2.0, 4.0, 8.0):
         u = np.linspace(-side / 2, side / 2, 1025)

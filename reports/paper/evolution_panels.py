@@ -1,4 +1,4 @@
-"""Panels of figure 7: spectra of an evolution, raw and filtered by the kernel, and the progress of its depth."""
+"""Panels of figure 7: spectra raw and filtered by the kernel, and how their depth progresses."""
 
 from __future__ import annotations
 

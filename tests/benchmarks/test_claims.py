@@ -24,7 +24,7 @@ from gbnbench.benchmarks.claims.claim import BESIDE, COLUMNS, VERDICTS, verdict
 from gbnbench.benchmarks.claims.page import filled, number, page
 from gbnbench.benchmarks.claims.registry import CLAIMS, MEASURES
 from gbnbench.benchmarks.claims.run import fill, main, measure, named, read
-from gbnbench.benchmarks.claims.sets import MissingError, Sets
+from gbnbench.benchmarks.claims.sets import MissingError, SetCache
 from gbnbench.core.errors import InputError
 from gbnbench.generators.gbn.kernel_profile import theta
 from tests.oracles.theta import jacobi
@@ -64,7 +64,7 @@ def test_every_claim_is_measured_and_every_row_has_a_verdict():
 @pytest.mark.parametrize("name", EXACT)
 def test_what_is_exact_comes_out_as_in_the_table(name):
     kept = read(TABLE)[name]
-    again = measure(claim(name), Sets())
+    again = measure(claim(name), SetCache())
     assert [row["row"] for row in again] == [row["row"] for row in kept]
     for now, then in zip(again, kept, strict=True):
         assert now["holds"] == then["holds"]
@@ -73,7 +73,7 @@ def test_what_is_exact_comes_out_as_in_the_table(name):
 
 
 def test_the_weight_of_the_nominal_spacing_by_mpmath():
-    rows = {row.row: row.measured for row in profile.weight(Sets())}
+    rows = {row.row: row.measured for row in profile.weight(SetCache())}
     assert rows["number"] == pytest.approx(float(mpmath.exp(-((2 * mpmath.pi) ** 2))), rel=1e-12)
     assert rows["energy"] == pytest.approx(float(mpmath.exp(-2 * mpmath.pi**2)), rel=1e-6)
     assert rows["formula"] == pytest.approx(float(mpmath.exp(-2 * mpmath.pi**2)), rel=1e-12)
@@ -112,7 +112,7 @@ def test_the_outermost_points_of_a_box():
 
 
 def test_the_domains_pull_and_the_points_push_in_closed_form():
-    rows = {row.row: row.measured for row in box.balance(Sets())}
+    rows = {row.row: row.measured for row in box.balance(SetCache())}
     # Far from the other faces; 0.5 from a face along x, 3 along y, with 4 sigma^2 over 2 sigma^2, sigma = 1.
     along = math.sqrt(2) * (1 + math.erf(3 / 2)) / (1 + math.erf(3 / math.sqrt(2)))
     ratio = 2 * math.exp(0.25 / 2 - 0.25 / 4) * along
@@ -122,7 +122,7 @@ def test_the_domains_pull_and_the_points_push_in_closed_form():
 
 
 def test_the_images_left_out_are_known_far_below_rounding():
-    rows = {row.row: row.measured for row in periodic_kernel.images(Sets())}
+    rows = {row.row: row.measured for row in periodic_kernel.images(SetCache())}
     for side in (12, 18):  # half a side away the next image is the only one that counts
         assert rows[f"side-{side}"] == pytest.approx(math.exp(-((side / 2) ** 2) / 2), rel=1e-9)
 
@@ -131,7 +131,7 @@ def test_further_draws_are_others():
     first = [integration_errors.integrands(integration_errors.STEP, 2, k)[0].point[0] for k in range(3)]
     assert first[0] == integration_errors.integrands(integration_errors.STEP, 2)[0].point[0]
     assert len(set(first)) == 3
-    exponents = half_space.redrawn(Sets(), "jittered", 2, further=2)
+    exponents = half_space.redrawn(SetCache(), "jittered", 2, further=2)
     assert len(exponents) == len(set(exponents)) == 2
     np.testing.assert_allclose(exponents, -1.5, atol=0.1)
 
@@ -144,7 +144,7 @@ def test_exponents_of_times():
 
 @pytest.mark.slow
 def test_claims_of_sets_at_a_small_share():
-    sets = Sets(share=0.02)
+    sets = SetCache(share=0.02)
     rows = {row.row: row for row in long_descent.repeated(sets)}
     assert rows["repeat"].measured == 0
     shaped = {row.row: row for row in convergence.longer(sets)}
@@ -154,14 +154,14 @@ def test_claims_of_sets_at_a_small_share():
 
 def test_a_table_is_gone_on_with(tmp_path, capsys):
     path = tmp_path / "claims.csv"
-    fill(path, named(["freedom", "digits"]), Sets())
+    fill(path, named(["freedom", "digits"]), SetCache())
     first = path.read_text()
     path.write_text(first.replace("square-half", "kept"))
-    fill(path, named(["weight", "freedom", "floor-bnot"]), Sets())
+    fill(path, named(["weight", "freedom", "floor-bnot"]), SetCache())
     assert "kept" in path.read_text()
     assert list(read(path)) == ["weight", "freedom", "digits"]
     assert "floor-bnot: left out, no sets of bnot" in capsys.readouterr().out
-    fill(path, named(["freedom"]), Sets(), again=True)
+    fill(path, named(["freedom"]), SetCache(), again=True)
     assert "kept" not in path.read_text()
 
 
@@ -177,12 +177,12 @@ def test_the_command(tmp_path):
 def test_sets_by_others(tmp_path):
     for k in range(2):
         np.savetxt(tmp_path / f"{k}.txt", np.random.default_rng(k).random((9, 2)))
-    assert Sets({"bnot": tmp_path}).others("bnot").x.shape == (2, 9, 2)
+    assert SetCache({"bnot": tmp_path}).others("bnot").x.shape == (2, 9, 2)
     np.savetxt(tmp_path / "2.txt", np.random.default_rng(2).random((4, 2)))
     with pytest.raises(InputError, match="sets of one size; found 3 files"):
-        Sets({"bnot": tmp_path}).others("bnot")
+        SetCache({"bnot": tmp_path}).others("bnot")
     with pytest.raises(MissingError, match="--sets bnot=FOLDER"):
-        Sets().others("bnot")
+        SetCache().others("bnot")
 
 
 def test_verdicts():
