@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from functools import cached_property, partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from gbnbench.analysis.measure_definitions import DEFINITIONS
-from gbnbench.analysis.radial.anisotropy import anisotropy_db
+from gbnbench.analysis.radial.anisotropy import anisotropy, anisotropy_db
 from gbnbench.analysis.radial.profile_measures import (
     evacuated_energy,
+    evacuated_energy_of_ball,
     exponential_fit,
     noise_floor,
     peak,
@@ -18,21 +21,22 @@ from gbnbench.analysis.radial.profile_measures import (
     powerlaw_fit,
 )
 from gbnbench.analysis.radial.psa import spectral_statistics
-from gbnbench.analysis.radial.radial_power import mean_over_groups
+from gbnbench.analysis.set_powers import SetPowers, farther_powers, set_powers
 from gbnbench.analysis.spatial.bond_order import bond_order, psi6
 from gbnbench.analysis.spatial.delaunay import Neighbours, neighbours
 from gbnbench.analysis.spatial.discrepancy import measure_discrepancies
 from gbnbench.analysis.spatial.discrepancy_kernels import Discrepancy
 from gbnbench.analysis.spatial.distances import mean_distance, min_distance
 from gbnbench.analysis.spatial.valence import valence6
-from gbnbench.analysis.spectrum.limits import check_fmax, default_fmax
-from gbnbench.analysis.spectrum.periodogram import each_power
-from gbnbench.analysis.spectrum.shells import Shells, exact_shells
+from gbnbench.analysis.spectrum.listed_shells import shell_sizes
 from gbnbench.analysis.standard_errors import Estimate, jackknife, mean_over_sets
-from gbnbench.core.errors import RefusalError
+from gbnbench.core.errors import RefusalError, ShortSpectrumError
 from gbnbench.core.results.measures import Measures
 from gbnbench.core.results.radial import RadialPower
 from gbnbench.core.torus import FloatArray
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 NYQUIST_STEP = 0.005  # resolution of the effective Nyquist frequency, part of its error
 _Entry = tuple[tuple[str, ...], Callable[[], list[Estimate]]]
@@ -50,10 +54,10 @@ class Scalars:
 
     Attributes
     ----------
+    near : SetPowers
+        Power of every set: cubes where they are affordable, else the shells of a ball.
     spectrum : Spectrum
-        Mean over the realizations.
-    radial : RadialPower
-        Its exact shells.
+        Their mean over the realizations.
 
     Notes
     -----
@@ -63,12 +67,43 @@ class Scalars:
 
     def __init__(self, points: FloatArray, fmax: int | None) -> None:
         self.points = points
-        realizations, n, d = points.shape
-        self.fmax = check_fmax(default_fmax(n, d, realizations) if fmax is None else fmax, d)
-        self.powers, self.spectrum = each_power(points, self.fmax)
-        self.shells: Shells = exact_shells(self.fmax, d)
-        self.radial = mean_over_groups(self.spectrum.power, self.shells, self.spectrum.spacing)
+        self.near = set_powers(points, fmax)
+        self.spectrum = self.near.spectrum
+        self._by_default = fmax is None
         self._neighbours: Sequence[Neighbours] | None = None
+
+    @cached_property
+    def far(self) -> SetPowers | None:
+        """Shells beyond the end of a default cube, listed; None where none are affordable."""
+        return farther_powers(self.points, self.near) if self._by_default else None
+
+    @property
+    def radial(self) -> RadialPower:
+        """Mean power of the exact shells, as far as they were evaluated."""
+        near, far = self.near.radial, self._evaluated_far()
+        if far is None:
+            return near
+        beyond = far.radial.frequency > near.frequency[-1]
+        return RadialPower(
+            *(
+                np.append(getattr(near, name), getattr(far.radial, name)[beyond])
+                for name in ("frequency", "nu", "power", "count")
+            )
+        )
+
+    def anisotropy(self) -> pd.DataFrame:
+        """Anisotropy of each ring, as far as shells were evaluated."""
+        near, far = anisotropy(self.near.shell_spectrum()), self._evaluated_far()
+        if far is None:
+            return near
+        import pandas as pd
+
+        rings = anisotropy(far.shell_spectrum())
+        return pd.concat([near, rings[rings.frequency > near.frequency.max()]], ignore_index=True)
+
+    def _evaluated_far(self) -> SetPowers | None:
+        """Return the farther shells if a measure needed them."""
+        return self.__dict__.get("far")
 
     def neighbours(self) -> Sequence[Neighbours]:
         """Delaunay neighbours of every set, triangulated once."""
@@ -81,7 +116,7 @@ class Scalars:
         values: dict[str, float] = {}
         errors: dict[str, float] = {}
         reasons: dict[str, str] = {}
-        for names, compute in (*self._of_spectrum(), *self._of_sets()):
+        for names, compute in self._entries():
             try:
                 for name, (value, error) in zip(names, compute(), strict=True):
                     values[name], errors[name] = value, error
@@ -95,30 +130,73 @@ class Scalars:
         order = [definition.name for definition in DEFINITIONS]
         return Measures({m: values[m] for m in order}, {m: errors[m] for m in order}, reasons)
 
-    def _of_spectrum(self) -> list[_Entry]:
-        """Measures of the mean spectrum, their errors by the jackknife over sets."""
-        rows = np.stack([self.shells.mean(power) for power in self.powers])
+    def _entries(self) -> list[_Entry]:
+        """Every measure; those that the spectrum is too short for are taken from farther shells."""
+        spectral = [
+            (names, partial(self._reaching, names, compute))
+            for names, compute in self._of_spectrum(self.near)
+        ]
+        return [*spectral, *self._of_sets()]
+
+    def _reaching(self, names: tuple[str, ...], compute: Callable[[], list[Estimate]]) -> list[Estimate]:
+        """Compute a measure of the spectrum, of farther shells where it ends too early, or say their cost."""
+        try:
+            return compute()
+        except ShortSpectrumError as short:
+            if self.far is None:
+                raise ShortSpectrumError(f"{short}{self._cost_of_more(self.near)}") from None
+            far = self.far
+        try:
+            return dict(self._of_spectrum(far))[names]()
+        except ShortSpectrumError as short:
+            raise ShortSpectrumError(f"{short}{self._cost_of_more(far)}") from None
+
+    def _cost_of_more(self, powers: SetPowers) -> str:
+        """Say what stands in the way of the next shell; empty for a cube and for an fmax that was asked for."""
+        if not self._by_default or powers.pairs == 2:
+            return ""
+        count = sum(shell_sizes(self.points.shape[2], powers.most + 1))
+        return (
+            f"; shells up to |f|^2 = {powers.most} are affordable by default, with the next one it would be "
+            f"{float(count):.2g} frequencies"
+        )
+
+    def _of_spectrum(self, powers: SetPowers) -> list[_Entry]:
+        """Measures of the mean spectrum, their errors by the jackknife over sets, and its evacuated energy."""
+        rows = np.stack([powers.shells.mean(power) for power in powers.powers])
         realizations = len(rows)
+        _, n, d = self.points.shape
 
         def profile(compute: Callable[[RadialPower], Sequence[float]]) -> Callable[[], list[Estimate]]:
+            radial = powers.radial
+
             def with_power(power: FloatArray) -> RadialPower:
-                return RadialPower(self.radial.frequency, self.radial.nu, power, self.radial.count)
+                return RadialPower(radial.frequency, radial.nu, power, radial.count)
 
             def left_out(k: int) -> Sequence[float]:
                 return compute(with_power((rows.sum(axis=0) - rows[k]) / (realizations - 1)))
 
-            return lambda: jackknife(compute(self.radial), left_out, realizations)
+            return lambda: jackknife(compute(radial), left_out, realizations)
 
         def directional() -> list[Estimate]:
-            spacing, total = self.spectrum.spacing, self.powers.sum(axis=0)
+            spacing, total = self.spectrum.spacing, powers.powers.sum(axis=0)
 
             def left_out(k: int) -> Sequence[float]:
-                rest = (total - self.powers[k]) / (realizations - 1)
-                return [anisotropy_db(rest, self.shells, realizations - 1, spacing)]
+                rest = (total - powers.powers[k]) / (realizations - 1)
+                return [anisotropy_db(rest, powers.shells, realizations - 1, spacing)]
 
-            whole = [anisotropy_db(self.spectrum.power, self.shells, realizations, spacing)]
+            whole = [anisotropy_db(powers.spectrum.power, powers.shells, realizations, spacing)]
             # Left-out spectra read -10 log10(M - 1): the same shift for each, so the spread is not touched.
             return jackknife(whole, left_out, realizations)
+
+        def energy() -> list[Estimate]:
+            each = [
+                evacuated_energy(power, n, d, powers.spectrum.fmax)
+                if powers.pairs == 2
+                else evacuated_energy_of_ball(power, powers.square, n, d)
+                for power in powers.powers
+            ]
+            return [mean_over_sets(np.array(each))]
 
         def exponential(radial: RadialPower) -> Sequence[float]:
             fit = exponential_fit(radial)
@@ -140,15 +218,11 @@ class Scalars:
             (("powerlaw_exponent", "powerlaw_residual_db"), profile(powerlaw)),
             (("peak", "peak_nu"), summit),
             (("anisotropy_db",), directional),
+            (("evacuated_energy",), energy),
         ]
 
     def _of_sets(self) -> list[_Entry]:
         """Measures of each set, averaged."""
-        _, n, d = self.points.shape
-
-        def energy() -> list[Estimate]:
-            each = [evacuated_energy(power, n, d, self.fmax) for power in self.powers]
-            return [mean_over_sets(np.array(each))]
 
         def psa() -> list[Estimate]:
             statistics = spectral_statistics(self.points)
@@ -171,7 +245,6 @@ class Scalars:
             return estimates
 
         return [
-            (("evacuated_energy",), energy),
             (("min_distance",), lambda: [mean_over_sets(min_distance(self.points))]),
             (("mean_distance",), lambda: [mean_over_sets(mean_distance(self.points))]),
             (("bond_order",), lambda: [mean_over_sets(bond_order(self.neighbours()))]),
