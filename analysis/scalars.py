@@ -28,9 +28,17 @@ from gbnbench.analysis.spatial.discrepancy import measure_discrepancies
 from gbnbench.analysis.spatial.discrepancy_kernels import Discrepancy
 from gbnbench.analysis.spatial.distances import mean_distance, min_distance
 from gbnbench.analysis.spatial.valence import valence6
+<<<<<<< HEAD
 from gbnbench.analysis.spectrum.listed_shells import shell_sizes
 from gbnbench.analysis.standard_errors import Estimate, jackknife, mean_over_sets
 from gbnbench.core.errors import RefusalError, ShortSpectrumError
+=======
+from gbnbench.analysis.spectrum.limits import check_fmax, default_fmax
+from gbnbench.analysis.spectrum.periodogram import each_power
+from gbnbench.analysis.spectrum.shells import Shells, exact_shells
+from gbnbench.analysis.standard_errors import Estimate, jackknife, left_out_sums, mean_over_sets
+from gbnbench.core.errors import RefusalError
+>>>>>>> main
 from gbnbench.core.results.measures import Measures
 from gbnbench.core.results.radial import RadialPower
 from gbnbench.core.torus import FloatArray
@@ -173,9 +181,11 @@ class Scalars:
             def with_power(power: FloatArray) -> RadialPower:
                 return RadialPower(radial.frequency, radial.nu, power, radial.count)
 
-            def left_out(k: int) -> Sequence[float]:
-                return compute(with_power((rows.sum(axis=0) - rows[k]) / (realizations - 1)))
+            def estimates() -> list[Estimate]:
+                others = (compute(with_power(p / (realizations - 1))) for p in left_out_sums(rows))
+                return jackknife(compute(self.radial), others, realizations)
 
+<<<<<<< HEAD
             return lambda: jackknife(compute(radial), left_out, realizations)
 
         def directional() -> list[Estimate]:
@@ -186,8 +196,18 @@ class Scalars:
                 return [anisotropy_db(rest, powers.shells, realizations - 1, spacing)]
 
             whole = [anisotropy_db(powers.spectrum.power, powers.shells, realizations, spacing)]
+=======
+            return estimates
+
+        def directional() -> list[Estimate]:
+            def decibels(power: FloatArray, sets: int) -> list[float]:
+                return [anisotropy_db(power, self.shells, sets, self.spectrum.spacing)]
+
+>>>>>>> main
             # Left-out spectra read -10 log10(M - 1): the same shift for each, so the spread is not touched.
-            return jackknife(whole, left_out, realizations)
+            rest = realizations - 1
+            others = (decibels(total / rest, rest) for total in left_out_sums(self.powers))
+            return jackknife(decibels(self.spectrum.power, realizations), others, realizations)
 
         def energy() -> list[Estimate]:
             each = [
