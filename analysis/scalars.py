@@ -10,16 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gbnbench.analysis.measure_definitions import DEFINITIONS
-from gbnbench.analysis.radial.anisotropy import anisotropy, anisotropy_db
-from gbnbench.analysis.radial.profile_measures import (
-    evacuated_energy,
-    evacuated_energy_of_ball,
-    exponential_fit,
-    noise_floor,
-    peak,
-    power_at_1,
-    powerlaw_fit,
-)
+from gbnbench.analysis.radial.anisotropy import anisotropy
 from gbnbench.analysis.radial.psa import spectral_statistics
 from gbnbench.analysis.set_powers import SetPowers, farther_powers, set_powers
 from gbnbench.analysis.spatial.bond_order import bond_order, psi6
@@ -28,17 +19,10 @@ from gbnbench.analysis.spatial.discrepancy import measure_discrepancies
 from gbnbench.analysis.spatial.discrepancy_kernels import Discrepancy
 from gbnbench.analysis.spatial.distances import mean_distance, min_distance
 from gbnbench.analysis.spatial.valence import valence6
-<<<<<<< HEAD
+from gbnbench.analysis.spectral_scalars import spectral_scalars
 from gbnbench.analysis.spectrum.listed_shells import shell_sizes
-from gbnbench.analysis.standard_errors import Estimate, jackknife, mean_over_sets
+from gbnbench.analysis.standard_errors import Estimate, mean_over_sets
 from gbnbench.core.errors import RefusalError, ShortSpectrumError
-=======
-from gbnbench.analysis.spectrum.limits import check_fmax, default_fmax
-from gbnbench.analysis.spectrum.periodogram import each_power
-from gbnbench.analysis.spectrum.shells import Shells, exact_shells
-from gbnbench.analysis.standard_errors import Estimate, jackknife, left_out_sums, mean_over_sets
-from gbnbench.core.errors import RefusalError
->>>>>>> main
 from gbnbench.core.results.measures import Measures
 from gbnbench.core.results.radial import RadialPower
 from gbnbench.core.torus import FloatArray
@@ -69,8 +53,8 @@ class Scalars:
 
     Notes
     -----
-    A new measure is one more entry of ``_of_spectrum`` or ``_of_sets``: its names and a function that gives a
-    value and a standard error for each.
+    A new measure is one more entry of ``spectral_scalars`` or ``_of_sets``: its names and a function that
+    gives a value and a standard error for each.
     """
 
     def __init__(self, points: FloatArray, fmax: int | None) -> None:
@@ -78,6 +62,7 @@ class Scalars:
         self.near = set_powers(points, fmax)
         self.spectrum = self.near.spectrum
         self._by_default = fmax is None
+        self._spectral = spectral_scalars(self.near)
         self._neighbours: Sequence[Neighbours] | None = None
 
     @cached_property
@@ -124,7 +109,7 @@ class Scalars:
         values: dict[str, float] = {}
         errors: dict[str, float] = {}
         reasons: dict[str, str] = {}
-        for names, compute in self._entries():
+        for names, compute in (*self._of_spectrum(), *self._of_sets()):
             try:
                 for name, (value, error) in zip(names, compute(), strict=True):
                     values[name], errors[name] = value, error
@@ -138,108 +123,31 @@ class Scalars:
         order = [definition.name for definition in DEFINITIONS]
         return Measures({m: values[m] for m in order}, {m: errors[m] for m in order}, reasons)
 
-    def _entries(self) -> list[_Entry]:
-        """Every measure; those that the spectrum is too short for are taken from farther shells."""
-        spectral = [
-            (names, partial(self._reaching, names, compute))
-            for names, compute in self._of_spectrum(self.near)
-        ]
-        return [*spectral, *self._of_sets()]
+    def _of_spectrum(self) -> list[_Entry]:
+        """Measures of the mean spectrum; those that it is too short for are taken from farther shells."""
+        return [(names, partial(self._reaching, names)) for names in self._spectral]
 
-    def _reaching(self, names: tuple[str, ...], compute: Callable[[], list[Estimate]]) -> list[Estimate]:
-        """Compute a measure of the spectrum, of farther shells where it ends too early, or say their cost."""
+    def _reaching(self, names: tuple[str, ...]) -> list[Estimate]:
+        """Compute measures of the spectrum, of farther shells where it ends too early, or say the cost."""
         try:
-            return compute()
+            return self._spectral[names]()
         except ShortSpectrumError as short:
             if self.far is None:
                 raise ShortSpectrumError(f"{short}{self._cost_of_more(self.near)}") from None
-            far = self.far
         try:
-            return dict(self._of_spectrum(far))[names]()
+            return spectral_scalars(self.far)[names]()
         except ShortSpectrumError as short:
-            raise ShortSpectrumError(f"{short}{self._cost_of_more(far)}") from None
+            raise ShortSpectrumError(f"{short}{self._cost_of_more(self.far)}") from None
 
     def _cost_of_more(self, powers: SetPowers) -> str:
-        """Say what stands in the way of the next shell; empty for a cube and for an fmax that was asked for."""
-        if not self._by_default or powers.pairs == 2:
+        """Say what the next shell costs; nothing of a cube, or where an fmax was asked for."""
+        if not (self._by_default and powers.listed):
             return ""
         count = sum(shell_sizes(self.points.shape[2], powers.most + 1))
         return (
-            f"; shells up to |f|^2 = {powers.most} are affordable by default, with the next one it would be "
+            f"; shells up to |f|^2 = {powers.most} are affordable by default, the next one would make it "
             f"{float(count):.2g} frequencies"
         )
-
-    def _of_spectrum(self, powers: SetPowers) -> list[_Entry]:
-        """Measures of the mean spectrum, their errors by the jackknife over sets, and its evacuated energy."""
-        rows = np.stack([powers.shells.mean(power) for power in powers.powers])
-        realizations = len(rows)
-        _, n, d = self.points.shape
-
-        def profile(compute: Callable[[RadialPower], Sequence[float]]) -> Callable[[], list[Estimate]]:
-            radial = powers.radial
-
-            def with_power(power: FloatArray) -> RadialPower:
-                return RadialPower(radial.frequency, radial.nu, power, radial.count)
-
-            def estimates() -> list[Estimate]:
-                others = (compute(with_power(p / (realizations - 1))) for p in left_out_sums(rows))
-                return jackknife(compute(self.radial), others, realizations)
-
-<<<<<<< HEAD
-            return lambda: jackknife(compute(radial), left_out, realizations)
-
-        def directional() -> list[Estimate]:
-            spacing, total = self.spectrum.spacing, powers.powers.sum(axis=0)
-
-            def left_out(k: int) -> Sequence[float]:
-                rest = (total - powers.powers[k]) / (realizations - 1)
-                return [anisotropy_db(rest, powers.shells, realizations - 1, spacing)]
-
-            whole = [anisotropy_db(powers.spectrum.power, powers.shells, realizations, spacing)]
-=======
-            return estimates
-
-        def directional() -> list[Estimate]:
-            def decibels(power: FloatArray, sets: int) -> list[float]:
-                return [anisotropy_db(power, self.shells, sets, self.spectrum.spacing)]
-
->>>>>>> main
-            # Left-out spectra read -10 log10(M - 1): the same shift for each, so the spread is not touched.
-            rest = realizations - 1
-            others = (decibels(total / rest, rest) for total in left_out_sums(self.powers))
-            return jackknife(decibels(self.spectrum.power, realizations), others, realizations)
-
-        def energy() -> list[Estimate]:
-            each = [
-                evacuated_energy(power, n, d, powers.spectrum.fmax)
-                if powers.pairs == 2
-                else evacuated_energy_of_ball(power, powers.square, n, d)
-                for power in powers.powers
-            ]
-            return [mean_over_sets(np.array(each))]
-
-        def exponential(radial: RadialPower) -> Sequence[float]:
-            fit = exponential_fit(radial)
-            return math.exp(fit.intercept), fit.slope, fit.residual_db
-
-        def powerlaw(radial: RadialPower) -> Sequence[float]:
-            fit = powerlaw_fit(radial)
-            return fit.slope, fit.residual_db
-
-        def summit() -> list[Estimate]:
-            (value, error), (nu, spread) = profile(peak)()
-            # Left-out spectra often peak on the same ring: its width is part of the error.
-            return [(value, error), (nu, math.hypot(spread, self.spectrum.spacing / math.sqrt(12)))]
-
-        return [
-            (("noise_floor",), profile(lambda r: [noise_floor(r)])),
-            (("power_at_1",), profile(lambda r: [power_at_1(r)])),
-            (("profile_epsilon", "profile_c", "profile_residual_db"), profile(exponential)),
-            (("powerlaw_exponent", "powerlaw_residual_db"), profile(powerlaw)),
-            (("peak", "peak_nu"), summit),
-            (("anisotropy_db",), directional),
-            (("evacuated_energy",), energy),
-        ]
 
     def _of_sets(self) -> list[_Entry]:
         """Measures of each set, averaged."""

@@ -52,9 +52,9 @@ class SetPowers:
         return mean_over_groups(self.spectrum.power, self.shells, self.spectrum.spacing)
 
     @property
-    def pairs(self) -> int:
-        """How many of the two frequencies f and -f are there: 2 in a cube, 1 in a list."""
-        return self.shells.pairs
+    def listed(self) -> bool:
+        """Whether the frequencies are listed, and of f and -f only one is there."""
+        return self.spectrum.frequencies is not None
 
     @property
     def square(self) -> NDArray[np.int64]:
