@@ -10,9 +10,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from gbnbench.analysis.spectrum.evaluators.gridded.kaiser_bessel import OVERSAMPLING, window
 from scipy import fft
 
-from gbnbench.analysis.spectrum.evaluators.gridded.kaiser_bessel import OVERSAMPLING, window
 from gbnbench.analysis.window.tapers import ComplexArray, IntArray
 from gbnbench.core.torus import FloatArray
 from gbnbench.execution.progress import Progress

@@ -69,7 +69,7 @@ def dealt_to_bands(p: Precision, grid: RealGrid, x: FloatArray) -> Bands:
     -------
     Bands
     """
-    sets, n, d = x.shape
+    sets, n, _ = x.shape
     turns = p.turns(x, n)
     bin_of = bins(turns, grid)
     counts = bin_counts(bin_of, grid)

@@ -29,7 +29,7 @@ LARGEST_TYPICAL = 9.0  # typical error in units of rounding, beyond which crowde
 
 @dataclass(frozen=True)
 class GriddedFFT(DeviceEvaluator):
-    """The gridded FFT where the OpenCL device is a CPU, for cubes and half cubes of up to three dimensions."""
+    """The gridded FFT beside an OpenCL device that is a CPU, for cubes in up to three dimensions."""
 
     method: ClassVar[str] = "fft"
     title: ClassVar[str] = "gridded FFT"
@@ -60,7 +60,7 @@ class GriddedFFT(DeviceEvaluator):
         return "the gridded FFT needs an OpenCL device that is a CPU, and memory for its grid"
 
     def work(self, request: SpectrumRequest) -> float:
-        """Count the points carried to the grid, its transform, the powers that are written, and the set-up."""
+        """Count the points carried to the grid, its transform, the powers written, and the set-up."""
         grid = real_grid(request.d, request.fmax, self.precision)
         nodes = grid.nodes**request.d
         points = request.n * (POINT * request.d + REACHED * grid.width**request.d)
