@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, TypeVar
 
 from numpy.typing import ArrayLike
 
-from gbnbench.analysis.radial.anisotropy import anisotropy
 from gbnbench.analysis.radial.border_warning import border_warnings
 from gbnbench.analysis.scalars import Scalars
 from gbnbench.analysis.spatial.rdf import rdf
@@ -71,6 +70,7 @@ def measures(x: ArrayLike, fmax: int | None = None, *, device: str | None = None
         are of the mean spectrum.
     fmax : int, optional
         Largest harmonic on each axis; by default as far as nu = 2, or as affordable (``default_fmax``).
+        Where a cube of frequencies is not, as in d = 20, exact shells are taken as far as they go.
     device : str, optional
         Part of the name of the OpenCL device, or its position, as in ``GBNBENCH_DEVICE``, which it overrides.
 
@@ -128,14 +128,15 @@ def analyse(x: ArrayLike, fmax: int | None = None) -> Analysis:
     """
     scalars = Scalars(as_realizations(x), fmax)
     points = scalars.points
+    found = scalars.measures()  # first: it may take the shells farther
     return Analysis(
         spectrum=scalars.spectrum,
         radial=scalars.radial,
-        anisotropy=anisotropy(scalars.spectrum),
+        anisotropy=scalars.anisotropy(),
         rdf=_unless_refused(lambda: rdf(points).to_frame()),
         valence=_unless_refused(lambda: valence(scalars.neighbours()).to_frame()),
         zone_plate=_unless_refused(lambda: zone_plate(points)),
-        measures=scalars.measures(),
+        measures=found,
         warnings=border_warnings(scalars.radial, points.shape[2]),
     )
 

@@ -4,35 +4,31 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from functools import cached_property, partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from gbnbench.analysis.measure_definitions import DEFINITIONS
-from gbnbench.analysis.radial.anisotropy import anisotropy_db
-from gbnbench.analysis.radial.profile_measures import (
-    evacuated_energy,
-    exponential_fit,
-    noise_floor,
-    peak,
-    power_at_1,
-    powerlaw_fit,
-)
+from gbnbench.analysis.radial.anisotropy import anisotropy
 from gbnbench.analysis.radial.psa import spectral_statistics
-from gbnbench.analysis.radial.radial_power import mean_over_groups
+from gbnbench.analysis.set_powers import SetPowers, farther_powers, set_powers
 from gbnbench.analysis.spatial.bond_order import bond_order, psi6
 from gbnbench.analysis.spatial.delaunay import Neighbours, neighbours
 from gbnbench.analysis.spatial.discrepancy import measure_discrepancies
 from gbnbench.analysis.spatial.discrepancy_kernels import Discrepancy
 from gbnbench.analysis.spatial.distances import mean_distance, min_distance
 from gbnbench.analysis.spatial.valence import valence6
-from gbnbench.analysis.spectrum.limits import check_fmax, default_fmax
-from gbnbench.analysis.spectrum.periodogram import each_power
-from gbnbench.analysis.spectrum.shells import Shells, exact_shells
-from gbnbench.analysis.standard_errors import Estimate, jackknife, left_out_sums, mean_over_sets
-from gbnbench.core.errors import RefusalError
+from gbnbench.analysis.spectral_scalars import spectral_scalars
+from gbnbench.analysis.spectrum.listed_shells import shell_sizes
+from gbnbench.analysis.standard_errors import Estimate, mean_over_sets
+from gbnbench.core.errors import RefusalError, ShortSpectrumError
 from gbnbench.core.results.measures import Measures
 from gbnbench.core.results.radial import RadialPower
 from gbnbench.core.torus import FloatArray
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 NYQUIST_STEP = 0.005  # resolution of the effective Nyquist frequency, part of its error
 _Entry = tuple[tuple[str, ...], Callable[[], list[Estimate]]]
@@ -50,25 +46,57 @@ class Scalars:
 
     Attributes
     ----------
+    near : SetPowers
+        Power of every set: cubes where they are affordable, else the shells of a ball.
     spectrum : Spectrum
-        Mean over the realizations.
-    radial : RadialPower
-        Its exact shells.
+        Their mean over the realizations.
 
     Notes
     -----
-    A new measure is one more entry of ``_of_spectrum`` or ``_of_sets``: its names and a function that gives a
-    value and a standard error for each.
+    A new measure is one more entry of ``spectral_scalars`` or ``_of_sets``: its names and a function that
+    gives a value and a standard error for each.
     """
 
     def __init__(self, points: FloatArray, fmax: int | None) -> None:
         self.points = points
-        realizations, n, d = points.shape
-        self.fmax = check_fmax(default_fmax(n, d, realizations) if fmax is None else fmax, d)
-        self.powers, self.spectrum = each_power(points, self.fmax)
-        self.shells: Shells = exact_shells(self.fmax, d)
-        self.radial = mean_over_groups(self.spectrum.power, self.shells, self.spectrum.spacing)
+        self.near = set_powers(points, fmax)
+        self.spectrum = self.near.spectrum
+        self._by_default = fmax is None
+        self._spectral = spectral_scalars(self.near)
         self._neighbours: Sequence[Neighbours] | None = None
+
+    @cached_property
+    def far(self) -> SetPowers | None:
+        """Shells beyond the end of a default cube, listed; None where none are affordable."""
+        return farther_powers(self.points, self.near) if self._by_default else None
+
+    @property
+    def radial(self) -> RadialPower:
+        """Mean power of the exact shells, as far as they were evaluated."""
+        near, far = self.near.radial, self._evaluated_far()
+        if far is None:
+            return near
+        beyond = far.radial.frequency > near.frequency[-1]
+        return RadialPower(
+            *(
+                np.append(getattr(near, name), getattr(far.radial, name)[beyond])
+                for name in ("frequency", "nu", "power", "count")
+            )
+        )
+
+    def anisotropy(self) -> pd.DataFrame:
+        """Anisotropy of each ring, as far as shells were evaluated."""
+        near, far = anisotropy(self.near.shell_spectrum()), self._evaluated_far()
+        if far is None:
+            return near
+        import pandas as pd
+
+        rings = anisotropy(far.shell_spectrum())
+        return pd.concat([near, rings[rings.frequency > near.frequency.max()]], ignore_index=True)
+
+    def _evaluated_far(self) -> SetPowers | None:
+        """Return the farther shells if a measure needed them."""
+        return self.__dict__.get("far")
 
     def neighbours(self) -> Sequence[Neighbours]:
         """Delaunay neighbours of every set, triangulated once."""
@@ -96,58 +124,33 @@ class Scalars:
         return Measures({m: values[m] for m in order}, {m: errors[m] for m in order}, reasons)
 
     def _of_spectrum(self) -> list[_Entry]:
-        """Measures of the mean spectrum, their errors by the jackknife over sets."""
-        rows = np.stack([self.shells.mean(power) for power in self.powers])
-        realizations = len(rows)
+        """Measures of the mean spectrum; those that it is too short for are taken from farther shells."""
+        return [(names, partial(self._reaching, names)) for names in self._spectral]
 
-        def profile(compute: Callable[[RadialPower], Sequence[float]]) -> Callable[[], list[Estimate]]:
-            def with_power(power: FloatArray) -> RadialPower:
-                return RadialPower(self.radial.frequency, self.radial.nu, power, self.radial.count)
+    def _reaching(self, names: tuple[str, ...]) -> list[Estimate]:
+        """Compute measures of the spectrum, of farther shells where it ends too early, or say the cost."""
+        try:
+            return self._spectral[names]()
+        except ShortSpectrumError as short:
+            if self.far is None:
+                raise ShortSpectrumError(f"{short}{self._cost_of_more(self.near)}") from None
+        try:
+            return spectral_scalars(self.far)[names]()
+        except ShortSpectrumError as short:
+            raise ShortSpectrumError(f"{short}{self._cost_of_more(self.far)}") from None
 
-            def estimates() -> list[Estimate]:
-                others = (compute(with_power(p / (realizations - 1))) for p in left_out_sums(rows))
-                return jackknife(compute(self.radial), others, realizations)
-
-            return estimates
-
-        def directional() -> list[Estimate]:
-            def decibels(power: FloatArray, sets: int) -> list[float]:
-                return [anisotropy_db(power, self.shells, sets, self.spectrum.spacing)]
-
-            # Left-out spectra read -10 log10(M - 1): the same shift for each, so the spread is not touched.
-            rest = realizations - 1
-            others = (decibels(total / rest, rest) for total in left_out_sums(self.powers))
-            return jackknife(decibels(self.spectrum.power, realizations), others, realizations)
-
-        def exponential(radial: RadialPower) -> Sequence[float]:
-            fit = exponential_fit(radial)
-            return math.exp(fit.intercept), fit.slope, fit.residual_db
-
-        def powerlaw(radial: RadialPower) -> Sequence[float]:
-            fit = powerlaw_fit(radial)
-            return fit.slope, fit.residual_db
-
-        def summit() -> list[Estimate]:
-            (value, error), (nu, spread) = profile(peak)()
-            # Left-out spectra often peak on the same ring: its width is part of the error.
-            return [(value, error), (nu, math.hypot(spread, self.spectrum.spacing / math.sqrt(12)))]
-
-        return [
-            (("noise_floor",), profile(lambda r: [noise_floor(r)])),
-            (("power_at_1",), profile(lambda r: [power_at_1(r)])),
-            (("profile_epsilon", "profile_c", "profile_residual_db"), profile(exponential)),
-            (("powerlaw_exponent", "powerlaw_residual_db"), profile(powerlaw)),
-            (("peak", "peak_nu"), summit),
-            (("anisotropy_db",), directional),
-        ]
+    def _cost_of_more(self, powers: SetPowers) -> str:
+        """Say what the next shell costs; nothing of a cube, or where an fmax was asked for."""
+        if not (self._by_default and powers.listed):
+            return ""
+        count = sum(shell_sizes(self.points.shape[2], powers.most + 1))
+        return (
+            f"; shells up to |f|^2 = {powers.most} are affordable by default, the next one would make it "
+            f"{float(count):.2g} frequencies"
+        )
 
     def _of_sets(self) -> list[_Entry]:
         """Measures of each set, averaged."""
-        _, n, d = self.points.shape
-
-        def energy() -> list[Estimate]:
-            each = [evacuated_energy(power, n, d, self.fmax) for power in self.powers]
-            return [mean_over_sets(np.array(each))]
 
         def psa() -> list[Estimate]:
             statistics = spectral_statistics(self.points)
@@ -170,7 +173,6 @@ class Scalars:
             return estimates
 
         return [
-            (("evacuated_energy",), energy),
             (("min_distance",), lambda: [mean_over_sets(min_distance(self.points))]),
             (("mean_distance",), lambda: [mean_over_sets(mean_distance(self.points))]),
             (("bond_order",), lambda: [mean_over_sets(bond_order(self.neighbours()))]),

@@ -15,6 +15,7 @@ from gbnbench.cli.standard_streams import wants_colour
 
 if TYPE_CHECKING:
     from gbnbench.api.comparison import Comparison
+    from gbnbench.io.points import ReadingOptions
 
 EPILOG = """\b
 Examples:
@@ -35,6 +36,7 @@ an unknown setting, as in gbn[x=1], lists those there are.
 @click.option("-d", "d", type=options.WholeNumbers(), default="2", show_default=True, help="Dimensions.")
 @options.out_folder("Run folder.  [default: runs/NAME, by the settings]")
 @click.option("--baseline", type=click.Path(path_type=Path), help="A finished run to be judged against.")
+@options.reading
 @options.realizations(16)
 @options.seed
 @options.jobs
@@ -52,6 +54,7 @@ def compare(
     jobs: int | None,
     as_json: bool,
     quiet: bool,
+    reading: ReadingOptions,
 ) -> None:
     """Compare generators and files side by side: table, report.
 
@@ -71,6 +74,7 @@ def compare(
         baseline=baseline,
         jobs=jobs,
         quiet=quiet,
+        reading=reading,
         pictures=True,
         command=shlex.join(["gbnbench", *sys.argv[1:]]),
     )
@@ -81,7 +85,7 @@ def compare(
 
 def _show(comparison: Comparison, as_json: bool) -> None:
     """Print the table, warnings, the verdicts against the baseline, and where everything is."""
-    from gbnbench.reports.comparison.table import terminal_text
+    from gbnbench.reports.comparison.terminal import terminal_text
 
     for line in comparison.skipped:
         click.echo(f"gbnbench: skipped: {line}", err=True)

@@ -16,7 +16,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 from gbnbench.core.results.radial import RadialPower
 from gbnbench.core.settings import specification
 from gbnbench.generators.registry import find
-from gbnbench.reports import style
+from gbnbench.reports import captions, layout, style
 from gbnbench.reports.comparison import spectrum
 from gbnbench.reports.paper.data import ComparisonRequest
 from gbnbench.reports.paper.figure import FigureOptions
@@ -132,7 +132,11 @@ def user_set_requests(options: FigureOptions, methods: Iterable[str]) -> dict[st
     dict
         Method -> request, for the methods that the user gave sets of.
     """
-    return {name: ComparisonRequest((options.sets[name],)) for name in methods if name in options.sets}
+    return {
+        name: ComparisonRequest((options.sets[name],), reading=options.reading)
+        for name in methods
+        if name in options.sets
+    }
 
 
 def missing_sets_note(options: FigureOptions, methods: Iterable[str], whose: str = "of the paper") -> str:
@@ -215,7 +219,7 @@ def user_columns(data: Mapping[str, Any], methods: Iterable[str], n: int) -> lis
 def title_of(label: str) -> str:
     """Return the name of a method for a figure, from a generator's text or from the name of user's sets."""
     name = label.partition("[")[0]
-    return style.shown(NAMES.get(name, name), 14)
+    return captions.shown(NAMES.get(name, name), 14)
 
 
 def stroke(label: str) -> style.Stroke:
@@ -295,7 +299,7 @@ def scatter(ax: Axes, source: SourceResult, inches: float) -> None:
         rasterized=len(x) > 4096,
     )  # fmt: skip
     ax.set(xlim=(0, 1), ylim=(0, 1), aspect="equal")
-    style.frame(ax)
+    layout.frame(ax)
 
 
 def power_map(ax: Axes, source: SourceResult, reach: float, limits: tuple[float, float] = POWER) -> None:

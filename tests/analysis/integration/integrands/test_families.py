@@ -7,7 +7,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from gbnbench.analysis import precision
+from gbnbench.analysis.integration.integrands import kernel_values
 from gbnbench.analysis.integration.integrands.protocol import Periodic
 from gbnbench.analysis.integration.integrands.registry import FAMILIES, find
 from gbnbench.core.errors import InputError, RefusalError
@@ -70,7 +70,7 @@ def test_values_are_bitwise_the_same_however_points_are_batched(
     text: str, d: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     if text.endswith(" by numpy"):
-        monkeypatch.setattr(precision, "devices_present", lambda: False)
+        monkeypatch.setattr(kernel_values, "double_device", lambda: None)
         text = text.removesuffix(" by numpy")
     family = find(text)
     one = family.draw(d, np.random.default_rng(3))

@@ -6,7 +6,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from gbnbench.analysis import precision
+from gbnbench.analysis.integration.integrands import kernel_values
 from gbnbench.analysis.integration.integrands.gaussians import Gaussians, GaussianSum
 from gbnbench.analysis.integration.integrands.theta_polynomial import NEAREST, circle, theta_polynomial
 from gbnbench.core.errors import InputError, RefusalError
@@ -27,7 +27,7 @@ def exact(integrand: GaussianSum, x: FloatArray) -> list[mpmath.mpf]:
 
 
 def numpy_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(precision, "devices_present", lambda: False)
+    monkeypatch.setattr(kernel_values, "double_device", lambda: None)
 
 
 @pytest.mark.parametrize("where", ["device", "numpy"])
