@@ -160,10 +160,12 @@ def _division(cores: int, grid: RealGrid, sets: int, n: int) -> tuple[int, int]:
         bands = max(1, grid.nodes // BAND_ROWS)
     elif grid.d > 1 and sets % cores and n * grid.width**grid.d > DIVIDED_FROM:
         bands = max(1, min(cores, grid.nodes // grid.width))
-    if bands == 1:
-        return 1, grid.nodes
-    rows = -(-grid.nodes // (bands * grid.width)) * grid.width
-    return -(-grid.nodes // rows), rows
+    for count in range(bands, 1, -1):
+        rows = -(-grid.nodes // (count * grid.width)) * grid.width
+        whole, last = divmod(grid.nodes, rows)
+        if last == 0 or last >= grid.width:  # a window must reach no farther than the next band
+            return whole + (last > 0), rows
+    return 1, grid.nodes
 
 
 def cells(turns: NDArray[Any], nodes: int) -> NDArray[np.int64]:

@@ -12,9 +12,9 @@ from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import RealGrid, tra
 # points have there too are summed in runs. Worst, times what the window's gain magnifies: of anything, and for
 # each addition at a node. The former is three times what was met on lattices and on points on a line, the latter
 # the proven bound of a sum of equal numbers.
-TYPICAL, TYPICAL_CROWD = 5.0, 0.04
+TYPICAL, TYPICAL_CROWD = {"double": 5.0, "float": 3.0}, 0.04
 WORST, WORST_ADDITION = 8.0, 0.5
-WINDOW_TYPICAL = {"double": 0.0, "float": 1e-7}  # of the window itself, where it is not below rounding
+WINDOW_TYPICAL = {"double": 0.0, "float": 5e-8}  # of the window itself, where it is not below rounding
 
 
 def fft_errors(p: Precision, grid: RealGrid, n: int, crowd: int, runs: int, at: Coordinates) -> Errors:
@@ -46,7 +46,7 @@ def fft_errors(p: Precision, grid: RealGrid, n: int, crowd: int, runs: int, at: 
     magnified = float(transform[0] / transform.min()) ** grid.d
     rounded = 2 * math.pi * grid.fmax
     usual = min(crowd, usual_crowd(grid, n))
-    typical = unit * math.hypot(TYPICAL, TYPICAL_CROWD * (usual / runs + crowd - usual))
+    typical = unit * math.hypot(TYPICAL[p.name], TYPICAL_CROWD * (usual / runs + crowd - usual))
     typical = math.hypot(typical, WINDOW_TYPICAL[p.name], rounded / math.sqrt(6) * at.scattered)
     additions = min(n, 2**grid.d * crowd) / runs + runs
     relative = unit * magnified * (WORST + WORST_ADDITION * additions) + grid.d * grid.window.left_out
