@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from gbnbench.analysis.spectrum.evaluators.gridded.kaiser_bessel import OVERSAMPLING, window
+from gbnbench.analysis.spectrum.evaluators.kaiser_bessel import OVERSAMPLING, window
 from scipy import fft
 
 from gbnbench.analysis.window.tapers import ComplexArray, IntArray

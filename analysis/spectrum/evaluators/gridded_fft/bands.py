@@ -50,7 +50,7 @@ class Bands:
     @property
     def count(self) -> int:
         """Number of bands."""
-        return self.starts.shape[1] - 1
+        return int(self.starts.shape[1]) - 1
 
 
 def dealt_to_bands(p: Precision, grid: RealGrid, x: FloatArray) -> Bands:

@@ -8,10 +8,10 @@ from gbnbench.analysis.precision import Precision
 from gbnbench.analysis.spectrum.error_model import UNIT, Coordinates, Errors
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import RealGrid, transform_of_window
 
-# In units of rounding. Typical: of scattered points, and for each point of the fullest bin; those that scattered
-# points have there too are summed in runs. Worst, times what the window's gain magnifies: of anything, and for
-# each addition at a node. The former is three times what was met on lattices and on points on a line, the latter
-# the proven bound of a sum of equal numbers.
+# In units of rounding. Typical: of scattered points, and for each point of the fullest bin; those that
+# scattered points have there too are summed in runs. Worst, times what the window's gain magnifies: of any
+# frequency, and for each addition at a node. The former is three times what was met on lattices and on points
+# on a line, the latter the proven bound of a sum of equal numbers.
 TYPICAL, TYPICAL_CROWD = {"double": 5.0, "float": 3.0}, 0.04
 WORST, WORST_ADDITION = 8.0, 0.5
 WINDOW_TYPICAL = {"double": 0.0, "float": 5e-8}  # of the window itself, where it is not below rounding

@@ -46,7 +46,7 @@ class GriddedFFT(DeviceEvaluator):
         if request.d > AXES or super().offer(request, precision) is None:
             return None
         evaluator = cls(precision)
-        fits = evaluator.cost(request).bytes <= MEMORY_SHARE * physical_memory()
+        fits = evaluator._held(request) <= MEMORY_SHARE * physical_memory()
         return evaluator if fits and evaluator.on_device.runtime.device.is_cpu else None
 
     @classmethod
@@ -66,15 +66,18 @@ class GriddedFFT(DeviceEvaluator):
         points = request.n * (POINT * request.d + REACHED * grid.width**request.d)
         outputs = (2 * request.fmax + 1) ** request.d
         each = points + LEVEL * nodes * math.log2(nodes) + WRITTEN * outputs
-        return request.realizations * each + SET_UP
+        return float(request.realizations * each + SET_UP)
 
     def cost(self, request: SpectrumRequest) -> EvaluationCost:
         """Estimate the cost on the device, the grids of a batch and their transforms included."""
-        p, grid = self.on_device, real_grid(request.d, request.fmax, self.precision)
+        return device_cost(self.on_device, request, self.work(request), 2.0, self._held(request))
+
+    def _held(self, request: SpectrumRequest) -> float:
+        """Count the bytes of the grids of a batch, their transforms and the cube."""
+        grid = real_grid(request.d, request.fmax, self.precision)
         numbers = grid.size + math.prod(shape_of_harmonics(grid))
-        held = 2 * grid.itemsize * numbers * sets_together(p, grid, request.realizations)
-        cube = BYTES * (2 * request.fmax + 1) ** request.d
-        return device_cost(p, request, self.work(request), 2.0, held + cube)
+        held = 2 * grid.itemsize * numbers * sets_together(self.on_device, grid, request.realizations)
+        return float(held + BYTES * (2 * request.fmax + 1) ** request.d)
 
     def expected_errors(self, request: SpectrumRequest) -> Errors:
         """State the errors for points that are spread over the torus."""

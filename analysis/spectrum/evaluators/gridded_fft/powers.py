@@ -1,8 +1,8 @@
 """Power of a cube by the gridded FFT: spreading and power on the OpenCL device, the transform on the host.
 
-F(f) is the transform of the grid over the product of the window's transforms (kaiser_bessel.py). The strengths
-of points are real, so the grid is, and half of its transform is enough. In double the error of the window is less
-than rounding, and cells and places are exact, so that no digit is lost.
+F(f) is the transform of the grid over the product of the window's transforms (kaiser_bessel.py). Points have
+real strengths, so the grid is real, and half of its transform is enough. In double the error of the window is
+less than rounding, and cells and places are exact, so that no digit is lost.
 """
 
 from __future__ import annotations

@@ -85,7 +85,7 @@ def _real(real: NDArray[Any], threads: int) -> NDArray[Any]:
     if ducc_available():
         import ducc0
 
-        return ducc0.fft.r2c(real, axes=(real.ndim - 1,), nthreads=threads)
+        return np.asarray(ducc0.fft.r2c(real, axes=(real.ndim - 1,), nthreads=threads))
     return scipy.fft.rfft(real, axis=-1, workers=threads)
 
 
@@ -94,5 +94,6 @@ def _complex(part: NDArray[Any], axis: int, threads: int) -> NDArray[Any]:
     if ducc_available():
         import ducc0
 
-        return ducc0.fft.c2c(part, axes=(axis,), nthreads=threads, out=part)
+        ducc0.fft.c2c(part, axes=(axis,), nthreads=threads, out=part)
+        return part
     return scipy.fft.fft(part, axis=axis, workers=threads, overwrite_x=True)
