@@ -15,7 +15,7 @@ from gbnbench.analysis.radial.psa import spectral_statistics
 from gbnbench.analysis.set_powers import SetPowers, farther_powers, set_powers
 from gbnbench.analysis.spatial.bond_order import bond_order, psi6
 from gbnbench.analysis.spatial.delaunay import Neighbours, neighbours
-from gbnbench.analysis.spatial.discrepancy import measure_discrepancies
+from gbnbench.analysis.spatial.discrepancy import DiscrepancyResult, measure_discrepancies
 from gbnbench.analysis.spatial.discrepancy_kernels import Discrepancy
 from gbnbench.analysis.spatial.distances import mean_distance, min_distance
 from gbnbench.analysis.spatial.valence import valence6
@@ -104,6 +104,11 @@ class Scalars:
             self._neighbours = neighbours(self.points)
         return self._neighbours
 
+    @cached_property
+    def discrepancies(self) -> dict[Discrepancy, DiscrepancyResult]:
+        """Discrepancies of every set, which in the plane share most of their cost."""
+        return measure_discrepancies(self.points, ("WD", "L2-star"))
+
     def measures(self) -> Measures:
         """Assemble values, standard errors and reasons in the order of ``DEFINITIONS``."""
         values: dict[str, float] = {}
@@ -164,7 +169,7 @@ class Scalars:
 
         def discrepancy(kind: Discrepancy) -> Callable[[], list[Estimate]]:
             def estimates() -> list[Estimate]:
-                found = measure_discrepancies(self.points, (kind,))[kind]
+                found = self.discrepancies[kind]
                 unknown = [reason for reason in found.reasons if reason]
                 if unknown:
                     raise RefusalError(unknown[0])

@@ -39,7 +39,7 @@ def figure(scaling: pd.DataFrame, machine: Mapping[str, Any]) -> Figure:
     Parameters
     ----------
     scaling : DataFrame
-        Columns of ``gbnbench.benchmarks.spectra.speed_error.SCALING``.
+        Columns of ``gbnbench.benchmarks.spectra.scaling.SCALING``.
     machine : mapping
         The record ``machine.json``.
 
