@@ -10,8 +10,9 @@ import numpy as np
 from gbnbench.analysis.radial.profile_measures import ROUNDING_POWER
 from gbnbench.analysis.radial.radial_power import shells_from_cube
 from gbnbench.analysis.spectrum.shells import EDGE, Shells, in_band
-from gbnbench.core.errors import InputError, RefusalError
-from gbnbench.core.results import ShellSpectrum, Spectrum
+from gbnbench.core.errors import InputError, RefusalError, ShortSpectrumError
+from gbnbench.core.results.radial import ShellSpectrum
+from gbnbench.core.results.spectrum import Spectrum
 from gbnbench.core.torus import FloatArray
 
 if TYPE_CHECKING:
@@ -84,8 +85,8 @@ def anisotropy(spectrum: Spectrum | ShellSpectrum) -> pd.DataFrame:
     with np.errstate(divide="ignore", invalid="ignore"):
         ours = 10 * np.log10(pooled(deviation) / pooled(freedom))
         mean = pooled(m * shells.power) / total
-        squares = pooled(shells.deviation + m * shells.power**2)
-        psa = 10 * np.log10((squares - total * mean**2) / (total - 1) / mean**2)
+        around = pooled(shells.deviation + m * (shells.power - mean[ring]) ** 2)
+        psa = 10 * np.log10(around / (total - 1) / mean**2)
     psa[mean <= ROUNDING_POWER] = np.nan
     return pd.DataFrame(
         {"frequency": rings, "nu": rings * shells.spacing, "anisotropy_db": ours, "psa_db": psa}
@@ -121,7 +122,9 @@ def anisotropy_db(power: FloatArray, shells: Shells, realizations: int, spacing:
     deviation, freedom = shell_variance(mean, spread, shells.count / 2, realizations)
     nu = shells.radius * spacing
     if nu[-1] < BAND[1] * (1 - EDGE):
-        raise RefusalError(f"anisotropy pools shells up to nu = 1; this spectrum ends at nu = {nu[-1]:.3g}")
+        raise ShortSpectrumError(
+            f"anisotropy pools shells up to nu = 1; this spectrum ends at nu = {nu[-1]:.3g}"
+        )
     band = in_band(nu, *BAND)
     possible = np.maximum(shells.count[band] / 2 - 1, 0).sum()
     if possible == 0:

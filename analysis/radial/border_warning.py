@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from gbnbench.analysis.radial.profile_measures import ROUNDING_POWER
-from gbnbench.core.results import RadialPower
+from gbnbench.core.results.radial import RadialPower
 
 EDGE_RATIO = 5.0  # power at |f| = 1 and 2 over the diagonals beside them that only a border explains
 

@@ -17,7 +17,7 @@ from gbnbench.analysis.spectrum.periodogram import each_power
 from gbnbench.analysis.spectrum.shells import exact_shells
 from gbnbench.analysis.standard_errors import mean_over_sets
 from gbnbench.core.errors import InputError, RefusalError
-from gbnbench.core.results import RadialPower
+from gbnbench.core.results.radial import RadialPower
 from gbnbench.core.torus import FloatArray, as_realizations, spacing
 
 if TYPE_CHECKING:

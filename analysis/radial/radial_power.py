@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from gbnbench.analysis.spectrum.shells import Shells, annuli, digit_classes, exact_shells
 from gbnbench.core.errors import InputError
-from gbnbench.core.results import RadialPower, ShellSpectrum, Spectrum
+from gbnbench.core.results.radial import RadialPower, ShellSpectrum
+from gbnbench.core.results.spectrum import Spectrum
 from gbnbench.core.torus import FloatArray
 
 GROUPINGS = ("shells", "digits", "annuli")
@@ -41,7 +42,7 @@ def radial(spectrum: Spectrum | ShellSpectrum, by: str = "shells", width: float 
     Examples
     --------
     >>> import numpy as np
-    >>> from gbnbench.core.results import Spectrum
+    >>> from gbnbench.core.results.spectrum import Spectrum
     >>> flat = Spectrum(np.ones((5, 5)), n=9, d=2, realizations=1, fmax=2)
     >>> radial(flat).count.tolist()
     [4, 4, 4]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,7 @@ from gbnbench.analysis.spectrum.evaluators.registry import Method
 from gbnbench.analysis.spectrum.limits import check_fmax
 from gbnbench.analysis.spectrum.request import SpectrumRequest
 from gbnbench.core.errors import InputError
-from gbnbench.core.results import Spectrum
+from gbnbench.core.results.spectrum import Spectrum
 from gbnbench.core.torus import FloatArray, as_realizations
 from gbnbench.opencl import use_device
 
@@ -134,6 +135,39 @@ def each_power(x: FloatArray, fmax: int, precision: PrecisionName = "double") ->
     evaluator = choose(request, precision, None)
     powers, errors = evaluator.cube(x, fmax, None, half=False, mean=False)
     return powers, _spectrum(powers.mean(axis=0), request, evaluator, errors.averaged(sets, n))
+
+
+def each_listed_power(
+    x: FloatArray, frequencies: NDArray[np.int64], precision: PrecisionName = "double"
+) -> tuple[FloatArray, Spectrum]:
+    """Power of every realization at listed frequencies, and their mean.
+
+    Parameters
+    ----------
+    x : (realizations, n, d) float64
+        Checked points.
+    frequencies : (m, d) int64
+        Cycles per unit length.
+    precision : {"double", "float"}
+        As in ``periodogram``.
+
+    Returns
+    -------
+    powers : (realizations, m) float64
+    spectrum : Spectrum
+    """
+    each = [_listed(one[None], frequencies, precision, None, None, None) for one in x]
+    powers = np.stack([one.power for one in each])
+    errors = Errors(max(one.error_rms for one in each), max(one.error_bound for one in each))
+    errors = errors.averaged(*x.shape[:2])
+    mean = replace(
+        each[0],
+        power=powers.mean(axis=0),
+        realizations=len(x),
+        error_rms=errors.rms,
+        error_bound=errors.bound,
+    )
+    return powers, mean
 
 
 def _listed(

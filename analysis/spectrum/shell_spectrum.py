@@ -13,7 +13,7 @@ from gbnbench.analysis.spectrum.choice import choose
 from gbnbench.analysis.spectrum.limits import default_shell_fmax
 from gbnbench.analysis.spectrum.periodogram import check_weights
 from gbnbench.analysis.spectrum.request import shell_request
-from gbnbench.core.results import ShellSpectrum
+from gbnbench.core.results.radial import ShellSpectrum
 from gbnbench.core.torus import as_realizations, spacing
 from gbnbench.opencl import use_device
 

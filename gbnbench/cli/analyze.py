@@ -16,7 +16,7 @@ from gbnbench.core.errors import GbnbenchError
 if TYPE_CHECKING:
     import pandas as pd
 
-    from gbnbench.core.results import Measures
+    from gbnbench.core.results.measures import Measures
     from gbnbench.core.torus import FloatArray
     from gbnbench.io.points import ReadingOptions
 

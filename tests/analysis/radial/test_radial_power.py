@@ -9,7 +9,7 @@ from gbnbench.analysis.radial.radial_power import radial
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.shell_spectrum import shells
 from gbnbench.core.errors import InputError
-from gbnbench.core.results import Spectrum
+from gbnbench.core.results.spectrum import Spectrum
 
 
 def test_radial_power_is_the_mean_over_each_shell():
