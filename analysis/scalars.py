@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -18,20 +19,22 @@ from gbnbench.analysis.radial.profile_measures import (
     powerlaw_fit,
 )
 from gbnbench.analysis.radial.psa import spectral_statistics
-from gbnbench.analysis.radial.radial_power import mean_over_groups
+from gbnbench.analysis.radial.radial_power import mean_over_groups, shells_of
 from gbnbench.analysis.spatial.bond_order import bond_order, psi6
 from gbnbench.analysis.spatial.delaunay import Neighbours, neighbours
 from gbnbench.analysis.spatial.discrepancy import measure_discrepancies
 from gbnbench.analysis.spatial.discrepancy_kernels import Discrepancy
 from gbnbench.analysis.spatial.distances import mean_distance, min_distance
 from gbnbench.analysis.spatial.valence import valence6
-from gbnbench.analysis.spectrum.limits import check_fmax, default_fmax
+from gbnbench.analysis.spectrum.box_shells import pooled
+from gbnbench.analysis.spectrum.limits import default_fmax, default_radius
 from gbnbench.analysis.spectrum.periodogram import each_power
-from gbnbench.analysis.spectrum.shells import Shells, exact_shells
+from gbnbench.analysis.spectrum.shells import Shells
 from gbnbench.analysis.standard_errors import Estimate, jackknife, mean_over_sets
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.results.measures import Measures
 from gbnbench.core.results.radial import RadialPower
+from gbnbench.core.sides import Sides
 from gbnbench.core.torus import FloatArray
 
 NYQUIST_STEP = 0.005  # resolution of the effective Nyquist frequency, part of its error
@@ -46,14 +49,18 @@ class Scalars:
     points : (realizations, n, d) float64
         Checked points.
     fmax : int or None
-        Largest harmonic on each axis; None for as far as nu = 2, or as affordable (``default_fmax``).
+        Largest harmonic on each axis, or |k| for unequal sides; None for as far as nu = 2, or as affordable
+        (``default_fmax``).
+    sides : tuple of d floats, optional
+        As ``as_sides`` returns them; a cube if not given.
 
     Attributes
     ----------
     spectrum : Spectrum
         Mean over the realizations.
     radial : RadialPower
-        Its exact shells.
+        Its exact shells; where the sides are unequal these are pooled (``box_shells.pooled``), for profile fits
+        and anisotropy too. Noise floor, lowest power and peak are of frequencies and rings as they are.
 
     Notes
     -----
@@ -61,19 +68,25 @@ class Scalars:
     value and a standard error for each.
     """
 
-    def __init__(self, points: FloatArray, fmax: int | None) -> None:
-        self.points = points
+    def __init__(self, points: FloatArray, fmax: int | None, sides: Sides | None = None) -> None:
+        self.points, self.sides = points, sides
         realizations, n, d = points.shape
-        self.fmax = check_fmax(default_fmax(n, d, realizations) if fmax is None else fmax, d)
-        self.powers, self.spectrum = each_power(points, self.fmax)
-        self.shells: Shells = exact_shells(self.fmax, d)
+        if fmax is None:
+            fmax = (
+                default_fmax(n, d, realizations)
+                if sides is None
+                else default_radius(n, d, realizations, sides)
+            )
+        self.powers, self.spectrum = each_power(points, fmax, sides=sides)
+        self._exact: Shells = shells_of(self.spectrum)
+        self.shells = self._exact if sides is None else pooled(self._exact, d)
         self.radial = mean_over_groups(self.spectrum.power, self.shells, self.spectrum.spacing)
         self._neighbours: Sequence[Neighbours] | None = None
 
     def neighbours(self) -> Sequence[Neighbours]:
         """Delaunay neighbours of every set, triangulated once."""
         if self._neighbours is None:
-            self._neighbours = neighbours(self.points)
+            self._neighbours = neighbours(self.points, self.sides)
         return self._neighbours
 
     def measures(self) -> Measures:
@@ -97,17 +110,26 @@ class Scalars:
 
     def _of_spectrum(self) -> list[_Entry]:
         """Measures of the mean spectrum, their errors by the jackknife over sets."""
-        rows = np.stack([self.shells.mean(power) for power in self.powers])
-        realizations = len(rows)
+        realizations = len(self.powers)
+        exact = self.radial
+        if self.shells is not self._exact:
+            exact = mean_over_groups(self.spectrum.power, self._exact, self.spectrum.spacing)
 
-        def profile(compute: Callable[[RadialPower], Sequence[float]]) -> Callable[[], list[Estimate]]:
-            def with_power(power: FloatArray) -> RadialPower:
-                return RadialPower(self.radial.frequency, self.radial.nu, power, self.radial.count)
+        def rows_of(shells: Shells) -> FloatArray:
+            return np.stack([shells.mean(power) for power in self.powers])
+
+        rows = rows_of(self._exact)
+        pooled_rows = rows if self.shells is self._exact else rows_of(self.shells)
+
+        def profile(
+            compute: Callable[[RadialPower], Sequence[float]], *, pool: bool = False
+        ) -> Callable[[], list[Estimate]]:
+            radial, each = (self.radial, pooled_rows) if pool else (exact, rows)
 
             def left_out(k: int) -> Sequence[float]:
-                return compute(with_power((rows.sum(axis=0) - rows[k]) / (realizations - 1)))
+                return compute(replace(radial, power=(each.sum(axis=0) - each[k]) / (realizations - 1)))
 
-            return lambda: jackknife(compute(self.radial), left_out, realizations)
+            return lambda: jackknife(compute(radial), left_out, realizations)
 
         def directional() -> list[Estimate]:
             spacing, total = self.spectrum.spacing, self.powers.sum(axis=0)
@@ -136,8 +158,8 @@ class Scalars:
         return [
             (("noise_floor",), profile(lambda r: [noise_floor(r)])),
             (("power_at_1",), profile(lambda r: [power_at_1(r)])),
-            (("profile_epsilon", "profile_c", "profile_residual_db"), profile(exponential)),
-            (("powerlaw_exponent", "powerlaw_residual_db"), profile(powerlaw)),
+            (("profile_epsilon", "profile_c", "profile_residual_db"), profile(exponential, pool=True)),
+            (("powerlaw_exponent", "powerlaw_residual_db"), profile(powerlaw, pool=True)),
             (("peak", "peak_nu"), summit),
             (("anisotropy_db",), directional),
         ]
@@ -147,11 +169,11 @@ class Scalars:
         _, n, d = self.points.shape
 
         def energy() -> list[Estimate]:
-            each = [evacuated_energy(power, n, d, self.fmax) for power in self.powers]
+            each = [evacuated_energy(power, n, d, self.spectrum.fmax, self.sides) for power in self.powers]
             return [mean_over_sets(np.array(each))]
 
         def psa() -> list[Estimate]:
-            statistics = spectral_statistics(self.points)
+            statistics = spectral_statistics(self.points, self.sides)
             return [
                 (
                     statistics.effective_nyquist,
@@ -172,8 +194,8 @@ class Scalars:
 
         return [
             (("evacuated_energy",), energy),
-            (("min_distance",), lambda: [mean_over_sets(min_distance(self.points))]),
-            (("mean_distance",), lambda: [mean_over_sets(mean_distance(self.points))]),
+            (("min_distance",), lambda: [mean_over_sets(min_distance(self.points, self.sides))]),
+            (("mean_distance",), lambda: [mean_over_sets(mean_distance(self.points, self.sides))]),
             (("bond_order",), lambda: [mean_over_sets(bond_order(self.neighbours()))]),
             (("psi6",), lambda: [mean_over_sets(psi6(self.neighbours()))]),
             (("valence6",), lambda: [mean_over_sets(valence6(self.neighbours()))]),

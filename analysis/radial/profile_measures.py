@@ -7,13 +7,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gbnbench.analysis.spectrum.limits import FLOOR_NU
 from gbnbench.analysis.spectrum.shells import EDGE, in_band, squared_radius
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.results.radial import RadialPower
+from gbnbench.core.sides import Sides, squared_lengths
 from gbnbench.core.torus import FloatArray
 
 TIE = 1e-9  # relative difference at or below which two powers count as equal
@@ -139,15 +142,17 @@ def powerlaw_fit(radial: RadialPower) -> Fit:
     return _fit(radial, logarithmic=True)
 
 
-def evacuated_energy(power: FloatArray, n: int, d: int, fmax: int) -> float:
+def evacuated_energy(power: FloatArray, n: int, d: int, fmax: int, sides: Sides | None = None) -> float:
     """Evacuated energy of one set: -(1/n) sum of ln P(f) over all f with 0 < nu < 1 and P(f) < 1.
 
     Parameters
     ----------
     power : (2*fmax+1,)*d float64
-        Power of that set alone, the whole cube.
+        Power of that set alone, the whole cube or box.
     n, d, fmax : int
-        Its points, dimension and largest harmonic.
+        Its points, dimension and largest harmonic; for unequal sides the |k| up to which the box is whole.
+    sides : tuple of d floats, optional
+        As ``as_sides`` returns them; a cube if not given.
 
     Returns
     -------
@@ -160,11 +165,16 @@ def evacuated_energy(power: FloatArray, n: int, d: int, fmax: int) -> float:
         If the cube ends below nu = 1, or a power is 0 to rounding (its logarithm is unknown).
     """
     edge = math.pow(n, 1 / d) * (1 - EDGE)
-    if fmax + 1 < edge:
+    needed = math.ceil(edge) - (sides is None)  # a cube holds all |f| < fmax + 1
+    if fmax < needed:
         raise RefusalError(
-            f"evacuated energy needs every frequency with nu < 1: fmax >= {math.ceil(edge) - 1}, here {fmax}"
+            f"evacuated energy needs every frequency with nu < 1: fmax >= {needed}, here {fmax}"
         )
-    r2 = squared_radius(fmax, d)
+    r2: NDArray[Any]
+    if sides is None:
+        r2 = squared_radius(fmax, d)
+    else:
+        r2 = squared_lengths(tuple(size // 2 for size in power.shape), sides).ravel()
     chosen = power.ravel()[(r2 > 0) & (r2 < edge * edge)]
     if (chosen <= ROUNDING_POWER).any():
         raise RefusalError("evacuated energy is unbounded: the power of some frequency is 0 to rounding")
