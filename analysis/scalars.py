@@ -30,7 +30,7 @@ from gbnbench.analysis.spectrum.box_shells import pooled
 from gbnbench.analysis.spectrum.limits import default_fmax, default_radius
 from gbnbench.analysis.spectrum.periodogram import each_power
 from gbnbench.analysis.spectrum.shells import Shells
-from gbnbench.analysis.standard_errors import Estimate, jackknife, mean_over_sets
+from gbnbench.analysis.standard_errors import Estimate, jackknife, left_out_sums, mean_over_sets
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.results.measures import Measures
 from gbnbench.core.results.radial import RadialPower
@@ -59,8 +59,8 @@ class Scalars:
     spectrum : Spectrum
         Mean over the realizations.
     radial : RadialPower
-        Its exact shells; where the sides are unequal these are pooled (``box_shells.pooled``), for profile fits
-        and anisotropy too. Noise floor, lowest power and peak are of frequencies and rings as they are.
+        Its exact shells. Where the sides are unequal these are pooled (``box_shells.pooled``), for profile
+        fits and anisotropy too; noise floor, lowest power and peak are of frequencies and rings as they are.
 
     Notes
     -----
@@ -126,21 +126,23 @@ class Scalars:
         ) -> Callable[[], list[Estimate]]:
             radial, each = (self.radial, pooled_rows) if pool else (exact, rows)
 
-            def left_out(k: int) -> Sequence[float]:
-                return compute(replace(radial, power=(each.sum(axis=0) - each[k]) / (realizations - 1)))
+            def estimates() -> list[Estimate]:
+                others = (
+                    compute(replace(radial, power=power / (realizations - 1)))
+                    for power in left_out_sums(each)
+                )
+                return jackknife(compute(radial), others, realizations)
 
-            return lambda: jackknife(compute(radial), left_out, realizations)
+            return estimates
 
         def directional() -> list[Estimate]:
-            spacing, total = self.spectrum.spacing, self.powers.sum(axis=0)
+            def decibels(power: FloatArray, sets: int) -> list[float]:
+                return [anisotropy_db(power, self.shells, sets, self.spectrum.spacing)]
 
-            def left_out(k: int) -> Sequence[float]:
-                rest = (total - self.powers[k]) / (realizations - 1)
-                return [anisotropy_db(rest, self.shells, realizations - 1, spacing)]
-
-            whole = [anisotropy_db(self.spectrum.power, self.shells, realizations, spacing)]
             # Left-out spectra read -10 log10(M - 1): the same shift for each, so the spread is not touched.
-            return jackknife(whole, left_out, realizations)
+            rest = realizations - 1
+            others = (decibels(total / rest, rest) for total in left_out_sums(self.powers))
+            return jackknife(decibels(self.spectrum.power, realizations), others, realizations)
 
         def exponential(radial: RadialPower) -> Sequence[float]:
             fit = exponential_fit(radial)

@@ -91,8 +91,8 @@ def anisotropy(spectrum: Spectrum | ShellSpectrum) -> pd.DataFrame:
     with np.errstate(divide="ignore", invalid="ignore"):
         ours = 10 * np.log10(pooled(deviation) / pooled(freedom))
         mean = pooled(m * shells.power) / total
-        squares = pooled(shells.deviation + m * shells.power**2)
-        psa = 10 * np.log10((squares - total * mean**2) / (total - 1) / mean**2)
+        around = pooled(shells.deviation + m * (shells.power - mean[ring]) ** 2)
+        psa = 10 * np.log10(around / (total - 1) / mean**2)
     psa[mean <= ROUNDING_POWER] = np.nan
     return pd.DataFrame(
         {"frequency": rings, "nu": rings * shells.spacing, "anisotropy_db": ours, "psa_db": psa}

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from scipy.special import j0
 
 from gbnbench.analysis.spatial.rdf import pair_density
+from gbnbench.analysis.standard_errors import left_out_sums, sample_variance
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.sides import Sides, as_sides, shortest_side
 from gbnbench.core.torus import FloatArray, as_realizations
@@ -169,12 +170,12 @@ def _power(density: FloatArray, frequency: FloatArray, n: int, total: int) -> Fl
 def _left_out(power: FloatArray) -> FloatArray:
     """Mean power of all sets but one, for each; nothing for a single set."""
     sets = len(power)
-    return (power.sum(axis=0) - power) / (sets - 1) if sets > 1 else power[:0]
+    return np.array(list(left_out_sums(power))) / (sets - 1) if sets > 1 else power[:0]
 
 
 def _jackknife(left_out: FloatArray) -> float:
     sets = len(left_out)
-    return math.sqrt((sets - 1) * float(np.var(left_out))) if sets > 1 else math.nan
+    return (sets - 1) * math.sqrt(float(sample_variance(left_out)) / sets) if sets > 1 else math.nan
 
 
 def _rise(power: FloatArray) -> int:

@@ -99,7 +99,7 @@ def with_sides(spectrum: Spectrum, sides: ArrayLike) -> Spectrum:
     Returns
     -------
     Spectrum
-        With the sides, and with the |k| up to which its cube holds every frequency as ``fmax``.
+        The same power, with the sides.
 
     Raises
     ------

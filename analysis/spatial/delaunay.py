@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gbnbench.analysis.spatial.delaunay_stars import Star, star_in_plane, star_in_space
+from gbnbench.core.double_double import two_sum
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.periodic_delaunay import copies, images_in_box, triangulation, with_images
 from gbnbench.core.sides import Sides, as_sides, positions
@@ -173,7 +174,12 @@ def _triangulate(x: FloatArray, sides: Sides | None) -> Neighbours:
         simplices = _inner_simplices(tiled, n)
         star = 0.0 if simplices is None else star_of(tiled, simplices, n, h, margin, sides)
         if isinstance(star, Star):
-            return Neighbours(star.indptr, owner[star.image], tiled[star.image] - x[star.point])
+            index = owner[star.image]
+            box = 1.0 if sides is None else np.array(sides)
+            turns = np.rint((tiled[star.image] - x[index]) / box) * box
+            # The tiling's own coordinates are rounded to 1e-16 of the box, which near neighbours would feel.
+            difference, rest = two_sum(x[index], -x[star.point])
+            return Neighbours(star.indptr, index, (difference + turns) + rest)
         if margin >= widest:
             raise RefusalError(
                 f"Delaunay neighbours need points apart; some of these n={n} are too near for doubles"

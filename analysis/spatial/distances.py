@@ -5,12 +5,21 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 from scipy.spatial import cKDTree
 
 from gbnbench.core.errors import RefusalError
-from gbnbench.core.sides import as_sides, positions
-from gbnbench.core.torus import HERMITE, FloatArray, as_realizations, densest_spacing
+from gbnbench.core.sides import Sides, as_sides, positions
+from gbnbench.core.torus import (
+    HERMITE,
+    FloatArray,
+    as_realizations,
+    densest_spacing,
+    displacement,
+)
+
+NEAR = 1e-9  # box sides; a distance below which the tree's rounding may exceed 1e-7 of it
+CANDIDATES = 8
 
 
 def nearest_distances(x: ArrayLike, sides: ArrayLike | None = None) -> FloatArray:
@@ -45,10 +54,35 @@ def nearest_distances(x: ArrayLike, sides: ArrayLike | None = None) -> FloatArra
         )
     if n < 2:
         raise RefusalError("a distance between points needs n >= 2; got n=1")
-    box = np.ones(d) if lengths is None else np.array(lengths)
-    placed = positions(sets, lengths)
-    nearest = [np.asarray(cKDTree(points, boxsize=box).query(points, k=2)[0])[:, 1] for points in placed]
-    return np.array(nearest, dtype=np.float64) / unit
+    return np.array([_nearest(points, lengths) for points in sets]) / unit
+
+
+def _nearest(points: FloatArray, sides: Sides | None) -> FloatArray:
+    """Distance from each point to its nearest neighbour, in box sides: (n,).
+
+    The tree's own distances are rounded to 1e-16 of the box where the neighbour lies across the border, so
+    it only names candidates; more of them where that rounding might hide which is the nearest.
+    """
+    n, d = points.shape
+    box = np.ones(d) if sides is None else np.array(sides)
+    placed = positions(points, sides)
+    tree = cKDTree(placed, boxsize=box)
+    nearest = _shortest(points, box, np.arange(n), np.asarray(tree.query(placed, k=2)[1]))
+    near = np.flatnonzero(nearest < NEAR)
+    if len(near):
+        candidates = tree.query(placed[near], k=min(n, CANDIDATES))[1]
+        nearest[near] = _shortest(points, box, near, np.asarray(candidates))
+    return nearest
+
+
+def _shortest(
+    points: FloatArray, box: FloatArray, of: NDArray[np.intp], candidates: NDArray[np.intp]
+) -> FloatArray:
+    """Shortest distance from each of some points to its candidates, itself left out."""
+    between = displacement(points[candidates], points[of][:, None]) * box
+    distance = np.sqrt(np.sum(between**2, axis=-1))
+    distance[candidates == of[:, None]] = np.inf
+    return np.asarray(distance.min(axis=1))
 
 
 def min_distance(x: ArrayLike, sides: ArrayLike | None = None) -> FloatArray:

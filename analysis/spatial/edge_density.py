@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gbnbench.analysis.standard_errors import sample_variance
 from gbnbench.core.errors import InputError
 from gbnbench.core.sides import as_sides
 from gbnbench.core.torus import FloatArray, as_realizations
@@ -105,21 +106,13 @@ def edge_density(
         raise InputError(f"width and depth must be 0 < width <= depth, spacings; got {width} and {depth}")
     sets, n, d = points.shape
     lengths = as_sides(sides, d)
-    unit = n ** (1 / d)
-    side = unit if lengths is None else unit * np.array(lengths)
+    side = n ** (1 / d) * (np.ones(d) if lengths is None else np.array(lengths))
     last = min(depth, float(np.min(side)) / 2)
     edges = np.append(np.arange(0, last - width / 1e6, width), last)
-    depths = np.minimum(points, 1 - points)
-    if lengths is None:
-        distance = depths.min(axis=2) * side  # (sets, n)
-        volume = -np.diff((1 - np.minimum(2 * edges / side, 1)) ** d)
-        gaps = [points.min(axis=1), 1 - points.max(axis=1)]
-        extremes = np.concatenate(gaps, axis=1).mean(axis=1) * side
-    else:
-        distance = (depths * side).min(axis=2)
-        volume = -np.diff(np.prod(1 - np.minimum(2 * edges[:, None] / side, 1), axis=1))
-        gaps = [points.min(axis=1) * side, (1 - points.max(axis=1)) * side]
-        extremes = np.concatenate(gaps, axis=1).mean(axis=1)
+    distance = (np.minimum(points, 1 - points) * side).min(axis=2)  # (sets, n)
+    volume = _shell_volumes(np.minimum(2 * edges[:, None] / side, 1))
+    gaps = [points.min(axis=1) * side, (1 - points.max(axis=1)) * side]
+    extremes = np.concatenate(gaps, axis=1).mean(axis=1)
     counts = np.stack([np.histogram(each, edges)[0] for each in distance])
     share = counts / n
     density = share / volume
@@ -138,4 +131,17 @@ def _error(values: FloatArray) -> FloatArray:
     """Return the standard error of the mean over the first axis; nan for a single value."""
     if len(values) < 2:
         return np.full(values.shape[1:], np.nan)
-    return np.asarray(values.std(axis=0, ddof=1) / math.sqrt(len(values)))
+    return np.sqrt(sample_variance(values) / len(values))
+
+
+def _shell_volumes(cut: FloatArray) -> FloatArray:
+    """Volumes between the boxes of sides 1 - a and 1 - b, for cuts a < b: (bins + 1, d) -> (bins,).
+
+    They are summed axis by axis, since a difference of two products near 1 would cancel.
+    """
+    outer, inner = 1 - cut[:-1], 1 - cut[1:]
+    parts = [
+        outer[:, :a].prod(axis=1) * np.diff(cut[:, a]) * inner[:, a + 1 :].prod(axis=1)
+        for a in range(cut.shape[1])
+    ]
+    return np.asarray(np.sum(parts, axis=0))

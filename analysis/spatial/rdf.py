@@ -125,7 +125,8 @@ def pair_density(sets: FloatArray, bins: int, width: float, sides: Sides | None 
         raise RefusalError("pairs need n >= 2; got n=1")
     index = np.arange(bins, dtype=np.float64)
     ball = math.pi ** (d / 2) / math.gamma(d / 2 + 1) * width**d
-    expected = n * (n - 1) / 2 * ball * ((index + 1) ** d - index**d)
+    shells = sum(math.comb(d, k) * index**k for k in range(d))  # (index + 1)^d - index^d
+    expected = n * (n - 1) / 2 * ball * shells
     return np.asarray(np.array([pair_counts(points, bins, width, sides) for points in sets]) / expected)
 
 

@@ -45,7 +45,7 @@ def harmonics_within(radius: float, sides: Sides) -> tuple[int, ...]:
 
 
 def equal_lengths(square: FloatArray) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Number the groups of equal |k|^2, ascending.
+    """Give numbers to the groups of equal |k|^2, ascending.
 
     Parameters
     ----------
@@ -125,7 +125,7 @@ def _ball(harmonics: tuple[int, ...], sides: Sides, radius: float) -> tuple[Floa
 
 
 def pools(count: NDArray[np.int64], d: int) -> NDArray[np.int64]:
-    """Number the pools of consecutive shells, each with 2^d independent frequencies at least.
+    """Give numbers to the pools of consecutive shells, each with 2^d independent frequencies at least.
 
     Parameters
     ----------

@@ -79,7 +79,19 @@ def half_size(axes: Axes) -> int:
 
 
 def each_axis(d: int, fmax: Harmonics) -> tuple[int, ...]:
-    """Give the largest harmonic on each of d axes, of a cube or of a box."""
+    """Give the largest harmonic on each axis, of a cube or of a box.
+
+    Parameters
+    ----------
+    d : int
+        Dimension.
+    fmax : int or tuple of d ints
+        One number for every axis of a cube, or one an axis.
+
+    Returns
+    -------
+    tuple of d ints
+    """
     return (fmax,) * d if isinstance(fmax, int) else fmax
 
 

@@ -42,7 +42,7 @@ def periodogram(
     x : (n, d) or (realizations, n, d) array_like
         Points on the unit torus; power is averaged over realizations.
     fmax : int
-        Largest harmonic on each axis, cycles per unit length, at least 1. For unequal sides the largest |k|.
+        Largest harmonic on each axis, cycles per unit length, at least 1; with sides the largest |k|.
     precision : {"double", "float"}
         Precision of the phases, tables and sums of 128 points; those sums are added in double where the
         device has it. With a floor, "double" stands for whichever precision resolves it.
@@ -78,8 +78,8 @@ def periodogram(
     ------
     InputError
         If x is not points of [0, 1)^d, fmax is not a positive integer, both or neither of fmax and
-        frequencies are given, weights or sides do not fit, floor is below what any evaluator resolves, or the cube
-        does not fit in memory (the text says what would).
+        frequencies are given, weights or sides do not fit, floor is below what any evaluator resolves, or the
+        cube does not fit in memory (the text says what would).
     DeviceError
         If the OpenCL device lacks the precision. Without any device numpy computes.
 

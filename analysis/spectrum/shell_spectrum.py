@@ -70,8 +70,8 @@ def shells(
     Raises
     ------
     InputError
-        If x, fmax, band, weights or sides are not what they must be, (2*fmax+1)**d exceeds 2^63, or corners are
-        asked for of a torus with unequal sides.
+        If x, fmax, band, weights or sides are not what they must be, (2*fmax+1)**d exceeds 2^63, or corners
+        are asked for of a torus with unequal sides.
     DeviceError
         If the OpenCL device lacks the precision.
 

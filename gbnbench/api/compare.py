@@ -8,8 +8,9 @@ from pathlib import Path
 from gbnbench.api.comparison import Comparison, draw
 from gbnbench.api.source_arguments import SourceLike, as_sources
 from gbnbench.execution import progress
+from gbnbench.io.points import ReadingOptions
 from gbnbench.opencl import use_device
-from gbnbench.runs.sources import DEFAULT_SOURCES
+from gbnbench.runs.sources import DEFAULT_READING, DEFAULT_SOURCES
 from gbnbench.studies.comparison import run_comparison
 
 
@@ -25,6 +26,7 @@ def compare(
     jobs: int | None = None,
     quiet: bool = False,
     device: str | None = None,
+    reading: ReadingOptions = DEFAULT_READING,
     pictures: bool = False,
     command: str = "gbnbench.compare",
 ) -> Comparison:
@@ -54,6 +56,8 @@ def compare(
         No progress on standard error.
     device : str, optional
         Part of the name of the OpenCL device, or its position, as in ``GBNBENCH_DEVICE``, which it overrides.
+    reading : ReadingOptions
+        How files are read: columns, box and so on, as ``load`` takes them; the same for all.
     pictures : bool
         Also write report.html and the figures into the folder; ``Comparison.report`` makes them later.
     command : str
@@ -89,7 +93,7 @@ def compare(
     True
     """
     with use_device(device):
-        found, skipped = as_sources(sources, n, d, realizations)
+        found, skipped = as_sources(sources, n, d, realizations, reading)
         with progress.choose(quiet) as shown:
             done = run_comparison(
                 found,

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gbnbench.core.errors import InputError
-from gbnbench.reports.comparison import table
+from gbnbench.reports.comparison import markdown, table, terminal
 from gbnbench.reports.comparison.figure_files import planned, png, write_figures
 from gbnbench.reports.html.page import write_report
 from gbnbench.runs.baseline import Change
@@ -111,7 +111,7 @@ class Comparison:
         InputError
             If there is no column of such a name.
         """
-        return table.markdown_table(self.run, measures, errors=errors)
+        return markdown.markdown_table(self.run, measures, errors=errors)
 
     @property
     def sources(self) -> tuple[SourceResult, ...]:
@@ -170,7 +170,7 @@ class Comparison:
         return path
 
     def __str__(self) -> str:
-        return table.terminal_text(self.run)
+        return terminal.terminal_text(self.run)
 
     def _repr_html_(self) -> str:
         """Return the table and the main pictures, for a notebook."""

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
     from gbnbench.analysis.integration.integrands.protocol import Family
+    from gbnbench.io.points import ReadingOptions
     from gbnbench.studies.integration.study import IntegrationStudy
 
 UNTOLD = " (nothing foretold: not periodic, or its spectrum not known or too long here)"
@@ -79,6 +80,7 @@ def _settings(family: Family) -> str:
     help="List the families of integrands.",
 )  # fmt: skip
 @options.out_folder("Folder of results.  [default: runs/NAME, by the settings]")
+@options.reading
 @options.realizations(16)
 @options.seed
 @options.jobs
@@ -98,6 +100,7 @@ def integrate(
     jobs: int | None,
     as_json: bool,
     quiet: bool,
+    reading: ReadingOptions,
 ) -> None:
     """Variance of integrals estimated by point sets.
 
@@ -121,6 +124,7 @@ def integrate(
         out=out,
         jobs=jobs,
         quiet=quiet,
+        reading=reading,
         pictures=True,
         command=shlex.join(["gbnbench", *sys.argv[1:]]),
     )

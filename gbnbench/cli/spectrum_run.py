@@ -13,13 +13,14 @@ import numpy as np
 
 from gbnbench.analysis.spectrum.settings import SpectrumSettings
 from gbnbench.cli.json_text import json_text
+from gbnbench.cli.point_files import naming, read_cube
 from gbnbench.cli.spectrum_output import check_format, places, write
 from gbnbench.cli.spectrum_text import as_record, as_text
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
 from gbnbench.execution import progress
 from gbnbench.io.lists import read_weights
-from gbnbench.io.points import read
+from gbnbench.io.points import ReadingOptions
 
 SLOW = 3.0  # expected seconds that are said beforehand
 PATIENCE = 1.0  # seconds before progress is shown
@@ -44,13 +45,15 @@ class Sets:
     x: FloatArray
 
 
-def read_sets(files: Sequence[Path], *, each: bool) -> list[Sets]:
+def read_sets(files: Sequence[Path], reading: ReadingOptions, *, each: bool) -> list[Sets]:
     """Read every set of the files: one entry a set, or one of all, which then agree in n and d.
 
     Parameters
     ----------
     files : sequence of Path
         Point-set files.
+    reading : ReadingOptions
+        How they are read.
     each : bool
         Whether every set has a spectrum of its own.
 
@@ -68,7 +71,7 @@ def read_sets(files: Sequence[Path], *, each: bool) -> list[Sets]:
     names: list[str] = []
     sets: list[FloatArray] = []
     for path in files:
-        found = read(path)
+        found = read_cube(path, reading)
         names += [f"{path}, set {k}" if len(found) > 1 else str(path) for k in range(len(found))]
         sets += found
     if each or not sets:
@@ -159,7 +162,7 @@ def compute(
                 one = replace(one, label=f"{one.label} weighted by {weights}")
             if settings.sigma is not None:
                 one = replace(one, label=f"{one.label} filtered by a Gaussian of {settings.sigma:g} spacings")
-            with _bar(plan.request.frequencies, quiet) as tell:
+            with naming(Path(one.label)), _bar(plan.request.frequencies, quiet) as tell:
                 result = settings.evaluate(one.x, w, tell)
             if paths:
                 write(paths[k], result, one.label, one.sources)

@@ -10,6 +10,7 @@ from typing import Any, Literal
 
 from matplotlib.figure import Figure, SubFigure
 
+from gbnbench.io.points import ReadingOptions
 from gbnbench.reports import style
 from gbnbench.reports.paper.data import DataRequest
 
@@ -30,11 +31,14 @@ class FigureOptions:
         sets.
     seed : int
         Seed of all data.
+    reading : ReadingOptions
+        How the files of sets are read.
     """
 
     scale: Scale
     sets: Mapping[str, str] = field(default_factory=dict)
     seed: int = 0
+    reading: ReadingOptions = field(default_factory=ReadingOptions)
 
     def pick(self, tiny: Any, quick: Any, full: Any) -> Any:
         """Return the value for this scale.

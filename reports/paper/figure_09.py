@@ -70,7 +70,9 @@ def needs(options: FigureOptions) -> Mapping[str, DataRequest]:
             sources, SIZES[options.scale][d], (d,), sets, FAMILIES, instances
         )
     for name, path in options.sets.items():
-        requests[_user_study(name)] = IntegrationRequest((path,), (1,), (1,), 1, FAMILIES, instances)
+        requests[_user_study(name)] = IntegrationRequest(
+            (path,), (1,), (1,), 1, FAMILIES, instances, reading=options.reading
+        )
     return requests
 
 

@@ -132,7 +132,11 @@ def user_set_requests(options: FigureOptions, methods: Iterable[str]) -> dict[st
     dict
         Method -> request, for the methods that the user gave sets of.
     """
-    return {name: ComparisonRequest((options.sets[name],)) for name in methods if name in options.sets}
+    return {
+        name: ComparisonRequest((options.sets[name],), reading=options.reading)
+        for name in methods
+        if name in options.sets
+    }
 
 
 def missing_sets_note(options: FigureOptions, methods: Iterable[str], whose: str = "of the paper") -> str:

@@ -49,7 +49,7 @@ def check_sets(figures: Sequence[PaperFigure], options: FigureOptions) -> None:
             raise InputError(
                 f"--sets {name}: figure {asked} shows no sets of it; figures 1, 8 and 9 show any method"
             )
-        found = sorted({source.d for source in resolve([path], (1,), (1,), 1)[0]})
+        found = sorted({source.d for source in resolve([path], (1,), (1,), 1, options.reading)[0]})
         fits = (2, 3, 8) if set(shows) & set(ANY_DIMENSION) else (2,)
         if not set(found) & set(fits):
             raise InputError(

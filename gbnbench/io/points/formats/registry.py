@@ -5,6 +5,8 @@ A format is a module here that defines a ``Format``, and its line in ``FORMATS``
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from gbnbench.core.errors import FormatError
 from gbnbench.io.points.file_format import LEGIBLE
 from gbnbench.io.points.formats.eps import EPS
@@ -13,10 +15,30 @@ from gbnbench.io.points.formats.npy import NPY
 from gbnbench.io.points.formats.npz import NPZ
 from gbnbench.io.points.formats.rps import RPS
 from gbnbench.io.points.formats.text import TEXT
-from gbnbench.io.points.point_file import PointFile
+from gbnbench.io.points.point_file import PACKED, PointFile
 
 FORMATS = (NPY, NPZ, EPS, RPS, TEXT)
 SUFFIXES = tuple(suffix for format_ in FORMATS for suffix in format_.suffixes)
+# what point sets of a folder end in; its JSON files mostly tell of the others
+FOLDER_SUFFIXES = tuple(suffix for suffix in SUFFIXES if suffix != ".json")
+
+
+def in_folders(path: Path) -> bool:
+    """Whether a file of a folder is taken for a point set: by its suffix, that of a compression apart.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Returns
+    -------
+    bool
+        False for hidden files too.
+    """
+    name = path.name.lower()
+    packed = next((suffix for suffix in PACKED if name.endswith(suffix)), "")
+    return not name.startswith(".") and name.removesuffix(packed).endswith(FOLDER_SUFFIXES)
 
 
 def format_of(file: PointFile) -> Format:

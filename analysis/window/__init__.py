@@ -1,0 +1,1 @@
+"""Estimates for points seen in a window that is no torus: a rectangle, or a box of any dimension."""
