@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, TypeVar
 
 from numpy.typing import ArrayLike
 
-from gbnbench.analysis.radial.anisotropy import anisotropy
 from gbnbench.analysis.radial.border_warning import border_warnings
 from gbnbench.analysis.scalars import Scalars
 from gbnbench.analysis.spatial.rdf import rdf
@@ -78,7 +77,8 @@ def measures(
         are of the mean spectrum.
     fmax : int, optional
         Largest harmonic on each axis, or |k| for unequal sides; by default as far as nu = 2, or as affordable
-        (``default_fmax``).
+        (``default_fmax``). Where a cube of frequencies is not, as in d = 20, exact shells are taken as far as
+        they go.
     sides : (d,) array_like, optional
         Lengths of the torus's sides in any unit, whose ratios count; a cube if not given. Lengths and |k| are
         then those of the rectangle or box, in units of its volume^(1/d); discrepancies do not change.
@@ -150,14 +150,15 @@ def analyse(x: ArrayLike, fmax: int | None = None, sides: ArrayLike | None = Non
     points = as_realizations(x)
     lengths = as_sides(sides, points.shape[2])
     scalars = Scalars(points, fmax, lengths)
+    found = scalars.measures()  # first: it may take the shells farther
     return Analysis(
         spectrum=scalars.spectrum,
         radial=scalars.radial,
-        anisotropy=anisotropy(scalars.spectrum),
+        anisotropy=scalars.anisotropy(),
         rdf=_unless_refused(lambda: rdf(points, lengths).to_frame()),
         valence=_unless_refused(lambda: valence(scalars.neighbours()).to_frame()),
         zone_plate=_unless_refused(lambda: zone_plate(points, sides=lengths)),
-        measures=scalars.measures(),
+        measures=found,
         warnings=border_warnings(scalars.spectrum, scalars.radial),
     )
 

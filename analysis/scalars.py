@@ -4,38 +4,32 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from functools import cached_property, partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from gbnbench.analysis.measure_definitions import DEFINITIONS
-from gbnbench.analysis.radial.anisotropy import anisotropy_db
-from gbnbench.analysis.radial.profile_measures import (
-    evacuated_energy,
-    exponential_fit,
-    noise_floor,
-    peak,
-    power_at_1,
-    powerlaw_fit,
-)
+from gbnbench.analysis.radial.anisotropy import anisotropy
 from gbnbench.analysis.radial.psa import spectral_statistics
-from gbnbench.analysis.radial.radial_power import mean_over_groups, shells_of
+from gbnbench.analysis.set_powers import SetPowers, farther_powers, set_powers
 from gbnbench.analysis.spatial.bond_order import bond_order, psi6
 from gbnbench.analysis.spatial.delaunay import Neighbours, neighbours
-from gbnbench.analysis.spatial.discrepancy import measure_discrepancies
+from gbnbench.analysis.spatial.discrepancy import DiscrepancyResult, measure_discrepancies
 from gbnbench.analysis.spatial.discrepancy_kernels import Discrepancy
 from gbnbench.analysis.spatial.distances import mean_distance, min_distance
 from gbnbench.analysis.spatial.valence import valence6
-from gbnbench.analysis.spectrum.box_shells import pooled
-from gbnbench.analysis.spectrum.limits import default_fmax, default_radius
-from gbnbench.analysis.spectrum.periodogram import each_power
-from gbnbench.analysis.spectrum.shells import Shells
-from gbnbench.analysis.standard_errors import Estimate, jackknife, left_out_sums, mean_over_sets
-from gbnbench.core.errors import RefusalError
+from gbnbench.analysis.spectral_scalars import spectral_scalars
+from gbnbench.analysis.spectrum.listed_shells import shell_sizes
+from gbnbench.analysis.standard_errors import Estimate, mean_over_sets
+from gbnbench.core.errors import RefusalError, ShortSpectrumError
 from gbnbench.core.results.measures import Measures
 from gbnbench.core.results.radial import RadialPower
 from gbnbench.core.sides import Sides
 from gbnbench.core.torus import FloatArray
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 NYQUIST_STEP = 0.005  # resolution of the effective Nyquist frequency, part of its error
 _Entry = tuple[tuple[str, ...], Callable[[], list[Estimate]]]
@@ -56,38 +50,68 @@ class Scalars:
 
     Attributes
     ----------
+    near : SetPowers
+        Power of every set: cubes where they are affordable, else the shells of a ball.
     spectrum : Spectrum
-        Mean over the realizations.
-    radial : RadialPower
-        Its exact shells. Where the sides are unequal these are pooled (``box_shells.pooled``), for profile
-        fits and anisotropy too; noise floor, lowest power and peak are of frequencies and rings as they are.
+        Their mean over the realizations.
 
     Notes
     -----
-    A new measure is one more entry of ``_of_spectrum`` or ``_of_sets``: its names and a function that gives a
-    value and a standard error for each.
+    A new measure is one more entry of ``spectral_scalars`` or ``_of_sets``: its names and a function that
+    gives a value and a standard error for each.
     """
 
     def __init__(self, points: FloatArray, fmax: int | None, sides: Sides | None = None) -> None:
         self.points, self.sides = points, sides
-        realizations, n, d = points.shape
-        if fmax is None:
-            fmax = (
-                default_fmax(n, d, realizations)
-                if sides is None
-                else default_radius(n, d, realizations, sides)
-            )
-        self.powers, self.spectrum = each_power(points, fmax, sides=sides)
-        self._exact: Shells = shells_of(self.spectrum)
-        self.shells = self._exact if sides is None else pooled(self._exact, d)
-        self.radial = mean_over_groups(self.spectrum.power, self.shells, self.spectrum.spacing)
+        self.near = set_powers(points, fmax, sides)
+        self.spectrum = self.near.spectrum
+        self._by_default = fmax is None
+        self._spectral = spectral_scalars(self.near)
         self._neighbours: Sequence[Neighbours] | None = None
+
+    @cached_property
+    def far(self) -> SetPowers | None:
+        """Shells beyond the end of a default cube, listed; None where none are affordable."""
+        return farther_powers(self.points, self.near) if self._by_default else None
+
+    @property
+    def radial(self) -> RadialPower:
+        """Mean power of the exact shells, pooled where sides are unequal, as far as they were evaluated."""
+        near, far = self.near.profile, self._evaluated_far()
+        if far is None:
+            return near
+        beyond = far.radial.frequency > near.frequency[-1]
+        return RadialPower(
+            *(
+                np.append(getattr(near, name), getattr(far.radial, name)[beyond])
+                for name in ("frequency", "nu", "power", "count")
+            )
+        )
+
+    def anisotropy(self) -> pd.DataFrame:
+        """Anisotropy of each ring, as far as shells were evaluated."""
+        near, far = anisotropy(self.near.shell_spectrum()), self._evaluated_far()
+        if far is None:
+            return near
+        import pandas as pd
+
+        rings = anisotropy(far.shell_spectrum())
+        return pd.concat([near, rings[rings.frequency > near.frequency.max()]], ignore_index=True)
+
+    def _evaluated_far(self) -> SetPowers | None:
+        """Return the farther shells if a measure needed them."""
+        return self.__dict__.get("far")
 
     def neighbours(self) -> Sequence[Neighbours]:
         """Delaunay neighbours of every set, triangulated once."""
         if self._neighbours is None:
             self._neighbours = neighbours(self.points, self.sides)
         return self._neighbours
+
+    @cached_property
+    def discrepancies(self) -> dict[Discrepancy, DiscrepancyResult]:
+        """Discrepancies of every set, which in the plane share most of their cost."""
+        return measure_discrepancies(self.points, ("WD", "L2-star"))
 
     def measures(self) -> Measures:
         """Assemble values, standard errors and reasons in the order of ``DEFINITIONS``."""
@@ -109,70 +133,34 @@ class Scalars:
         return Measures({m: values[m] for m in order}, {m: errors[m] for m in order}, reasons)
 
     def _of_spectrum(self) -> list[_Entry]:
-        """Measures of the mean spectrum, their errors by the jackknife over sets."""
-        realizations = len(self.powers)
-        exact = self.radial
-        if self.shells is not self._exact:
-            exact = mean_over_groups(self.spectrum.power, self._exact, self.spectrum.spacing)
+        """Measures of the mean spectrum; those that it is too short for are taken from farther shells."""
+        return [(names, partial(self._reaching, names)) for names in self._spectral]
 
-        def rows_of(shells: Shells) -> FloatArray:
-            return np.stack([shells.mean(power) for power in self.powers])
+    def _reaching(self, names: tuple[str, ...]) -> list[Estimate]:
+        """Compute measures of the spectrum, of farther shells where it ends too early, or say the cost."""
+        try:
+            return self._spectral[names]()
+        except ShortSpectrumError as short:
+            if self.far is None:
+                raise ShortSpectrumError(f"{short}{self._cost_of_more(self.near)}") from None
+        try:
+            return spectral_scalars(self.far)[names]()
+        except ShortSpectrumError as short:
+            raise ShortSpectrumError(f"{short}{self._cost_of_more(self.far)}") from None
 
-        rows = rows_of(self._exact)
-        pooled_rows = rows if self.shells is self._exact else rows_of(self.shells)
-
-        def profile(
-            compute: Callable[[RadialPower], Sequence[float]], *, pool: bool = False
-        ) -> Callable[[], list[Estimate]]:
-            radial, each = (self.radial, pooled_rows) if pool else (exact, rows)
-
-            def estimates() -> list[Estimate]:
-                others = (
-                    compute(replace(radial, power=power / (realizations - 1)))
-                    for power in left_out_sums(each)
-                )
-                return jackknife(compute(radial), others, realizations)
-
-            return estimates
-
-        def directional() -> list[Estimate]:
-            def decibels(power: FloatArray, sets: int) -> list[float]:
-                return [anisotropy_db(power, self.shells, sets, self.spectrum.spacing)]
-
-            # Left-out spectra read -10 log10(M - 1): the same shift for each, so the spread is not touched.
-            rest = realizations - 1
-            others = (decibels(total / rest, rest) for total in left_out_sums(self.powers))
-            return jackknife(decibels(self.spectrum.power, realizations), others, realizations)
-
-        def exponential(radial: RadialPower) -> Sequence[float]:
-            fit = exponential_fit(radial)
-            return math.exp(fit.intercept), fit.slope, fit.residual_db
-
-        def powerlaw(radial: RadialPower) -> Sequence[float]:
-            fit = powerlaw_fit(radial)
-            return fit.slope, fit.residual_db
-
-        def summit() -> list[Estimate]:
-            (value, error), (nu, spread) = profile(peak)()
-            # Left-out spectra often peak on the same ring: its width is part of the error.
-            return [(value, error), (nu, math.hypot(spread, self.spectrum.spacing / math.sqrt(12)))]
-
-        return [
-            (("noise_floor",), profile(lambda r: [noise_floor(r)])),
-            (("power_at_1",), profile(lambda r: [power_at_1(r)])),
-            (("profile_epsilon", "profile_c", "profile_residual_db"), profile(exponential, pool=True)),
-            (("powerlaw_exponent", "powerlaw_residual_db"), profile(powerlaw, pool=True)),
-            (("peak", "peak_nu"), summit),
-            (("anisotropy_db",), directional),
-        ]
+    def _cost_of_more(self, powers: SetPowers) -> str:
+        """Say what the next shell costs; nothing of a cube, or where an fmax was asked for."""
+        if self.sides is not None or not (self._by_default and powers.listed):
+            return ""
+        most = int(powers.most)
+        count = sum(shell_sizes(self.points.shape[2], most + 1))
+        return (
+            f"; shells up to |f|^2 = {most} are affordable by default, the next one would make it "
+            f"{float(count):.2g} frequencies"
+        )
 
     def _of_sets(self) -> list[_Entry]:
         """Measures of each set, averaged."""
-        _, n, d = self.points.shape
-
-        def energy() -> list[Estimate]:
-            each = [evacuated_energy(power, n, d, self.spectrum.fmax, self.sides) for power in self.powers]
-            return [mean_over_sets(np.array(each))]
 
         def psa() -> list[Estimate]:
             statistics = spectral_statistics(self.points, self.sides)
@@ -186,7 +174,7 @@ class Scalars:
 
         def discrepancy(kind: Discrepancy) -> Callable[[], list[Estimate]]:
             def estimates() -> list[Estimate]:
-                found = measure_discrepancies(self.points, (kind,))[kind]
+                found = self.discrepancies[kind]
                 unknown = [reason for reason in found.reasons if reason]
                 if unknown:
                     raise RefusalError(unknown[0])
@@ -195,7 +183,6 @@ class Scalars:
             return estimates
 
         return [
-            (("evacuated_energy",), energy),
             (("min_distance",), lambda: [mean_over_sets(min_distance(self.points, self.sides))]),
             (("mean_distance",), lambda: [mean_over_sets(mean_distance(self.points, self.sides))]),
             (("bond_order",), lambda: [mean_over_sets(bond_order(self.neighbours()))]),

@@ -11,7 +11,7 @@ from gbnbench.analysis.radial.profile_measures import ROUNDING_POWER
 from gbnbench.analysis.radial.radial_power import shells_from_cube
 from gbnbench.analysis.spectrum.box_shells import pooled_spectrum
 from gbnbench.analysis.spectrum.shells import EDGE, Shells, in_band
-from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.errors import InputError, RefusalError, ShortSpectrumError
 from gbnbench.core.results.radial import ShellSpectrum
 from gbnbench.core.results.spectrum import Spectrum
 from gbnbench.core.torus import FloatArray
@@ -128,7 +128,9 @@ def anisotropy_db(power: FloatArray, shells: Shells, realizations: int, spacing:
     deviation, freedom = shell_variance(mean, spread, shells.count / 2, realizations)
     nu = shells.radius * spacing
     if nu[-1] < BAND[1] * (1 - EDGE):
-        raise RefusalError(f"anisotropy pools shells up to nu = 1; this spectrum ends at nu = {nu[-1]:.3g}")
+        raise ShortSpectrumError(
+            f"anisotropy pools shells up to nu = 1; this spectrum ends at nu = {nu[-1]:.3g}"
+        )
     band = in_band(nu, *BAND)
     possible = np.maximum(shells.count[band] / 2 - 1, 0).sum()
     if possible == 0:

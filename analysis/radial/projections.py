@@ -120,9 +120,7 @@ def frame(projected: Sequence[Projection]) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=["projection", *names])
 
 
-def _measured(
-    points: FloatArray, axes: tuple[int, ...], fmax: int | None, sides: Sides | None
-) -> Projection:
+def _measured(points: FloatArray, axes: tuple[int, ...], fmax: int | None, sides: Sides | None) -> Projection:
     projected = np.ascontiguousarray(points[:, :, axes])
     sets, n, m = projected.shape
     own = None if sides is None else as_sides([sides[a] for a in axes], m)

@@ -21,6 +21,9 @@ RANGE = 8.0  # densest spacings
 BINS_PER_POINT = 0.125
 # Pairs worked on at once: a few arrays of this many doubles stay in a core's cache.
 BLOCK = 1 << 16
+# A distance that falls short of an edge by this part of a bin lies on it, but for the coordinates' rounding:
+# every distance of a grid of 100 x 100 points is an edge of PSA's bins, and few are rounded upwards.
+ON_EDGE = 1e-9
 # Windows are wider than the longest distance by this much, so that rounding loses no pair.
 SLACK = 1e-12
 
@@ -138,7 +141,8 @@ def pair_counts(x: FloatArray, bins: int, width: float, sides: Sides | None = No
     x : (n, d) float64
         Points on the unit torus.
     bins : int
-        Equal bins from 0 on, closed on the left; farther pairs are not counted.
+        Equal bins from 0 on, closed on the left, distances that fall short of an edge by 1e-9 of a bin
+        included; farther pairs are not counted.
     width : float
         Width of a bin, > 0; bins * width is half the shortest side at most.
     sides : tuple of d floats, optional
@@ -182,6 +186,7 @@ def pair_counts(x: FloatArray, bins: int, width: float, sides: Sides | None = No
             squared[drop] = np.inf
         np.sqrt(squared, out=squared)
         squared *= per_length
+        squared += ON_EDGE
         np.minimum(squared, bins, out=squared)
         counts += np.bincount(squared.astype(np.intp).ravel(), minlength=bins + 1)
     return counts[:bins]

@@ -116,7 +116,9 @@ def ball_power(
     return BallPower(square, power, in_list, Errors(rms, bound))
 
 
-def half_band(band: tuple[float, float], sides: Sides) -> tuple[NDArray[np.int64], FloatArray]:
+def half_band(
+    band: tuple[float, float], sides: Sides, most_rows: int = MOST_FREQUENCIES
+) -> tuple[NDArray[np.int64], FloatArray]:
     """List the frequencies of a band whose first nonzero component is positive, axis by axis.
 
     Parameters
@@ -125,6 +127,8 @@ def half_band(band: tuple[float, float], sides: Sides) -> tuple[NDArray[np.int64
         Smallest and largest |k|.
     sides : tuple of d floats
         As ``as_sides`` returns them.
+    most_rows : int
+        Frequencies beyond which they are refused.
 
     Returns
     -------
@@ -136,7 +140,7 @@ def half_band(band: tuple[float, float], sides: Sides) -> tuple[NDArray[np.int64
     Raises
     ------
     InputError
-        If there are more than 4 million.
+        If there are more than are listed.
     """
     most = (band[1] * (1 + EDGE)) ** 2
     rows, square = np.zeros((1, 0), np.int64), np.zeros(1)
@@ -147,7 +151,7 @@ def half_band(band: tuple[float, float], sides: Sides) -> tuple[NDArray[np.int64
         total = square[:, None] + f**2 / side**2
         row, column = np.nonzero((total <= most) & ((rows != 0).any(axis=1, keepdims=True) | (f >= 0)))
         rows, square = np.column_stack([rows[row], f[column]]), total[row, column]
-        if len(rows) > MOST_FREQUENCIES:
+        if len(rows) > most_rows + 1:  # with DC
             _refuse_many(band)
     wanted = _within(square, band)
     return rows[wanted], square[wanted]

@@ -4,9 +4,11 @@ Exact shells are frequencies whose |k| agree to rounding. In a cube a shell of |
 its integer allows. Where the squared ratios of the sides are irrational it holds the mirror images (+-f_a)
 alone, whose powers are alike whatever the point process, and so tell nothing of direction and average little
 noise. ``pooled`` therefore joins neighbours in |k| until a shell has 2^d independent frequencies, two sets of
-mirror images. In 2D such a shell covers the same area of the plane at any |k|: the power of an exponential
-profile exp(c nu^2) changes by a factor of exp(8 c / (pi n)) within it, 1.1 for a Gaussian blue noise of 1024
-points, where a ring of width 1 would have a factor of 3.4 at nu = 0.5.
+mirror images; 16 above four dimensions, where spectra end at frequencies of few nonzero components.
+
+In 2D such a shell covers the same area of the plane at any |k|: the power of an exponential profile
+exp(c nu^2) changes by a factor of exp(8 c / (pi n)) within it, 1.1 for a Gaussian blue noise of 1024 points,
+where a ring of width 1 would have a factor of 3.4 at nu = 0.5.
 """
 
 from __future__ import annotations
@@ -23,6 +25,12 @@ from gbnbench.core.results.radial import ShellSpectrum
 from gbnbench.core.sides import Sides, squared_lengths
 from gbnbench.core.torus import FloatArray, spacing
 
+INDEPENDENT = (
+    2,
+    4,
+    8,
+    16,
+)  # frequencies of one half space in a pooled shell at least, in d = 1 to 4 and above
 TIE = 1e-13  # relative difference of |k|^2 at or below which frequencies belong to one shell
 
 
@@ -119,6 +127,23 @@ def box_annuli(harmonics: tuple[int, ...], sides: Sides, radius: float, width: f
     return Shells(label, np.bincount(index, length) / count, count.astype(np.int64))
 
 
+def listed_box_shells(square: FloatArray) -> Shells:
+    """Group the listed frequencies of one half space by equal |k|.
+
+    Parameters
+    ----------
+    square : (m,) float64
+        |k|^2 of each, above 0.
+
+    Returns
+    -------
+    Shells
+    """
+    group, count = equal_lengths(square)
+    radius = np.bincount(group, np.sqrt(square)) / count
+    return Shells(group.astype(np.int32), radius, 2 * count, pairs=1)
+
+
 def _ball(harmonics: tuple[int, ...], sides: Sides, radius: float) -> tuple[FloatArray, NDArray[np.bool_]]:
     square = squared_lengths(harmonics, sides).ravel()
     return square, (square > 0) & (square <= (radius * (1 + EDGE)) ** 2)
@@ -139,7 +164,7 @@ def pools(count: NDArray[np.int64], d: int) -> NDArray[np.int64]:
     (s,) int64
         Pool of each shell; what is left at the end belongs to the last.
     """
-    least, held, pool = 2 ** (d + 1), 0, 0
+    least, held, pool = 2 * INDEPENDENT[min(d, len(INDEPENDENT)) - 1], 0, 0
     numbers = []
     for size in count.tolist():
         numbers.append(pool)
@@ -167,7 +192,8 @@ def pooled(shells: Shells, d: int) -> Shells:
     pool = pools(shells.count, d)
     count = np.bincount(pool, shells.count).astype(np.int64)
     radius = np.bincount(pool, shells.radius * shells.count) / count
-    return Shells(np.append(pool, len(count)).astype(np.int32)[shells.label], radius, count)
+    label = np.append(pool, len(count)).astype(np.int32)[shells.label]
+    return replace(shells, label=label, radius=radius, count=count)
 
 
 def pooled_spectrum(shells: ShellSpectrum) -> ShellSpectrum:

@@ -98,9 +98,7 @@ def check_harmonic(fmax: object, d: int) -> int:
     InputError
         If fmax is not a positive integer, or (2*fmax+1)**d exceeds 2^63.
     """
-    if isinstance(fmax, bool) or not isinstance(fmax, (int, np.integer)) or fmax < 1:
-        raise InputError(f"fmax must be an integer of at least 1; got {fmax!r}")
-    f = int(fmax)
+    f = check_positive(fmax)
     if (2 * f + 1) ** d > LARGEST_COUNT:
         fitting = largest_fmax(LARGEST_COUNT, d)
         way_out = (
@@ -113,6 +111,13 @@ def check_harmonic(fmax: object, d: int) -> int:
             f"{way_out}"
         )
     return f
+
+
+def check_positive(fmax: object) -> int:
+    """Return fmax if it is an integer of at least 1; an InputError says that it is not."""
+    if isinstance(fmax, bool) or not isinstance(fmax, (int, np.integer)) or fmax < 1:
+        raise InputError(f"fmax must be an integer of at least 1; got {fmax!r}")
+    return int(fmax)
 
 
 def largest_fmax(count: int, d: int) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -166,6 +167,44 @@ def each_power(
     powers, errors = evaluator.box(x, request, None, mean=False)
     mean, averaged = powers.mean(axis=0), errors.averaged(sets, n)
     return powers, _spectrum(mean, request, evaluator, averaged, fmax=f, sides=sides)
+
+
+def each_listed_power(
+    x: FloatArray,
+    frequencies: NDArray[np.int64],
+    precision: PrecisionName = "double",
+    sides: Sides | None = None,
+) -> tuple[FloatArray, Spectrum]:
+    """Power of every realization at listed frequencies, and their mean.
+
+    Parameters
+    ----------
+    x : (realizations, n, d) float64
+        Checked points.
+    frequencies : (m, d) int64
+        Cycles per unit length.
+    precision : {"double", "float"}
+        As in ``periodogram``.
+    sides : tuple of d floats, optional
+        As ``as_sides`` returns them.
+
+    Returns
+    -------
+    powers : (realizations, m) float64
+    spectrum : Spectrum
+    """
+    each = [_listed(one[None], frequencies, precision, None, None, None, sides) for one in x]
+    powers = np.stack([one.power for one in each])
+    errors = Errors(max(one.error_rms for one in each), max(one.error_bound for one in each))
+    errors = errors.averaged(*x.shape[:2])
+    mean = replace(
+        each[0],
+        power=powers.mean(axis=0),
+        realizations=len(x),
+        error_rms=errors.rms,
+        error_bound=errors.bound,
+    )
+    return powers, mean
 
 
 def _listed(

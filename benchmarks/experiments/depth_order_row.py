@@ -128,3 +128,8 @@ def or_nan(compute: Callable[[], float]) -> float:
         return compute()
     except RefusalError:
         return math.nan
+
+
+def key_text(key: tuple[Any, ...]) -> tuple[str, ...]:
+    """Return a key as the file has it."""
+    return tuple(f"{cell:.6g}" if isinstance(cell, float) else str(cell) for cell in key)

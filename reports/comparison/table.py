@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from gbnbench.analysis.measure_definitions import DEFINITIONS, Definition, comparable_value
 from gbnbench.core.errors import InputError
 from gbnbench.core.number_text import error_number, number
-from gbnbench.reports.style import Group, groups, members
+from gbnbench.reports.source_groups import Group, groups, members
 from gbnbench.runs.comparison_result import Run, SourceResult
 
 CPU = Definition(

@@ -11,7 +11,7 @@ from rich.table import Table
 from rich.text import Text
 
 from gbnbench.reports.comparison.table import COLUMNS, MARKS, Cell, SourceRow, column_named, row_label, rows
-from gbnbench.reports.style import Group, groups
+from gbnbench.reports.source_groups import Group, groups
 from gbnbench.runs.comparison_result import Run
 
 # What a narrow terminal keeps, the first longest.

@@ -13,7 +13,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogFormatterSciNotation, LogLocator, NullLocator
 
 from gbnbench.analysis.integration.variance import MOST_SCATTER
-from gbnbench.reports import style
+from gbnbench.reports import captions, layout, style
 from gbnbench.studies.integration.study import IntegrationStudy
 
 CAPTION = (
@@ -143,14 +143,14 @@ def figure(study: IntegrationStudy) -> Figure:
     keys = {key: _key(study, part) for key, part in parts}
     longest = max((len(label) for labels in keys.values() for label in labels), default=0)
     columns = min(2 if len(parts) <= 4 else 3, len(parts))
-    sheet = style.sheet(
+    sheet = layout.sheet(
         "Variance of integration", caption, len(parts), 3.4, [2.9], columns=columns, left=0.7,
-        between=0.85 + style.legend_room(["x" * longest]), under=0.46,
-        right=style.legend_room(["x" * longest]),
+        between=0.85 + layout.legend_room(["x" * longest]), under=0.46,
+        right=layout.legend_room(["x" * longest]),
     )  # fmt: skip
     for (ax,), (key, part) in zip(sheet.cells, parts, strict=True):
         panel(ax, part, by_source)
-        ax.set_title(f"{style.shown(str(key[0]), 40)}, d = {key[1]}", loc="left")
+        ax.set_title(f"{captions.shown(str(key[0]), 40)}, d = {key[1]}", loc="left")
         ax.set_xlabel("points n")
         ax.set_ylabel("variance")
         handles = [
@@ -164,7 +164,7 @@ def figure(study: IntegrationStudy) -> Figure:
             )
             for label in dict.fromkeys(part["source"].astype(str))
         ]
-        style.beside(ax, handles, keys[key])
+        layout.beside(ax, handles, keys[key])
     return sheet.figure
 
 
@@ -177,7 +177,7 @@ def _key(study: IntegrationStudy, part: pd.DataFrame) -> list[str]:
             (slopes["source"] == label) & (slopes["d"] == part["d"].iloc[0])
             & (slopes["integrand"] == part["integrand"].iloc[0])
         ]  # fmt: skip
-        text = style.shown(label, 22)
+        text = captions.shown(label, 22)
         if len(found) and math.isfinite(found["slope"].iloc[0]):
             text += f"  {found['slope'].iloc[0]:.2f} ± {found['standard_error'].iloc[0]:.2f}"
             text += " bent" if found["scatter"].iloc[0] > MOST_SCATTER else ""

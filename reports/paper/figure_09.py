@@ -15,7 +15,7 @@ from gbnbench.analysis.integration.integrands.registry import find
 from gbnbench.reports.integration import variance
 from gbnbench.reports.paper.data import DataRequest, IntegrationRequest, TableRequest
 from gbnbench.reports.paper.figure import PAGE, Drawing, FigureOptions, PaperFigure
-from gbnbench.reports.paper.shared import stroke, title_of
+from gbnbench.reports.paper.method_styles import stroke, title_of
 from gbnbench.runs.task_folder import Arrays
 from gbnbench.studies.integration.blocks import instances_of
 

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from gbnbench.core.errors import InputError
 from gbnbench.generators.registry import GENERATORS
 from gbnbench.reports.paper.figure import FigureOptions, PaperFigure
-from gbnbench.reports.paper.shared import NAMES
+from gbnbench.reports.paper.method_styles import NAMES
 from gbnbench.runs.sources import resolve
 
 CLOSE = 0.7  # likeness of names beyond which one is taken for a slip of the other

@@ -172,21 +172,24 @@ def _content(file: PointFile) -> FileContent:
     return format_.read(file)
 
 
-def save(path: str | os.PathLike[str], x: ArrayLike | Sequence[ArrayLike]) -> None:
+def save(path: str | os.PathLike[str], x: ArrayLike | Sequence[ArrayLike] | PointSets) -> None:
     """Save one point set or several; the extension names the format, and every bit is kept.
 
     Parameters
     ----------
     path : path-like
-        Ends in .txt (PSA's count and rows; the count and d where d is not 2), .dat (UTK), .csv, .npy or .npz.
-        A file already there is replaced, once the new one is whole.
-    x : (n, d) or (realizations, n, d) array_like, or a list of (n_i, d)
-        Points in [0, 1).
+        Ends in .txt (PSA's count and rows; the count and d where d is not 2), .dat or .edat (UTK), .csv,
+        .tsv, .npy, .npz, .json, .ply, .xyz or .lammpstrj, and .gz, .bz2 or .xz after these. A file already
+        there is replaced, once the new one is whole.
+    x : (n, d) or (realizations, n, d) array_like, a list of (n_i, d), or PointSets
+        Points in [0, 1). PointSets that have a box are written in its unit where the format holds the box,
+        and then to the last bits of a coordinate.
 
     Raises
     ------
     InputError
-        If the extension is none of these, x is not points, or the place cannot be written.
+        If the extension is none of these, x is not points, the format cannot hold them, or the place cannot
+        be written.
 
     Examples
     --------

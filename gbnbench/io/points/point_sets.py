@@ -66,6 +66,8 @@ class Coordinates:
         1-based line of each point, where the format has lines.
     where : str
         What an error says of its place in the file before anything else, such as ``array 'points': ``.
+    scaled : bool
+        Whether they are fractions of the box already, as LAMMPS's xs are.
     unwrapped : bool
         Whether the format defines that whole sides are to be taken off, as LAMMPS's xu does.
     """
@@ -73,6 +75,7 @@ class Coordinates:
     points: FloatArray
     lines: IntArray | None = None
     where: str = ""
+    scaled: bool = False
     unwrapped: bool = False
 
 

@@ -200,3 +200,15 @@ def test_bad_requests_are_refused() -> None:
     ):
         with pytest.raises(InputError, match=says):
             call()
+
+
+@pytest.mark.parametrize(("n", "d"), [(64, 20), (128, 9)])
+def test_many_dimensions_list_the_ball_as_far_as_it_goes(n: int, d: int) -> None:
+    x = np.random.default_rng(4).random((2, n, d))
+    sides = (3, *(1,) * (d - 1))
+    found = measures(x, sides=sides)
+    f = np.zeros((1, d), int)
+    f[0, 0] = 1  # the longest side alone has the lowest |k|
+    assert found["power_at_1"] == pytest.approx(np.mean([direct_power(one, f) for one in x]), rel=1e-10)
+    assert found["noise_floor"] == found["power_at_1"]
+    assert abs(found["anisotropy_db"] + 10 * math.log10(2)) < 1
