@@ -14,7 +14,7 @@ from gbnbench.cli.options import READING
 from gbnbench.io.points import ReadingOptions, save
 from gbnbench.runs.sources import resolve
 
-READERS = ("analyze", "spectrum", "compare", "integrate", "figures")
+READERS = ("analyze", "spectrum", "compare", "convert", "integrate", "figures")
 
 
 def run(*arguments: object) -> Result:

@@ -16,7 +16,6 @@ from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray, check_points
 from gbnbench.io.points.file_format import reason
-from gbnbench.io.points.formats.format import Format
 from gbnbench.io.points.formats.registry import FORMATS
 from gbnbench.io.points.point_sets import PointSets, unequal_sides
 
@@ -75,13 +74,14 @@ def encode(path: Path, x: ArrayLike | Sequence[ArrayLike] | PointSets) -> bytes:
     InputError
         If the extension is none of these, x is not points, or the format cannot hold them.
     """
-    format_, write, pack = _writer(path)
-    if not isinstance(x, PointSets):
-        return pack(write(PointSets(checked_sets(x))))
-    if (lost := lost_box(path, x)) is not None:
+    check_suffix(path)
+    suffix, pack = suffix_of(path), _PACKERS.get(path.suffix.lower(), bytes)
+    format_ = WRITTEN[suffix]
+    given = x if isinstance(x, PointSets) else PointSets(checked_sets(x))
+    if (lost := lost_box(path, given)) is not None:
         raise InputError(f"{path}: {lost}")
     try:
-        return pack(write(x if format_.keeps_box else PointSets(x.sets)))
+        return pack(format_.write[suffix](given if format_.keeps_box else PointSets(given.sets)))
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
 
@@ -102,7 +102,8 @@ def lost_box(path: Path, x: PointSets) -> str | None:
         A sentence for an error; a cube that is a torus, or not told to be none, is the unit torus in another
         unit and loses nothing that is measured.
     """
-    format_, _, _ = _writer(path)
+    check_suffix(path)
+    format_ = WRITTEN[suffix_of(path)]
     if format_.keeps_box:
         return None
     keepers = ", ".join(dict.fromkeys(suffix for suffix, other in WRITTEN.items() if other.keeps_box))
@@ -114,14 +115,28 @@ def lost_box(path: Path, x: PointSets) -> str | None:
     return None
 
 
-def _writer(path: Path) -> tuple[Format, Callable[[PointSets], bytes], Callable[[bytes], bytes]]:
+def suffix_of(path: Path) -> str:
+    """Return the suffix that names the format of a file, in lower case, without that of a compression."""
     suffix = path.suffix.lower()
-    pack = _PACKERS.get(suffix)
-    inner = suffix if pack is None else Path(path.stem).suffix.lower()
-    format_ = WRITTEN.get(inner)
-    if format_ is None:
-        raise InputError(f"{path}: points are written as {', '.join(WRITTEN)}; got extension {inner!r}")
-    return format_, format_.write[inner], pack or (lambda data: data)
+    return Path(path.stem).suffix.lower() if suffix in _PACKERS else suffix
+
+
+def check_suffix(path: Path) -> None:
+    """Refuse a file whose format is not written.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Raises
+    ------
+    InputError
+        If its suffix is none of ``WRITTEN``.
+    """
+    if suffix_of(path) not in WRITTEN:
+        known = ", ".join(WRITTEN)
+        raise InputError(f"{path}: points are written as {known}; got extension {suffix_of(path)!r}")
 
 
 def write_atomically(path: Path, data: bytes) -> None:
