@@ -11,7 +11,7 @@ from gbnbench.analysis.spectrum.evaluators.gridded import grid
 from gbnbench.analysis.spectrum.evaluators.gridded import product as gridded_product
 from gbnbench.analysis.spectrum.evaluators.gridded.cells import sorted_by_cell
 from gbnbench.analysis.spectrum.evaluators.gridded.evaluator import GriddedProduct
-from gbnbench.analysis.spectrum.evaluators.gridded.grid import node_turns
+from gbnbench.analysis.spectrum.evaluators.gridded.node_tables import node_turns
 from gbnbench.analysis.spectrum.evaluators.gridded.product import griddable, gridded_powers
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.request import SpectrumRequest
