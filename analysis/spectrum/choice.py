@@ -21,9 +21,8 @@ from gbnbench.analysis.spectrum.evaluators.registry import EVALUATORS
 from gbnbench.analysis.spectrum.request import SpectrumRequest
 from gbnbench.analysis.spectrum.spectrum_plan import SpectrumPlan
 from gbnbench.core.errors import InputError
-from gbnbench.opencl import devices_present
+from gbnbench.opencl import devices_present, runtime
 from gbnbench.opencl.device import Device
-from gbnbench.opencl.device import choose as chosen_device
 
 
 def choose(
@@ -56,7 +55,7 @@ def choose(
     if floor is not None or method is not None:
         return planned(request, precision, floor, method).chosen.evaluator
     check_precision(precision)
-    return _cheapest(request, precision, EVALUATORS, chosen_device() if devices_present() else None)
+    return _cheapest(request, precision, EVALUATORS, runtime().device if devices_present() else None)
 
 
 @lru_cache(maxsize=256)

@@ -147,7 +147,9 @@ def in_window(
     told.advance("nearest neighbours")
     low_band = hyperuniformity(spectrum)
     intensity = n / window.volume
-    no_neighbour = "" if len(nearest.distance) else "no point has its nearest neighbour nearer than the border"
+    no_neighbour = (
+        "" if len(nearest.distance) else "no point has its nearest neighbour nearer than the border"
+    )
     found = {
         "intensity": Value(intensity, intensity * math.sqrt(count_variance(spectrum, window) / n)),
         "s_zero": low_band.s_zero,

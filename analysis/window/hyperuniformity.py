@@ -164,7 +164,9 @@ def gamma_regression(
 def _peak(band: pd.DataFrame) -> tuple[Value, float]:
     """Find the largest weighted mean of three neighbouring bins."""
     if len(band) < 3:
-        return Value(math.nan, math.nan, f"S has {len(band)} bins with {PEAK[0]:g} <= nu <= {PEAK[1]:g}"), math.nan
+        return Value(
+            math.nan, math.nan, f"S has {len(band)} bins with {PEAK[0]:g} <= nu <= {PEAK[1]:g}"
+        ), math.nan
     s, nu, degrees = (band[name].to_numpy() for name in ("S", "nu", "fit_degrees"))
     three = np.ones(3)
     weight = np.convolve(degrees, three, "valid")

@@ -91,9 +91,9 @@ def radial_structure_factor(
     with np.errstate(invalid="ignore", divide="ignore"):
         s, k = totals[:, 0] / (seen.weight * totals[:, 1]), np.sqrt(totals[:, 2] / totals[:, 1])
     degrees = np.array([degrees_of_freedom(b, tapers) for b in bins])
-    low, high = (2 * degrees / stats.chi2.ppf(q, 2 * degrees) for q in (
-        (1 + CONFIDENCE) / 2, (1 - CONFIDENCE) / 2
-    ))
+    low, high = (
+        2 * degrees / stats.chi2.ppf(q, 2 * degrees) for q in ((1 + CONFIDENCE) / 2, (1 - CONFIDENCE) / 2)
+    )
     middle = np.array([(b.low + b.high) / 2 for b in bins])
     leaked = leakage(middle, s, tapers)
     return pd.DataFrame(
@@ -144,7 +144,9 @@ def _drawn(low: float, high: float, sides: FloatArray, most: int, rng: np.random
     if enumerable(high, sides):
         every = every_wave_vector(high, sides)
         inside = every[np.linalg.norm(2 * math.pi / sides * every, axis=1) >= low]
-        return inside if len(inside) <= most else inside[np.sort(rng.choice(len(inside), most, replace=False))]
+        return (
+            inside if len(inside) <= most else inside[np.sort(rng.choice(len(inside), most, replace=False))]
+        )
     return some_wave_vectors(low, high, sides, most, rng)
 
 
@@ -162,9 +164,7 @@ def _direct(
     seen: TaperedPoints, multiples: IntArray, progress: Progress
 ) -> Iterator[tuple[slice, ComplexArray]]:
     """Sum all tapers at once, wave vector by wave vector."""
-    yield slice(None), direct_sums(
-        seen.u, seen.values, multiples.astype(np.float64), progress, "float"
-    )
+    yield slice(None), direct_sums(seen.u, seen.values, multiples.astype(np.float64), progress, "float")
 
 
 def degrees_of_freedom(shell: Bin, tapers: SineTapers) -> float:

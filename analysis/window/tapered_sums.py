@@ -124,9 +124,7 @@ class GriddedSums:
         (m,) complex128
         """
         transform = fft.rfftn(self._carry(values[self._order]), overwrite_x=True, workers=-1)
-        index = tuple(
-            multiples[:, axis] % nodes for axis, nodes in enumerate(self._nodes)
-        )
+        index = tuple(multiples[:, axis] % nodes for axis, nodes in enumerate(self._nodes))
         found = transform[index].astype(np.complex128)
         for axis, gains in enumerate(self._gains):
             found /= gains[np.abs(multiples[:, axis])]

@@ -162,10 +162,10 @@ class SineTapers:
             Mean over the axis's tapers. It falls as (L_a away)^-3.
         """
         kappa = math.pi * np.arange(LOBES)
-        energy = np.mean(
-            [np.abs(_transform(p, kappa)) ** 2 for p in range(1, self.counts[axis] + 1)], axis=0
-        )
-        beyond = np.cumsum(energy[::-1])[::-1]  # sampled every pi / L_a, which is exact for both signs together
+        energy = np.mean([np.abs(_transform(p, kappa)) ** 2 for p in range(1, self.counts[axis] + 1)], axis=0)
+        beyond = np.cumsum(energy[::-1])[
+            ::-1
+        ]  # sampled every pi / L_a, which is exact for both signs together
         first = np.ceil(away * self.sides[axis] / math.pi).astype(np.intp)
         found: FloatArray = beyond[np.minimum(first, LOBES - 1)]
         return found

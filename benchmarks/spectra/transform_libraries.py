@@ -123,6 +123,19 @@ def ducc(x: FloatArray, fmax: int, tolerance: float, *, half: bool) -> FloatArra
 
 
 def squared(amplitude: NDArray[np.complex128], n: int) -> FloatArray:
-    """Return |F|^2 / n."""
+    """Compute power from amplitudes.
+
+    Parameters
+    ----------
+    amplitude : (...) complex128
+        Sums over points.
+    n : int
+        Points.
+
+    Returns
+    -------
+    (...) float64
+        |F|^2 / n.
+    """
     power: FloatArray = (amplitude.real**2 + amplitude.imag**2) / n
     return power

@@ -96,18 +96,14 @@ def _launch() -> float:
     return _least(launches, 3, run.clock) / LAUNCHES
 
 
-_RATES: dict[str, float] = {}  # what this process has read or measured
-
-
 def _remembered(name: str, measure: Callable[[], float]) -> float:
     key = f"{name}-{open_runtime().device.fingerprint}"
-    if key not in _RATES:
-        known = recall(key)
-        if not (isinstance(known, float) and 0 < known < float("inf")):
-            known = measure()
-            remember(key, known)
-        _RATES[key] = known
-    return _RATES[key]
+    known = recall(key)
+    if isinstance(known, float) and 0 < known < float("inf"):
+        return known
+    found = measure()
+    remember(key, found)
+    return found
 
 
 def _least(call: Callable[[], None], times: int, clock: Callable[[], float]) -> float:

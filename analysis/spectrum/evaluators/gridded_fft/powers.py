@@ -157,7 +157,21 @@ def _in_order(
 
 
 def sets_together(p: Precision, grid: RealGrid, sets: int) -> int:
-    """Count the sets of a batch: as many as their grids fit in the cache, and a multiple of the cores."""
+    """Count the sets of a batch: as many as their grids fit in the cache, and a multiple of the cores.
+
+    Parameters
+    ----------
+    p : Precision
+        Precision on the device.
+    grid : RealGrid
+        Layout of a grid.
+    sets : int
+        Sets in all.
+
+    Returns
+    -------
+    int
+    """
     cores = p.runtime.device.compute_units
     fitting = max(1, min(sets, BATCH_BYTES // (grid.size * grid.itemsize)))
     return fitting if fitting < cores else fitting // cores * cores
