@@ -535,9 +535,7 @@ def test_wrong_count(folder: Path, count: int) -> None:
 
 
 BOXED = (".extxyz", ".lammpstrj", ".edat", ".json", ".npz")
-OTHERS = [
-    (suffix, k) for suffix in (".ply", ".xyz", *BOXED, ".csv.gz", ".txt.xz", ".ply.b") for k in range(2)
-]
+SUFFIXES = (".ply", ".xyz", *BOXED, ".csv.gz", ".txt.xz", ".ply.b")
 OPTIONS = [
     ReadingOptions(),
     ReadingOptions(columns=("x", "y")),
@@ -561,9 +559,10 @@ def other_seed(suffix: str, k: int, folder: Path) -> bytes:
     return written(suffix, PointSets(list(x), (2.0,) * 3, (-1.0,) * 3, True) if box else x, folder)
 
 
-@pytest.mark.parametrize(("suffix", "k"), OTHERS)
+@pytest.mark.parametrize("suffix", SUFFIXES)
+@pytest.mark.parametrize("k", range(2))
 def test_damaged_files_of_other_formats(suffix: str, k: int, folder: Path) -> None:
-    """Whatever is damaged, and however it is to be read: points of [0, 1), or one line that names the file."""
+    """Whatever is damaged, however it is to be read: points of [0, 1), or one line that names the file."""
     seed = other_seed(suffix, k, folder)
     path = folder / f"other{suffix.removesuffix('.b')}"
 
