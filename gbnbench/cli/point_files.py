@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from gbnbench.core.torus import FloatArray
     from gbnbench.io.points import ReadingOptions
 
-NO_TORUS = "says that its box is no torus, and it is measured as one: what crosses the sides is not real"
-
 
 def read_cube(path: Path, reading: ReadingOptions) -> list[FloatArray]:
     """Read the sets of a file whose box has equal sides, and warn where the file says that it is no torus.
@@ -39,7 +37,7 @@ def read_cube(path: Path, reading: ReadingOptions) -> list[FloatArray]:
         If the file cannot be read, or its box has unequal sides.
     """
     from gbnbench.io.points import read_sets
-    from gbnbench.io.points.point_sets import unequal_sides
+    from gbnbench.io.points.point_sets import NO_TORUS, unequal_sides
 
     found = read_sets(path, reading)
     if (fault := unequal_sides(found.sides)) is not None:

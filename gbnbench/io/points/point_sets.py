@@ -11,6 +11,7 @@ from gbnbench.core.torus import FloatArray
 
 IntArray = NDArray[np.int64]
 
+NO_TORUS = "says that its box is no torus, and it is measured as one: what crosses the sides is not real"
 EQUAL = 1e-9  # of the largest side: sides that differ by no more are equal
 
 
