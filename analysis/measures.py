@@ -2,49 +2,29 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeVar
 
-import numpy as np
 from numpy.typing import ArrayLike
 
-from gbnbench.analysis.measure_definitions import DEFINITIONS
-from gbnbench.analysis.radial.anisotropy import anisotropy, anisotropy_db
 from gbnbench.analysis.radial.border_warning import border_warnings
-from gbnbench.analysis.radial.profile_measures import (
-    evacuated_energy,
-    exponential_fit,
-    noise_floor,
-    peak,
-    power_at_1,
-    powerlaw_fit,
-)
-from gbnbench.analysis.radial.psa import spectral_statistics
-from gbnbench.analysis.radial.radial_power import mean_over_groups
-from gbnbench.analysis.spatial.bond_order import bond_order, psi6
-from gbnbench.analysis.spatial.delaunay import Neighbours, neighbours
-from gbnbench.analysis.spatial.discrepancy import discrepancies
-from gbnbench.analysis.spatial.distances import mean_distance, min_distance
+from gbnbench.analysis.scalars import Scalars
 from gbnbench.analysis.spatial.rdf import rdf
-from gbnbench.analysis.spatial.valence import valence, valence6
+from gbnbench.analysis.spatial.valence import valence
 from gbnbench.analysis.spatial.zone_plate import zone_plate
-from gbnbench.analysis.spectrum.limits import check_fmax, default_fmax
-from gbnbench.analysis.spectrum.periodogram import each_power
-from gbnbench.analysis.spectrum.shells import Shells, exact_shells
-from gbnbench.analysis.standard_errors import Estimate, jackknife, mean_over_sets
 from gbnbench.core.errors import RefusalError
-from gbnbench.core.results import Measures, RadialPower, Spectrum
+from gbnbench.core.results.measures import Measures
+from gbnbench.core.results.radial import RadialPower
+from gbnbench.core.results.spectrum import Spectrum
+from gbnbench.core.sides import as_sides
 from gbnbench.core.torus import FloatArray, as_realizations
 from gbnbench.opencl import use_device
 
 if TYPE_CHECKING:
     import pandas as pd
 
-NYQUIST_STEP = 0.005  # resolution of the effective Nyquist frequency, part of its error
 Result = TypeVar("Result")
-_Entry = tuple[tuple[str, ...], Callable[[], list[Estimate]]]
 
 
 @dataclass(frozen=True)
@@ -56,7 +36,7 @@ class Analysis:
     spectrum : Spectrum
         Mean over the realizations.
     radial : RadialPower
-        Its exact shells.
+        Its exact shells; where the sides are unequal, neighbouring ones are pooled (``box_shells.pooled``).
     anisotropy : DataFrame
         A row a ring: frequency, nu, anisotropy_db, psa_db.
     rdf : DataFrame or None
@@ -81,7 +61,13 @@ class Analysis:
     warnings: tuple[str, ...]
 
 
-def measures(x: ArrayLike, fmax: int | None = None, *, device: str | None = None) -> Measures:
+def measures(
+    x: ArrayLike,
+    fmax: int | None = None,
+    *,
+    sides: ArrayLike | None = None,
+    device: str | None = None,
+) -> Measures:
     """Compute every scalar measure of one or several sets.
 
     Parameters
@@ -90,7 +76,12 @@ def measures(x: ArrayLike, fmax: int | None = None, *, device: str | None = None
         Points on the unit torus. Spatial measures and evacuated energy are means over the sets, the others
         are of the mean spectrum.
     fmax : int, optional
-        Largest harmonic on each axis; by default as far as nu = 2, or as affordable (``default_fmax``).
+        Largest harmonic on each axis, or |k| for unequal sides; by default as far as nu = 2, or as affordable
+        (``default_fmax``). Where a cube of frequencies is not, as in d = 20, exact shells are taken as far as
+        they go.
+    sides : (d,) array_like, optional
+        Lengths of the torus's sides in any unit, whose ratios count; a cube if not given. Lengths and |k| are
+        then those of the rectangle or box, in units of its volume^(1/d); discrepancies do not change.
     device : str, optional
         Part of the name of the OpenCL device, or its position, as in ``GBNBENCH_DEVICE``, which it overrides.
 
@@ -104,7 +95,8 @@ def measures(x: ArrayLike, fmax: int | None = None, *, device: str | None = None
     Raises
     ------
     InputError
-        If x is not points of the unit torus, or fmax is no harmonic that can be evaluated.
+        If x is not points of the unit torus, fmax is no harmonic that can be evaluated, or sides are not d
+        lengths.
     DeviceError
         If a device is named and fits none or several.
 
@@ -121,12 +113,19 @@ def measures(x: ArrayLike, fmax: int | None = None, *, device: str | None = None
     True
     >>> measures(gbnbench.generate("random", n=64, d=3, seed=1)).reasons["psi6"]
     'psi6 is defined in the plane; got d=3'
+
+    The hexagonal lattice is the lattice it is in a rectangle of sqrt(3) by 1:
+
+    >>> m = measures([[0.0, 0.0], [0.5, 0.5]], sides=(3**0.5, 1))
+    >>> round(m["psi6"], 9), round(m["min_distance"], 9)
+    (1.0, 1.0)
     """
+    points = as_realizations(x)
     with use_device(device):
-        return _Scalars(as_realizations(x), fmax).measures()
+        return Scalars(points, fmax, as_sides(sides, points.shape[2])).measures()
 
 
-def analyse(x: ArrayLike, fmax: int | None = None) -> Analysis:
+def analyse(x: ArrayLike, fmax: int | None = None, sides: ArrayLike | None = None) -> Analysis:
     """Measure everything of one or several sets, curves and pictures included.
 
     Parameters
@@ -134,7 +133,9 @@ def analyse(x: ArrayLike, fmax: int | None = None) -> Analysis:
     x : (n, d) or (realizations, n, d) array_like
         Points on the unit torus.
     fmax : int, optional
-        Largest harmonic on each axis; by default that of ``measures``.
+        Largest harmonic on each axis, or |k| for unequal sides; by default that of ``measures``.
+    sides : (d,) array_like, optional
+        Lengths of the torus's sides, whose ratios count; a cube if not given.
 
     Returns
     -------
@@ -146,140 +147,20 @@ def analyse(x: ArrayLike, fmax: int | None = None) -> Analysis:
     InputError
         As ``measures``.
     """
-    scalars = _Scalars(as_realizations(x), fmax)
-    points = scalars.points
+    points = as_realizations(x)
+    lengths = as_sides(sides, points.shape[2])
+    scalars = Scalars(points, fmax, lengths)
+    found = scalars.measures()  # first: it may take the shells farther
     return Analysis(
         spectrum=scalars.spectrum,
         radial=scalars.radial,
-        anisotropy=anisotropy(scalars.spectrum),
-        rdf=_unless_refused(lambda: rdf(points).to_frame()),
+        anisotropy=scalars.anisotropy(),
+        rdf=_unless_refused(lambda: rdf(points, lengths).to_frame()),
         valence=_unless_refused(lambda: valence(scalars.neighbours()).to_frame()),
-        zone_plate=_unless_refused(lambda: zone_plate(points)),
-        measures=scalars.measures(),
-        warnings=border_warnings(scalars.radial, points.shape[2]),
+        zone_plate=_unless_refused(lambda: zone_plate(points, sides=lengths)),
+        measures=found,
+        warnings=border_warnings(scalars.spectrum, scalars.radial),
     )
-
-
-class _Scalars:
-    """Power of every set, from which the scalars are computed.
-
-    A new measure is one more entry of ``_of_spectrum`` or ``_of_sets``: its names and a function that gives a
-    value and a standard error for each.
-    """
-
-    def __init__(self, points: FloatArray, fmax: int | None) -> None:
-        self.points = points
-        realizations, n, d = points.shape
-        self.fmax = check_fmax(default_fmax(n, d, realizations) if fmax is None else fmax, d)
-        self.powers, self.spectrum = each_power(points, self.fmax)
-        self.shells: Shells = exact_shells(self.fmax, d)
-        self.radial = mean_over_groups(self.spectrum.power, self.shells, self.spectrum.spacing)
-        self._neighbours: Sequence[Neighbours] | None = None
-
-    def neighbours(self) -> Sequence[Neighbours]:
-        """Delaunay neighbours of every set, triangulated once."""
-        if self._neighbours is None:
-            self._neighbours = neighbours(self.points)
-        return self._neighbours
-
-    def measures(self) -> Measures:
-        """Assemble values, standard errors and reasons in the order of ``DEFINITIONS``."""
-        values: dict[str, float] = {}
-        errors: dict[str, float] = {}
-        reasons: dict[str, str] = {}
-        for names, compute in (*self._of_spectrum(), *self._of_sets()):
-            try:
-                for name, (value, error) in zip(names, compute(), strict=True):
-                    values[name], errors[name] = value, error
-                    if not math.isfinite(value):
-                        values[name] = errors[name] = math.nan
-                        reasons[name] = "not finite: the sets are too few or too regular for it"
-            except RefusalError as refusal:
-                for name in names:
-                    values[name] = errors[name] = math.nan
-                    reasons[name] = str(refusal)
-        order = [definition.name for definition in DEFINITIONS]
-        return Measures({m: values[m] for m in order}, {m: errors[m] for m in order}, reasons)
-
-    def _of_spectrum(self) -> list[_Entry]:
-        """Measures of the mean spectrum, their errors by the jackknife over sets."""
-        rows = np.stack([self.shells.mean(power) for power in self.powers])
-        realizations = len(rows)
-
-        def profile(compute: Callable[[RadialPower], Sequence[float]]) -> Callable[[], list[Estimate]]:
-            def with_power(power: FloatArray) -> RadialPower:
-                return RadialPower(self.radial.frequency, self.radial.nu, power, self.radial.count)
-
-            def left_out(k: int) -> Sequence[float]:
-                return compute(with_power((rows.sum(axis=0) - rows[k]) / (realizations - 1)))
-
-            return lambda: jackknife(compute(self.radial), left_out, realizations)
-
-        def directional() -> list[Estimate]:
-            spacing, total = self.spectrum.spacing, self.powers.sum(axis=0)
-
-            def left_out(k: int) -> Sequence[float]:
-                rest = (total - self.powers[k]) / (realizations - 1)
-                return [anisotropy_db(rest, self.shells, realizations - 1, spacing)]
-
-            whole = [anisotropy_db(self.spectrum.power, self.shells, realizations, spacing)]
-            # Left-out spectra read -10 log10(M - 1): the same shift for each, so the spread is not touched.
-            return jackknife(whole, left_out, realizations)
-
-        def exponential(radial: RadialPower) -> Sequence[float]:
-            fit = exponential_fit(radial)
-            return math.exp(fit.intercept), fit.slope, fit.residual_db
-
-        def powerlaw(radial: RadialPower) -> Sequence[float]:
-            fit = powerlaw_fit(radial)
-            return fit.slope, fit.residual_db
-
-        def summit() -> list[Estimate]:
-            (value, error), (nu, spread) = profile(peak)()
-            # Left-out spectra often peak on the same ring: its width is part of the error.
-            return [(value, error), (nu, math.hypot(spread, self.spectrum.spacing / math.sqrt(12)))]
-
-        return [
-            (("noise_floor",), profile(lambda r: [noise_floor(r)])),
-            (("power_at_1",), profile(lambda r: [power_at_1(r)])),
-            (("profile_epsilon", "profile_c", "profile_residual_db"), profile(exponential)),
-            (("powerlaw_exponent", "powerlaw_residual_db"), profile(powerlaw)),
-            (("peak", "peak_nu"), summit),
-            (("anisotropy_db",), directional),
-        ]
-
-    def _of_sets(self) -> list[_Entry]:
-        """Measures of each set, averaged."""
-        _, n, d = self.points.shape
-
-        def energy() -> list[Estimate]:
-            each = [evacuated_energy(power, n, d, self.fmax) for power in self.powers]
-            return [mean_over_sets(np.array(each))]
-
-        def psa() -> list[Estimate]:
-            statistics = spectral_statistics(self.points)
-            return [
-                (
-                    statistics.effective_nyquist,
-                    math.hypot(statistics.effective_nyquist_error, NYQUIST_STEP / math.sqrt(12)),
-                ),
-                (statistics.oscillations, statistics.oscillations_error),
-            ]
-
-        def discrepancy() -> list[Estimate]:
-            each = discrepancies(self.points, ("WD", "L2-star"))
-            return [mean_over_sets(each["WD"]), mean_over_sets(each["L2-star"])]
-
-        return [
-            (("evacuated_energy",), energy),
-            (("min_distance",), lambda: [mean_over_sets(min_distance(self.points))]),
-            (("mean_distance",), lambda: [mean_over_sets(mean_distance(self.points))]),
-            (("bond_order",), lambda: [mean_over_sets(bond_order(self.neighbours()))]),
-            (("psi6",), lambda: [mean_over_sets(psi6(self.neighbours()))]),
-            (("valence6",), lambda: [mean_over_sets(valence6(self.neighbours()))]),
-            (("effective_nyquist", "oscillations"), psa),
-            (("discrepancy_wd", "discrepancy_star"), discrepancy),
-        ]
 
 
 def _unless_refused(compute: Callable[[], Result]) -> Result | None:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from gbnbench.core.errors import DeviceError, InputError
 from gbnbench.core.torus import FloatArray, fixed_point
-from gbnbench.opencl import Program, Runtime, runtime
+from gbnbench.opencl import Program, Runtime, devices_present, runtime
 
 SUM_POINTS = 128  # points that a lane sums in registers before these sums are added up in double
 PACKAGE = "gbnbench.analysis"
@@ -134,6 +134,13 @@ def precision_of(name: str) -> Precision:
             f'{chosen.device.label} has no double precision; use precision="float" or another device'
         )
     return Precision(chosen, double, chosen.lanes(name))
+
+
+def double_device() -> Precision | None:
+    """Return double precision on the chosen device, None where there is no device or it has none."""
+    if not devices_present() or not runtime().device.has_double:
+        return None
+    return precision_of("double")
 
 
 def padded(count: int, step: int) -> int:

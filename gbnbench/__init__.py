@@ -26,10 +26,12 @@ if TYPE_CHECKING:
     from gbnbench.analysis.spectrum.plan import plan
     from gbnbench.analysis.spectrum.shell_spectrum import shells
     from gbnbench.analysis.spectrum.spectrum_plan import SpectrumPlan
-    from gbnbench.api.comparison import Comparison, compare
+    from gbnbench.api.compare import compare
+    from gbnbench.api.comparison import Comparison
     from gbnbench.api.integration import Integration, integrate
     from gbnbench.core.errors import GbnbenchError
-    from gbnbench.core.results import ShellSpectrum, Spectrum
+    from gbnbench.core.results.radial import ShellSpectrum
+    from gbnbench.core.results.spectrum import Spectrum
     from gbnbench.core.torus import scale, wrap
     from gbnbench.generators.registry import generate
     from gbnbench.io.points import load, save
@@ -61,10 +63,10 @@ _MODULES = {
     "Comparison": "gbnbench.api.comparison",
     "GbnbenchError": "gbnbench.core.errors",
     "Integration": "gbnbench.api.integration",
-    "ShellSpectrum": "gbnbench.core.results",
-    "Spectrum": "gbnbench.core.results",
+    "ShellSpectrum": "gbnbench.core.results.radial",
+    "Spectrum": "gbnbench.core.results.spectrum",
     "SpectrumPlan": "gbnbench.analysis.spectrum.spectrum_plan",
-    "compare": "gbnbench.api.comparison",
+    "compare": "gbnbench.api.compare",
     "generate": "gbnbench.generators.registry",
     "integrate": "gbnbench.api.integration",
     "load": "gbnbench.io.points",

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.stats import t
 
+from gbnbench.analysis.standard_errors import sample_variance
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
 
@@ -123,7 +124,8 @@ def slope_of(n: Sequence[int], errors: Sequence[ArrayLike]) -> Slope:
     spread over integrands is taken, since an integrand that is hard at every n does not change the slope.
     Sets are independent at each n.
     """
-    sizes = np.log(np.asarray(n, dtype=np.float64))
+    # ln(n / n_0), from the difference of the integers: that of two logarithms loses digits where n are close.
+    sizes = np.array([math.log1p((size - n[0]) / n[0]) for size in n])
     if len(set(n)) < 2:
         raise InputError(f"a slope needs at least two different n; got {list(n)}")
     squares = [(_crossed(e) ** 2).mean(axis=2) for e in errors]
@@ -133,19 +135,20 @@ def slope_of(n: Sequence[int], errors: Sequence[ArrayLike]) -> Slope:
     if not np.all(means > 0):
         return Slope(math.nan, math.nan, math.nan)
     weights = (sizes - sizes.mean()) / np.sum((sizes - sizes.mean()) ** 2)
-    value = float(weights @ np.log(means))
-    line = np.log(means).mean() + value * (sizes - sizes.mean())
-    scatter = math.sqrt(float(np.mean((np.log(means) - line) ** 2))) / math.log(10)
+    heights = np.log(means / means[0])
+    value = float(weights @ heights)
+    line = heights.mean() + value * (sizes - sizes.mean())
+    scatter = math.sqrt(float(np.mean((heights - line) ** 2))) / math.log(10)
     scaled = [a * s / m for a, s, m in zip(weights, squares, means, strict=True)]
     integrands = len(scaled[0])
     parts, least = [], 0.0
     if integrands > 1:
         rows = np.sum([s.mean(axis=1) for s in scaled], axis=0)
-        parts.append(rows.var(ddof=1) / integrands)
+        parts.append(float(sample_variance(rows)) / integrands)
     for s in scaled:
         sets = s.shape[1]
         if sets > 1:
-            parts.append(s.mean(axis=0).var(ddof=1) / sets)
+            parts.append(float(sample_variance(s.mean(axis=0))) / sets)
             if integrands > 1:  # counted in the rows and in the columns
                 parts.append(-_residual(s) / s.size)
                 least -= parts[-1]
@@ -186,14 +189,15 @@ def crossed_mean(values: FloatArray) -> CrossedMean:
     """Mean of values (integrands, sets) with its standard error over both, as ``variance_of`` has it."""
     rows, columns = values.shape
     parts, freedom, least = [], [], 0.0
+    away = values - values.mean()  # exact where values are close, whose means would round their differences
     if rows > 1:
-        parts.append(values.mean(axis=1).var(ddof=1) / rows)
+        parts.append(float(sample_variance(away.mean(axis=1))) / rows)
         freedom.append(rows - 1)
     if columns > 1:
-        parts.append(values.mean(axis=0).var(ddof=1) / columns)
+        parts.append(float(sample_variance(away.mean(axis=0))) / columns)
         freedom.append(columns - 1)
     if rows > 1 and columns > 1:
-        least = _residual(values) / values.size  # counted in the rows and in the columns
+        least = _residual(away) / values.size  # counted in the rows and in the columns
         parts.append(-least)
         freedom.append((rows - 1) * (columns - 1))
     if not parts:

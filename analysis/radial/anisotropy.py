@@ -9,9 +9,11 @@ import numpy as np
 
 from gbnbench.analysis.radial.profile_measures import ROUNDING_POWER
 from gbnbench.analysis.radial.radial_power import shells_from_cube
+from gbnbench.analysis.spectrum.box_shells import pooled_spectrum
 from gbnbench.analysis.spectrum.shells import EDGE, Shells, in_band
-from gbnbench.core.errors import InputError, RefusalError
-from gbnbench.core.results import ShellSpectrum, Spectrum
+from gbnbench.core.errors import InputError, RefusalError, ShortSpectrumError
+from gbnbench.core.results.radial import ShellSpectrum
+from gbnbench.core.results.spectrum import Spectrum
 from gbnbench.core.torus import FloatArray
 
 if TYPE_CHECKING:
@@ -53,6 +55,9 @@ def anisotropy(spectrum: Spectrum | ShellSpectrum) -> pd.DataFrame:
     Isotropic noise averaged over M sets reads -10 log10(M) dB at every M, since |F|^2 of one set is
     exponentially distributed. PSA draws its reference at -M dB, right only at M = 10.
 
+    Where the torus has unequal sides the exact shells hold little more than mirror images, which tell nothing
+    of direction: they are pooled (``gbnbench.analysis.spectrum.box_shells``), and a ring is round(|k|) = j.
+
     References
     ----------
     Ulichney, "Dithering with blue noise", Proceedings of the IEEE 76(1), 1988. Schlömer & Deussen, "Accurate
@@ -73,6 +78,8 @@ def anisotropy(spectrum: Spectrum | ShellSpectrum) -> pd.DataFrame:
         shells = shells_from_cube(spectrum)
     else:
         shells = spectrum
+    if shells.sides is not None:
+        shells = pooled_spectrum(shells)
     m = shells.count / 2
     deviation, freedom = shell_variance(shells.power, shells.deviation, m, shells.realizations)
     rings, ring = np.unique(np.rint(shells.frequency).astype(np.int64), return_inverse=True)
@@ -84,8 +91,8 @@ def anisotropy(spectrum: Spectrum | ShellSpectrum) -> pd.DataFrame:
     with np.errstate(divide="ignore", invalid="ignore"):
         ours = 10 * np.log10(pooled(deviation) / pooled(freedom))
         mean = pooled(m * shells.power) / total
-        squares = pooled(shells.deviation + m * shells.power**2)
-        psa = 10 * np.log10((squares - total * mean**2) / (total - 1) / mean**2)
+        around = pooled(shells.deviation + m * (shells.power - mean[ring]) ** 2)
+        psa = 10 * np.log10(around / (total - 1) / mean**2)
     psa[mean <= ROUNDING_POWER] = np.nan
     return pd.DataFrame(
         {"frequency": rings, "nu": rings * shells.spacing, "anisotropy_db": ours, "psa_db": psa}
@@ -98,9 +105,9 @@ def anisotropy_db(power: FloatArray, shells: Shells, realizations: int, spacing:
     Parameters
     ----------
     power : (2*fmax+1,)*d float64
-        Power of the whole cube, averaged over the sets.
+        Power of the whole cube or box, averaged over the sets.
     shells : Shells
-        Exact shells of that cube.
+        Exact shells of that cube; pooled ones where the torus has unequal sides.
     realizations : int
         M, the number of sets averaged.
     spacing : float
@@ -121,7 +128,9 @@ def anisotropy_db(power: FloatArray, shells: Shells, realizations: int, spacing:
     deviation, freedom = shell_variance(mean, spread, shells.count / 2, realizations)
     nu = shells.radius * spacing
     if nu[-1] < BAND[1] * (1 - EDGE):
-        raise RefusalError(f"anisotropy pools shells up to nu = 1; this spectrum ends at nu = {nu[-1]:.3g}")
+        raise ShortSpectrumError(
+            f"anisotropy pools shells up to nu = 1; this spectrum ends at nu = {nu[-1]:.3g}"
+        )
     band = in_band(nu, *BAND)
     possible = np.maximum(shells.count[band] / 2 - 1, 0).sum()
     if possible == 0:

@@ -10,7 +10,9 @@ from numpy.typing import ArrayLike
 from scipy.special import j0
 
 from gbnbench.analysis.spatial.rdf import pair_density
+from gbnbench.analysis.standard_errors import left_out_sums, sample_variance
 from gbnbench.core.errors import RefusalError
+from gbnbench.core.sides import Sides, as_sides, shortest_side
 from gbnbench.core.torus import FloatArray, as_realizations
 
 # Rows of the Bessel matrix made at once; with 50 sqrt(n) columns they stay small.
@@ -49,13 +51,15 @@ class SpectralStatistics:
     power: FloatArray
 
 
-def spectral_statistics(x: ArrayLike) -> SpectralStatistics:
+def spectral_statistics(x: ArrayLike, sides: ArrayLike | None = None) -> SpectralStatistics:
     """PSA's effective Nyquist frequency and oscillations of one or several sets.
 
     Parameters
     ----------
     x : (n, 2) or (realizations, n, 2) float64
         Points on the unit torus, n >= 2.
+    sides : (2,) array_like, optional
+        Lengths of the torus's sides, whose ratios count; a square if not given.
 
     Returns
     -------
@@ -64,8 +68,11 @@ def spectral_statistics(x: ArrayLike) -> SpectralStatistics:
 
     Raises
     ------
+    InputError
+        If sides are not two lengths.
     RefusalError
-        If d is not 2, n < 2, or n > 200,000: a fifth of all pairs is counted.
+        If d is not 2, n < 2, or n > 200,000: a fifth of all pairs is counted. If one side is more than about
+        four times the other: the disc of radius 1/4 in which pairs are counted does not fit.
 
     Notes
     -----
@@ -104,7 +111,14 @@ def spectral_statistics(x: ArrayLike) -> SpectralStatistics:
             f"PSA's spectral statistics count n^2/10 pairs; n must be at most {MOST_POINTS}, got n={n}"
         )
     total = int(100 * math.sqrt(n))
-    density = _excess_density(sets, total)
+    lengths = as_sides(sides, d)
+    if (total // 2 + 1) * (0.5 / total) > 0.5 * shortest_side(lengths):
+        raise RefusalError(
+            "PSA's spectral statistics count pairs to a quarter of the root of the area; half the "
+            f"shorter side is {0.5 * shortest_side(lengths):.3g} of it, and one side may be about four times "
+            "the other at most"
+        )
+    density = _excess_density(sets, total, lengths)
     rows = min(total, math.ceil(FIRST_RANGE * total / (0.5 * math.sqrt(n))))
     while True:
         frequency = np.arange(rows) * (0.5 * n / total)
@@ -128,13 +142,13 @@ def spectral_statistics(x: ArrayLike) -> SpectralStatistics:
     )
 
 
-def _excess_density(sets: FloatArray, total: int) -> FloatArray:
+def _excess_density(sets: FloatArray, total: int, sides: Sides | None) -> FloatArray:
     """2 pi n (g - 1) r dr on the bins that the window covers, trapezoid: (bins, realizations)."""
     n = sets.shape[1]
     width = 0.5 / total
     bins = total // 2 + 1
     r = np.arange(bins) * width
-    g = pair_density(sets, bins, width)
+    g = pair_density(sets, bins, width, sides)
     return np.transpose((2 * math.pi * n * width) * (g - 1) * r)
 
 
@@ -156,12 +170,12 @@ def _power(density: FloatArray, frequency: FloatArray, n: int, total: int) -> Fl
 def _left_out(power: FloatArray) -> FloatArray:
     """Mean power of all sets but one, for each; nothing for a single set."""
     sets = len(power)
-    return (power.sum(axis=0) - power) / (sets - 1) if sets > 1 else power[:0]
+    return np.array(list(left_out_sums(power))) / (sets - 1) if sets > 1 else power[:0]
 
 
 def _jackknife(left_out: FloatArray) -> float:
     sets = len(left_out)
-    return math.sqrt((sets - 1) * float(np.var(left_out))) if sets > 1 else math.nan
+    return (sets - 1) * math.sqrt(float(sample_variance(left_out)) / sets) if sets > 1 else math.nan
 
 
 def _rise(power: FloatArray) -> int:

@@ -11,13 +11,15 @@ from gbnbench.analysis.spatial.delaunay import IndexArray, Neighbours, plane_nei
 from gbnbench.core.torus import FloatArray
 
 
-def bond_order(x: ArrayLike | Sequence[Neighbours]) -> FloatArray:
+def bond_order(x: ArrayLike | Sequence[Neighbours], sides: ArrayLike | None = None) -> FloatArray:
     """Bond-orientational order Q6 of each set, as PSA measures it.
 
     Parameters
     ----------
     x : (n, 2) or (realizations, n, 2) float64, or what ``delaunay.neighbours`` returned
         Points on the unit torus.
+    sides : (2,) array_like, optional
+        Lengths of the torus's sides, whose ratios count; a square if not given. Neighbours bring their own.
 
     Returns
     -------
@@ -26,6 +28,8 @@ def bond_order(x: ArrayLike | Sequence[Neighbours]) -> FloatArray:
 
     Raises
     ------
+    InputError
+        If sides are not two lengths.
     RefusalError
         If d is not 2, or two points of a set coincide.
 
@@ -36,20 +40,22 @@ def bond_order(x: ArrayLike | Sequence[Neighbours]) -> FloatArray:
     Deussen 2013, as in PSA).
     """
     values = []
-    for each in plane_neighbours(x, "bond order"):
+    for each in plane_neighbours(x, "bond order", sides):
         bond = _complex(each.vector)
         edge = bond[_following(each.indptr)] - bond
         values.append(np.abs(each.sum_over_points(_sixfold(edge))).sum() / len(bond))
     return np.array(values, dtype=np.float64)
 
 
-def psi6(x: ArrayLike | Sequence[Neighbours]) -> FloatArray:
+def psi6(x: ArrayLike | Sequence[Neighbours], sides: ArrayLike | None = None) -> FloatArray:
     """Sixfold order psi6 of each set: mean over points of |mean over neighbours of exp(6 i theta)|.
 
     Parameters
     ----------
     x : (n, 2) or (realizations, n, 2) float64, or what ``delaunay.neighbours`` returned
         Points on the unit torus.
+    sides : (2,) array_like, optional
+        Lengths of the torus's sides, whose ratios count; a square if not given. Neighbours bring their own.
 
     Returns
     -------
@@ -58,6 +64,8 @@ def psi6(x: ArrayLike | Sequence[Neighbours]) -> FloatArray:
 
     Raises
     ------
+    InputError
+        If sides are not two lengths.
     RefusalError
         If d is not 2, or two points of a set coincide.
 
@@ -67,7 +75,7 @@ def psi6(x: ArrayLike | Sequence[Neighbours]) -> FloatArray:
     """
     values = [
         np.mean(np.abs(each.sum_over_points(_sixfold(_complex(each.vector)))) / each.degree)
-        for each in plane_neighbours(x, "psi6")
+        for each in plane_neighbours(x, "psi6", sides)
     ]
     return np.array(values, dtype=np.float64)
 

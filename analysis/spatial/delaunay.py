@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, cast
@@ -11,14 +12,16 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gbnbench.analysis.spatial.delaunay_stars import Star, star_in_plane, star_in_space
+from gbnbench.core.double_double import two_sum
 from gbnbench.core.errors import RefusalError
-from gbnbench.core.periodic_delaunay import copies, triangulation, with_images
+from gbnbench.core.periodic_delaunay import copies, images_in_box, triangulation, with_images
+from gbnbench.core.sides import Sides, as_sides, positions
 from gbnbench.core.torus import FloatArray, as_realizations, spacing
 
 IndexArray = NDArray[np.intp]
 
 # The torus holds the integer lattice of each point, so no empty ball is wider than sqrt(3): two rings of
-# images reach every neighbour of a point, whatever the set.
+# images reach every neighbour of a point, whatever the set. In a box it is the diagonal.
 WIDEST_MARGIN = 2.0
 
 
@@ -34,7 +37,7 @@ class Neighbours:
         The neighbouring points; an image of the point itself carries its own index.
     vector : (m, d) float64
         From the point to that neighbour, the shortest way the triangulation takes; in 2D in counterclockwise
-        cyclic order.
+        cyclic order. In sides of the cube; where sides are unequal the box has volume 1.
     """
 
     indptr: IndexArray
@@ -51,13 +54,15 @@ class Neighbours:
         return np.add.reduceat(values, self.indptr[:-1])
 
 
-def neighbours(x: ArrayLike) -> tuple[Neighbours, ...]:
+def neighbours(x: ArrayLike, sides: ArrayLike | None = None) -> tuple[Neighbours, ...]:
     """Delaunay neighbours of each set; valence, psi6 and bond order share them.
 
     Parameters
     ----------
     x : (n, d) or (realizations, n, d) float64
         Points on the unit torus, d = 2 or 3.
+    sides : (d,) array_like, optional
+        Lengths of the torus's sides, whose ratios count; a cube if not given.
 
     Returns
     -------
@@ -66,6 +71,8 @@ def neighbours(x: ArrayLike) -> tuple[Neighbours, ...]:
 
     Raises
     ------
+    InputError
+        If sides are not d lengths.
     RefusalError
         If d is not 2 or 3, or two points of a set coincide.
 
@@ -95,17 +102,35 @@ def neighbours(x: ArrayLike) -> tuple[Neighbours, ...]:
         raise RefusalError(
             f"Delaunay neighbours are made in d = 2 and 3; got d={d}, where they grow too many"
         )
-    return tuple(_triangulate(points) for points in sets)
+    lengths = as_sides(sides, d)
+    return tuple(_triangulate(points, lengths) for points in positions(sets, lengths))
 
 
-def as_neighbours(x: ArrayLike | Sequence[Neighbours]) -> Sequence[Neighbours]:
-    """Return neighbours as they are, and compute those of points."""
+def as_neighbours(
+    x: ArrayLike | Sequence[Neighbours], sides: ArrayLike | None = None
+) -> Sequence[Neighbours]:
+    """Return neighbours as they are, and compute those of points.
+
+    Parameters
+    ----------
+    x : (n, d) or (realizations, n, d) float64, or what ``neighbours`` returned
+        Points on the unit torus.
+    sides : (d,) array_like, optional
+        Lengths of the torus's sides, for points; a cube if not given.
+
+    Returns
+    -------
+    sequence of Neighbours
+        One a realization.
+    """
     if isinstance(x, (tuple, list)) and x and all(isinstance(item, Neighbours) for item in x):
         return cast("Sequence[Neighbours]", x)
-    return neighbours(x)  # type: ignore[arg-type]
+    return neighbours(x, sides)  # type: ignore[arg-type]
 
 
-def plane_neighbours(x: ArrayLike | Sequence[Neighbours], measure: str) -> Sequence[Neighbours]:
+def plane_neighbours(
+    x: ArrayLike | Sequence[Neighbours], measure: str, sides: ArrayLike | None = None
+) -> Sequence[Neighbours]:
     """Neighbours for a measure of the plane, which is refused by name elsewhere.
 
     Parameters
@@ -114,6 +139,8 @@ def plane_neighbours(x: ArrayLike | Sequence[Neighbours], measure: str) -> Seque
         Points on the unit torus.
     measure : str
         Name of the measure, for the message.
+    sides : (2,) array_like, optional
+        Lengths of the torus's sides, for points; a square if not given.
 
     Returns
     -------
@@ -125,32 +152,40 @@ def plane_neighbours(x: ArrayLike | Sequence[Neighbours], measure: str) -> Seque
     RefusalError
         If d is not 2, or two points of a set coincide.
     """
-    made = as_neighbours(x)
+    made = as_neighbours(x, sides)
     d = made[0].vector.shape[1]
     if d != 2:
         raise RefusalError(f"{measure} is defined in the plane; got d={d}")
     return made
 
 
-def _triangulate(x: FloatArray) -> Neighbours:
+def _triangulate(x: FloatArray, sides: Sides | None) -> Neighbours:
     n, d = x.shape
     h = spacing(n, d)
     if len(np.unique(x, axis=0)) < n:
         raise RefusalError(f"Delaunay neighbours need distinct points; some of these n={n} coincide")
     star_of = star_in_plane if d == 2 else star_in_space
-    margin = 3 * h if 3 * h < 1 else WIDEST_MARGIN
+    widest = most = 2 * math.hypot(*sides) if sides else WIDEST_MARGIN
+    if sides is None:
+        most = 1.0  # one ring of images
+    margin = 3 * h if 3 * h < most else widest
     while True:
-        tiled, owner = _tile(x, margin)
+        tiled, owner = _tile(x, margin) if sides is None else images_in_box(x, sides, margin)
         simplices = _inner_simplices(tiled, n)
-        star = 0.0 if simplices is None else star_of(tiled, simplices, n, h, margin)
+        star = 0.0 if simplices is None else star_of(tiled, simplices, n, h, margin, sides)
         if isinstance(star, Star):
-            return Neighbours(star.indptr, owner[star.image], tiled[star.image] - x[star.point])
-        if margin >= WIDEST_MARGIN:
+            index = owner[star.image]
+            box = 1.0 if sides is None else np.array(sides)
+            turns = np.rint((tiled[star.image] - x[index]) / box) * box
+            # The tiling's own coordinates are rounded to 1e-16 of the box, which near neighbours would feel.
+            difference, rest = two_sum(x[index], -x[star.point])
+            return Neighbours(star.indptr, index, (difference + turns) + rest)
+        if margin >= widest:
             raise RefusalError(
                 f"Delaunay neighbours need points apart; some of these n={n} are too near for doubles"
             )
         wider = max(1.5 * margin, star)
-        margin = wider if wider < 1 else WIDEST_MARGIN
+        margin = wider if wider < most else widest
 
 
 def _tile(x: FloatArray, margin: float) -> tuple[FloatArray, IndexArray]:

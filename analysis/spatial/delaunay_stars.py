@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.core.periodic_delaunay import circumcentre, overhang
+from gbnbench.core.sides import Sides
 from gbnbench.core.torus import FloatArray
 
 IndexArray = NDArray[np.intp]
@@ -43,7 +44,9 @@ class Star:
     image: IndexArray
 
 
-def star_in_plane(tiled: FloatArray, simplices: IndexArray, n: int, h: float, margin: float) -> Star | float:
+def star_in_plane(
+    tiled: FloatArray, simplices: IndexArray, n: int, h: float, margin: float, box: Sides | None = None
+) -> Star | float:
     """Neighbours in the plane as closed cycles around each point, or the margin that is needed.
 
     Parameters
@@ -58,6 +61,8 @@ def star_in_plane(tiled: FloatArray, simplices: IndexArray, n: int, h: float, ma
         Spacing n**(-1/d), the unit of the shortest edge.
     margin : float
         Width of the border of images.
+    box : tuple of d floats, optional
+        Sides of the box; a cube if not given.
 
     Returns
     -------
@@ -80,7 +85,7 @@ def star_in_plane(tiled: FloatArray, simplices: IndexArray, n: int, h: float, ma
     if (first[following] != second).any() or (area <= 0).any():
         return 0.0
     centre = circumcentre(a, b)  # from the point
-    lacking = overhang(tiled[point] + centre, np.sqrt(np.sum(centre**2, axis=1)))
+    lacking = overhang(tiled[point] + centre, np.sqrt(np.sum(centre**2, axis=1)), box or 1.0)
     if lacking > margin:
         return lacking
     preceding = np.empty_like(following)
@@ -89,7 +94,9 @@ def star_in_plane(tiled: FloatArray, simplices: IndexArray, n: int, h: float, ma
     return _star(point, first, length > SHORTEST_EDGE * h, n)
 
 
-def star_in_space(tiled: FloatArray, simplices: IndexArray, n: int, h: float, margin: float) -> Star | float:
+def star_in_space(
+    tiled: FloatArray, simplices: IndexArray, n: int, h: float, margin: float, box: Sides | None = None
+) -> Star | float:
     """Neighbours in space whose Voronoi faces have width, or the margin that is needed.
 
     Parameters
@@ -104,6 +111,8 @@ def star_in_space(tiled: FloatArray, simplices: IndexArray, n: int, h: float, ma
         Spacing n**(-1/d), the unit of the shortest edge.
     margin : float
         Width of the border of images.
+    box : tuple of d floats, optional
+        Sides of the box; a cube if not given.
 
     Returns
     -------
@@ -118,7 +127,7 @@ def star_in_space(tiled: FloatArray, simplices: IndexArray, n: int, h: float, ma
     solid = np.abs(np.linalg.det(sides)) > FLATTEST * np.prod(np.sqrt(np.sum(sides**2, axis=2)), axis=1)
     simplices, origin, sides = simplices[solid], origin[solid], sides[solid]
     centre = np.linalg.solve(2 * sides, np.sum(sides**2, axis=2)[..., None])[..., 0]
-    lacking = overhang(origin + centre, np.sqrt(np.sum(centre**2, axis=1)))
+    lacking = overhang(origin + centre, np.sqrt(np.sum(centre**2, axis=1)), box or 1.0)
     if lacking > margin:
         return lacking
     pairs = np.array([(i, j) for i in range(4) for j in range(4) if i != j])

@@ -5,20 +5,32 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 from scipy.spatial import cKDTree
 
 from gbnbench.core.errors import RefusalError
-from gbnbench.core.torus import HERMITE, FloatArray, as_realizations, densest_spacing
+from gbnbench.core.sides import Sides, as_sides, positions
+from gbnbench.core.torus import (
+    HERMITE,
+    FloatArray,
+    as_realizations,
+    densest_spacing,
+    displacement,
+)
+
+NEAR = 1e-9  # box sides; a distance below which the tree's rounding may exceed 1e-7 of it
+CANDIDATES = 8
 
 
-def nearest_distances(x: ArrayLike) -> FloatArray:
+def nearest_distances(x: ArrayLike, sides: ArrayLike | None = None) -> FloatArray:
     """Distance from each point to its nearest neighbour on the torus, in densest spacings.
 
     Parameters
     ----------
     x : (n, d) or (realizations, n, d) float64
         Points on the unit torus, n >= 2, d <= 8.
+    sides : (d,) array_like, optional
+        Lengths of the torus's sides, whose ratios count; a cube if not given.
 
     Returns
     -------
@@ -27,11 +39,14 @@ def nearest_distances(x: ArrayLike) -> FloatArray:
 
     Raises
     ------
+    InputError
+        If sides are not d lengths.
     RefusalError
         If n = 1, or d > 8, where the densest lattice is not known.
     """
     sets = as_realizations(x)
     n, d = sets.shape[1:]
+    lengths = as_sides(sides, d)
     unit = densest_spacing(n, d)
     if math.isnan(unit):
         raise RefusalError(
@@ -39,33 +54,79 @@ def nearest_distances(x: ArrayLike) -> FloatArray:
         )
     if n < 2:
         raise RefusalError("a distance between points needs n >= 2; got n=1")
-    box = np.ones(d)
-    nearest = [np.asarray(cKDTree(points, boxsize=box).query(points, k=2)[0])[:, 1] for points in sets]
-    return np.array(nearest, dtype=np.float64) / unit
+    return np.array([_nearest(points, lengths) for points in sets]) / unit
 
 
-def min_distance(x: ArrayLike) -> FloatArray:
-    """Smallest toroidal distance between two points of each set, in densest spacings: (realizations,).
+def _nearest(points: FloatArray, sides: Sides | None) -> FloatArray:
+    """Distance from each point to its nearest neighbour, in box sides: (n,).
 
-    Lagae & Dutré (2008) call it the relative radius: min over i != j of |x_i - x_j| / densest_spacing(n, d).
+    The tree's own distances are rounded to 1e-16 of the box where the neighbour lies across the border, so
+    it only names candidates; more of them where that rounding might hide which is the nearest.
+    """
+    n, d = points.shape
+    box = np.ones(d) if sides is None else np.array(sides)
+    placed = positions(points, sides)
+    tree = cKDTree(placed, boxsize=box)
+    nearest = _shortest(points, box, np.arange(n), np.asarray(tree.query(placed, k=2)[1]))
+    near = np.flatnonzero(nearest < NEAR)
+    if len(near):
+        candidates = tree.query(placed[near], k=min(n, CANDIDATES))[1]
+        nearest[near] = _shortest(points, box, near, np.asarray(candidates))
+    return nearest
+
+
+def _shortest(
+    points: FloatArray, box: FloatArray, of: NDArray[np.intp], candidates: NDArray[np.intp]
+) -> FloatArray:
+    """Shortest distance from each of some points to its candidates, itself left out."""
+    between = displacement(points[candidates], points[of][:, None]) * box
+    distance = np.sqrt(np.sum(between**2, axis=-1))
+    distance[candidates == of[:, None]] = np.inf
+    return np.asarray(distance.min(axis=1))
+
+
+def min_distance(x: ArrayLike, sides: ArrayLike | None = None) -> FloatArray:
+    """Smallest toroidal distance between two points of each set, in densest spacings.
+
+    Parameters
+    ----------
+    x : (n, d) or (realizations, n, d) float64
+        Points on the unit torus, n >= 2, d <= 8.
+    sides : (d,) array_like, optional
+        Lengths of the torus's sides, whose ratios count; a cube if not given.
+
+    Returns
+    -------
+    (realizations,) float64
+        The relative radius of Lagae & Dutré (2008): min over i != j of |x_i - x_j| / densest_spacing(n, d).
 
     Raises
     ------
-    RefusalError
+    InputError
         As ``nearest_distances``.
     """
-    return np.asarray(nearest_distances(x).min(axis=1))
+    return np.asarray(nearest_distances(x, sides).min(axis=1))
 
 
-def mean_distance(x: ArrayLike) -> FloatArray:
-    """Mean toroidal distance to the nearest neighbour of each set, in densest spacings: (realizations,).
+def mean_distance(x: ArrayLike, sides: ArrayLike | None = None) -> FloatArray:
+    """Mean toroidal distance to the nearest neighbour of each set, in densest spacings.
 
-    (1/n) sum over i of min over j of |x_i - x_j| / densest_spacing(n, d), as in PSA (Schlömer & Deussen
-    2011).
+    Parameters
+    ----------
+    x : (n, d) or (realizations, n, d) float64
+        Points on the unit torus, n >= 2, d <= 8.
+    sides : (d,) array_like, optional
+        Lengths of the torus's sides, whose ratios count; a cube if not given.
+
+    Returns
+    -------
+    (realizations,) float64
+        (1/n) sum over i of min over j of |x_i - x_j| / densest_spacing(n, d), as in PSA (Schlömer & Deussen
+        2011).
 
     Raises
     ------
-    RefusalError
+    InputError
         As ``nearest_distances``.
     """
-    return np.asarray(nearest_distances(x).mean(axis=1))
+    return np.asarray(nearest_distances(x, sides).mean(axis=1))

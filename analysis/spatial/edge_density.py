@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gbnbench.analysis.standard_errors import sample_variance
 from gbnbench.core.errors import InputError
+from gbnbench.core.sides import as_sides
 from gbnbench.core.torus import FloatArray, as_realizations
 
 if TYPE_CHECKING:
@@ -61,7 +63,9 @@ class EdgeDensity:
         )
 
 
-def edge_density(x: ArrayLike, width: float = 0.25, depth: float = 8.0) -> EdgeDensity:
+def edge_density(
+    x: ArrayLike, width: float = 0.25, depth: float = 8.0, sides: ArrayLike | None = None
+) -> EdgeDensity:
     """Profile of the density over the distance to the nearest face.
 
     Parameters
@@ -72,6 +76,8 @@ def edge_density(x: ArrayLike, width: float = 0.25, depth: float = 8.0) -> EdgeD
         Width of a bin, spacings.
     depth : float
         End of the last bin, spacings; the centre of the box where that is nearer.
+    sides : (d,) array_like, optional
+        Lengths of the box's sides, whose ratios count; a cube if not given.
 
     Returns
     -------
@@ -81,11 +87,12 @@ def edge_density(x: ArrayLike, width: float = 0.25, depth: float = 8.0) -> EdgeD
     Raises
     ------
     InputError
-        If x is not points of the unit box, or width and depth are not 0 < width <= depth.
+        If x is not points of the unit box, width and depth are not 0 < width <= depth, or sides are not d
+        lengths.
 
     Notes
     -----
-    A bin [a, b) is the shell between two cubes, of volume (1 - 2 a / L)^d - (1 - 2 b / L)^d with
+    A bin [a, b) is the shell between two boxes, in a cube of volume (1 - 2 a / L)^d - (1 - 2 b / L)^d with
     L = n^(1/d): so corners, which belong to several faces, are counted once and need no correction.
 
     Examples
@@ -98,16 +105,17 @@ def edge_density(x: ArrayLike, width: float = 0.25, depth: float = 8.0) -> EdgeD
     if not 0 < width <= depth < math.inf:
         raise InputError(f"width and depth must be 0 < width <= depth, spacings; got {width} and {depth}")
     sets, n, d = points.shape
-    side = n ** (1 / d)
-    last = min(depth, side / 2)
+    lengths = as_sides(sides, d)
+    side = n ** (1 / d) * (np.ones(d) if lengths is None else np.array(lengths))
+    last = min(depth, float(np.min(side)) / 2)
     edges = np.append(np.arange(0, last - width / 1e6, width), last)
-    distance = np.minimum(points, 1 - points).min(axis=2) * side  # (sets, n)
-    volume = -np.diff((1 - np.minimum(2 * edges / side, 1)) ** d)
+    distance = (np.minimum(points, 1 - points) * side).min(axis=2)  # (sets, n)
+    volume = _shell_volumes(np.minimum(2 * edges[:, None] / side, 1))
+    gaps = [points.min(axis=1) * side, (1 - points.max(axis=1)) * side]
+    extremes = np.concatenate(gaps, axis=1).mean(axis=1)
     counts = np.stack([np.histogram(each, edges)[0] for each in distance])
     share = counts / n
     density = share / volume
-    low, high = points.min(axis=1), 1 - points.max(axis=1)
-    extremes = np.concatenate([low, high], axis=1).mean(axis=1) * side
     return EdgeDensity(
         edges,
         density.mean(axis=0),
@@ -123,4 +131,17 @@ def _error(values: FloatArray) -> FloatArray:
     """Return the standard error of the mean over the first axis; nan for a single value."""
     if len(values) < 2:
         return np.full(values.shape[1:], np.nan)
-    return np.asarray(values.std(axis=0, ddof=1) / math.sqrt(len(values)))
+    return np.sqrt(sample_variance(values) / len(values))
+
+
+def _shell_volumes(cut: FloatArray) -> FloatArray:
+    """Volumes between the boxes of sides 1 - a and 1 - b, for cuts a < b: (bins + 1, d) -> (bins,).
+
+    They are summed axis by axis, since a difference of two products near 1 would cancel.
+    """
+    outer, inner = 1 - cut[:-1], 1 - cut[1:]
+    parts = [
+        outer[:, :a].prod(axis=1) * np.diff(cut[:, a]) * inner[:, a + 1 :].prod(axis=1)
+        for a in range(cut.shape[1])
+    ]
+    return np.asarray(np.sum(parts, axis=0))

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.sides import Sides, as_sides, shortest_side
 from gbnbench.core.torus import FloatArray, as_realizations, densest_spacing
 
 if TYPE_CHECKING:
@@ -20,6 +21,9 @@ RANGE = 8.0  # densest spacings
 BINS_PER_POINT = 0.125
 # Pairs worked on at once: a few arrays of this many doubles stay in a core's cache.
 BLOCK = 1 << 16
+# A distance that falls short of an edge by this part of a bin lies on it, but for the coordinates' rounding:
+# every distance of a grid of 100 x 100 points is an edge of PSA's bins, and few are rounded upwards.
+ON_EDGE = 1e-9
 # Windows are wider than the longest distance by this much, so that rounding loses no pair.
 SLACK = 1e-12
 
@@ -49,22 +53,26 @@ class RadialDistribution:
         return pd.DataFrame({"r": self.r, "g": self.g})
 
 
-def rdf(x: ArrayLike) -> RadialDistribution:
+def rdf(x: ArrayLike, sides: ArrayLike | None = None) -> RadialDistribution:
     """Radial distribution function of each set and their mean.
 
     Parameters
     ----------
     x : (n, d) or (realizations, n, d) float64
         Points on the unit torus, d <= 8.
+    sides : (d,) array_like, optional
+        Lengths of the torus's sides, whose ratios count; a cube if not given.
 
     Returns
     -------
     RadialDistribution
-        int(0.125 n) bins over 0..8 densest spacings, without those that end beyond 1/2, whose shells do not
-        fit the torus.
+        int(0.125 n) bins over 0..8 densest spacings, without those that end beyond half the shortest side,
+        whose shells do not fit the torus.
 
     Raises
     ------
+    InputError
+        If sides are not d lengths.
     RefusalError
         If d > 8, where the densest lattice is not known, or n is too small for one bin.
 
@@ -75,22 +83,23 @@ def rdf(x: ArrayLike) -> RadialDistribution:
     """
     sets = as_realizations(x)
     n, d = sets.shape[1:]
+    lengths = as_sides(sides, d)
     unit = densest_spacing(n, d)
     if math.isnan(unit):
         raise RefusalError(f"rdf is measured in spacings of the densest lattice, known for d <= 8; got d={d}")
     planned = int(BINS_PER_POINT * n)
     width = RANGE * unit / max(planned, 1)
-    bins = min(planned, math.floor(0.5 / width))
+    bins = min(planned, math.floor(0.5 * shortest_side(lengths) / width))
     if bins < 1:
         raise RefusalError(
             f"rdf has int({BINS_PER_POINT} n) bins, none of which fits the torus at n={n}, d={d}"
         )
-    g = pair_density(sets, bins, width)
+    g = pair_density(sets, bins, width, lengths)
     mean: FloatArray = g.mean(axis=0)
     return RadialDistribution(np.arange(bins, dtype=np.float64) * (width / unit), mean, g)
 
 
-def pair_density(sets: FloatArray, bins: int, width: float) -> FloatArray:
+def pair_density(sets: FloatArray, bins: int, width: float, sides: Sides | None = None) -> FloatArray:
     """Radial distribution function in bins of equal width from 0 on.
 
     Parameters
@@ -98,9 +107,11 @@ def pair_density(sets: FloatArray, bins: int, width: float) -> FloatArray:
     sets : (realizations, n, d) float64
         Points on the unit torus, n >= 2.
     bins : int
-        Number of bins; they end at 1/2 at most.
+        Number of bins; they end at half the shortest side at most.
     width : float
-        Width of a bin, in box sides.
+        Width of a bin; the box has volume 1.
+    sides : tuple of d floats, optional
+        Sides of volume 1, as ``as_sides`` returns them; a cube if not given.
 
     Returns
     -------
@@ -117,11 +128,12 @@ def pair_density(sets: FloatArray, bins: int, width: float) -> FloatArray:
         raise RefusalError("pairs need n >= 2; got n=1")
     index = np.arange(bins, dtype=np.float64)
     ball = math.pi ** (d / 2) / math.gamma(d / 2 + 1) * width**d
-    expected = n * (n - 1) / 2 * ball * ((index + 1) ** d - index**d)
-    return np.asarray(np.array([pair_counts(points, bins, width) for points in sets]) / expected)
+    shells = sum(math.comb(d, k) * index**k for k in range(d))  # (index + 1)^d - index^d
+    expected = n * (n - 1) / 2 * ball * shells
+    return np.asarray(np.array([pair_counts(points, bins, width, sides) for points in sets]) / expected)
 
 
-def pair_counts(x: FloatArray, bins: int, width: float) -> NDArray[np.int64]:
+def pair_counts(x: FloatArray, bins: int, width: float, sides: Sides | None = None) -> NDArray[np.int64]:
     """Unordered pairs of one set by toroidal distance.
 
     Parameters
@@ -129,9 +141,12 @@ def pair_counts(x: FloatArray, bins: int, width: float) -> NDArray[np.int64]:
     x : (n, d) float64
         Points on the unit torus.
     bins : int
-        Equal bins from 0 on, closed on the left; farther pairs are not counted.
+        Equal bins from 0 on, closed on the left, distances that fall short of an edge by 1e-9 of a bin
+        included; farther pairs are not counted.
     width : float
-        Width of a bin, > 0; bins * width is 1/2 at most.
+        Width of a bin, > 0; bins * width is half the shortest side at most.
+    sides : tuple of d floats, optional
+        Sides of volume 1, as ``as_sides`` returns them; a cube if not given.
 
     Returns
     -------
@@ -141,7 +156,7 @@ def pair_counts(x: FloatArray, bins: int, width: float) -> NDArray[np.int64]:
     Raises
     ------
     InputError
-        If the bins reach beyond 1/2.
+        If the bins reach beyond half the shortest side.
 
     Notes
     -----
@@ -149,34 +164,43 @@ def pair_counts(x: FloatArray, bins: int, width: float) -> NDArray[np.int64]:
     only pairs within a window are examined. Memory does not grow with their number.
     """
     reach = bins * width
-    if not 0 < reach <= 0.5 * (1 + 1e-12):
-        raise InputError(f"bins must end within (0, 1/2], where a ball fits the torus; got {reach!r}")
+    box = (1.0,) * x.shape[1] if sides is None else sides
+    if not 0 < reach <= 0.5 * min(box) * (1 + 1e-12):
+        raise InputError(
+            f"bins must end within (0, {0.5 * min(box):.6g}], where a ball fits the torus; got {reach!r}"
+        )
     per_length = 1 / width
     if math.isclose(per_length, round(per_length), rel_tol=1e-12):
         per_length = round(per_length)  # so that a distance which is exactly an edge begins its bin
     counts = np.zeros(bins + 1, dtype=np.int64)
-    for rows, columns, drop in _windows(x, reach):
+    for rows, columns, drop in _windows(x, reach / box[0], reach / box[-1]):
         squared = np.zeros((len(rows), len(columns)))
-        for axis in range(x.shape[1]):
+        for axis, side in enumerate(box):
             step = rows[:, axis, None] - columns[None, :, axis]
             step -= np.rint(step)
+            if sides is not None:
+                step *= side
             step *= step
             squared += step
         if drop is not None:
             squared[drop] = np.inf
         np.sqrt(squared, out=squared)
         squared *= per_length
+        squared += ON_EDGE
         np.minimum(squared, bins, out=squared)
         counts += np.bincount(squared.astype(np.intp).ravel(), minlength=bins + 1)
     return counts[:bins]
 
 
 def _windows(
-    x: FloatArray, reach: float
+    x: FloatArray, across: float, reach: float
 ) -> Iterator[tuple[FloatArray, FloatArray, NDArray[np.bool_] | None]]:
-    """Blocks of rows against columns that together hold every near pair once; a mask marks repeats."""
+    """Blocks of rows against columns that together hold every near pair once; a mask marks repeats.
+
+    The longest distance is a share ``across`` of the first side and ``reach`` of the last.
+    """
     x = x[np.argsort(x[:, -1], kind="stable")]
-    strips = int(1 / (reach + SLACK)) if x.shape[1] > 1 else 1
+    strips = int(1 / (across + SLACK)) if x.shape[1] > 1 else 1
     if strips < 3:  # a strip must not meet its neighbour on both sides
         strips = 1
     label = np.minimum((x[:, 0] * strips).astype(np.intp), strips - 1)

@@ -45,13 +45,15 @@ class Valence:
         return pd.DataFrame({"degree": self.degree, "share": self.share})
 
 
-def valence(x: ArrayLike | Sequence[Neighbours]) -> Valence:
+def valence(x: ArrayLike | Sequence[Neighbours], sides: ArrayLike | None = None) -> Valence:
     """Histogram of the Delaunay degrees on the torus, averaged over realizations.
 
     Parameters
     ----------
     x : (n, d) or (realizations, n, d) float64, or what ``neighbours`` returned
         Points on the unit torus, d = 2 or 3.
+    sides : (d,) array_like, optional
+        Lengths of the torus's sides, whose ratios count; a cube if not given. Neighbours bring their own.
 
     Returns
     -------
@@ -60,21 +62,35 @@ def valence(x: ArrayLike | Sequence[Neighbours]) -> Valence:
 
     Raises
     ------
-    RefusalError
+    InputError, RefusalError
         As ``neighbours``.
     """
-    degrees = [each.degree for each in as_neighbours(x)]
+    degrees = [each.degree for each in as_neighbours(x, sides)]
     low, high = min(int(k.min()) for k in degrees), max(int(k.max()) for k in degrees)
     by_set = np.array([np.bincount(k - low, minlength=high - low + 1) / len(k) for k in degrees])
     return Valence(np.arange(low, high + 1, dtype=np.intp), by_set.mean(axis=0), by_set)
 
 
-def valence6(x: ArrayLike | Sequence[Neighbours]) -> FloatArray:
-    """Share of points with exactly six Delaunay neighbours in each set of the plane: (realizations,).
+def valence6(x: ArrayLike | Sequence[Neighbours], sides: ArrayLike | None = None) -> FloatArray:
+    """Share of points with exactly six Delaunay neighbours in each set of the plane.
+
+    Parameters
+    ----------
+    x : (n, 2) or (realizations, n, 2) float64, or what ``neighbours`` returned
+        Points on the unit torus.
+    sides : (2,) array_like, optional
+        Lengths of the torus's sides, whose ratio counts; a square if not given. Neighbours bring their own.
+
+    Returns
+    -------
+    (realizations,) float64
+        Shares.
 
     Raises
     ------
+    InputError
+        If sides are not two lengths.
     RefusalError
         If d is not 2 (six is the plane's mean), or two points of a set coincide.
     """
-    return valence(plane_neighbours(x, "the share of degree six")).of(6)
+    return valence(plane_neighbours(x, "the share of degree six", sides)).of(6)

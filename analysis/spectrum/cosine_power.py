@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from gbnbench.analysis.spectrum.shells import squared_radius
 from gbnbench.core.errors import InputError
-from gbnbench.core.results import RadialPower
+from gbnbench.core.results.radial import RadialPower
 from gbnbench.core.torus import FloatArray, as_realizations
 
 MOST_MODES = 10**7  # of the cube held at once

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gbnbench.core.results import RESOLVED, resolvable_power
+from gbnbench.core.results.resolution import RESOLVED, resolvable_power
 from gbnbench.core.torus import FloatArray
 
 UNIT = {"double": 2.0**-53, "float": 2.0**-24}  # half the distance from 1 to the next number

@@ -9,6 +9,7 @@ import numpy as np
 from gbnbench.analysis.spectrum.shells import EDGE
 from gbnbench.core.errors import InputError
 from gbnbench.core.memory import physical_memory
+from gbnbench.core.sides import Sides
 
 MEMORY_SHARE = 0.5  # of the machine's memory that one cube may take
 BYTES = 24  # for each frequency: 8 on the device, 8 on the host and 8 to work with it
@@ -97,9 +98,7 @@ def check_harmonic(fmax: object, d: int) -> int:
     InputError
         If fmax is not a positive integer, or (2*fmax+1)**d exceeds 2^63.
     """
-    if isinstance(fmax, bool) or not isinstance(fmax, (int, np.integer)) or fmax < 1:
-        raise InputError(f"fmax must be an integer of at least 1; got {fmax!r}")
-    f = int(fmax)
+    f = check_positive(fmax)
     if (2 * f + 1) ** d > LARGEST_COUNT:
         fitting = largest_fmax(LARGEST_COUNT, d)
         way_out = (
@@ -112,6 +111,13 @@ def check_harmonic(fmax: object, d: int) -> int:
             f"{way_out}"
         )
     return f
+
+
+def check_positive(fmax: object) -> int:
+    """Return fmax if it is an integer of at least 1; an InputError says that it is not."""
+    if isinstance(fmax, bool) or not isinstance(fmax, (int, np.integer)) or fmax < 1:
+        raise InputError(f"fmax must be an integer of at least 1; got {fmax!r}")
+    return int(fmax)
 
 
 def largest_fmax(count: int, d: int) -> int:
@@ -156,6 +162,35 @@ def default_fmax(n: int, d: int, realizations: int = 1) -> int:
     most = min(MOST_FREQUENCIES, MOST_TERMS / n, MOST_KEPT / realizations)
     floor = math.ceil(FLOOR_NU * edge)  # the noise floor is always wanted
     return max(1, min(wanted, max(floor, largest_fmax(int(most), d))))
+
+
+def default_radius(n: int, d: int, realizations: int, sides: Sides) -> int:
+    """Choose the largest |k| for a torus with unequal sides, as ``default_fmax`` does for a cube.
+
+    The box |f_a| <= fmax s_a has as many frequencies as a cube may have, and the band of the noise floor is
+    within it, with the shell beyond.
+
+    Parameters
+    ----------
+    n, d : int
+        Points of a set, and dimension.
+    realizations : int
+        Number of sets whose powers are kept.
+    sides : tuple of d floats
+        As ``as_sides`` returns them.
+
+    Returns
+    -------
+    int
+        |k| in cycles per unit length, the torus having volume 1.
+    """
+    edge = math.pow(n, 1 / d)
+    wanted = math.floor(LARGEST_NU * edge * (1 + EDGE)) + 1
+    most = min(MOST_FREQUENCIES, MOST_TERMS / n, MOST_KEPT / realizations)
+    least = math.ceil(FLOOR_NU * edge + 1 / max(sides))
+    while wanted > least and math.prod(2 * math.floor(wanted * side) + 1 for side in sides) > most:
+        wanted -= 1
+    return wanted
 
 
 def default_shell_fmax(n: int, d: int) -> int:

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gbnbench.analysis.precision import PrecisionName
+from gbnbench.analysis.spectrum.box_shells import harmonics_within
 from gbnbench.analysis.spectrum.choice import choose
 from gbnbench.analysis.spectrum.error_model import Errors
 from gbnbench.analysis.spectrum.evaluators.protocol import Evaluator
 from gbnbench.analysis.spectrum.evaluators.registry import Method
-from gbnbench.analysis.spectrum.limits import check_fmax
-from gbnbench.analysis.spectrum.request import SpectrumRequest
+from gbnbench.analysis.spectrum.limits import check_fmax, check_harmonic
+from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest, box_request
 from gbnbench.core.errors import InputError
-from gbnbench.core.results import Spectrum
+from gbnbench.core.results.spectrum import Spectrum
+from gbnbench.core.sides import Sides, as_sides
 from gbnbench.core.torus import FloatArray, as_realizations
 from gbnbench.opencl import use_device
 
@@ -30,6 +33,7 @@ def periodogram(
     half: bool = False,
     floor: float | None = None,
     method: Method | None = None,
+    sides: ArrayLike | None = None,
     device: str | None = None,
 ) -> Spectrum:
     """Exact power at every integer frequency with |f_a| <= fmax, or at those listed.
@@ -39,7 +43,7 @@ def periodogram(
     x : (n, d) or (realizations, n, d) array_like
         Points on the unit torus; power is averaged over realizations.
     fmax : int
-        Largest harmonic on each axis, cycles per unit length, at least 1.
+        Largest harmonic on each axis, cycles per unit length, at least 1; with sides the largest |k|.
     precision : {"double", "float"}
         Precision of the phases, tables and sums of 128 points; those sums are added in double where the
         device has it. With a floor, "double" stands for whichever precision resolves it.
@@ -56,6 +60,10 @@ def periodogram(
     method : {"product", "gridded", "nufft", "numpy", "direct"}, optional
         An evaluator instead of the cheapest: the two-group product, the gridded product, the non-uniform FFT,
         the product in plain numpy, or the direct sum for listed frequencies.
+    sides : (d,) array_like, optional
+        Lengths of the torus's sides, whose ratios count; a cube if not given. The wave vector of f is
+        k_a = f_a / s_a, the volume being 1, and the box of frequencies that holds the ball |k| <= fmax is
+        evaluated: |f_a| <= fmax s_a.
     device : str, optional
         Part of the name of the OpenCL device, or its position, as in ``GBNBENCH_DEVICE``, which it overrides.
 
@@ -71,8 +79,8 @@ def periodogram(
     ------
     InputError
         If x is not points of [0, 1)^d, fmax is not a positive integer, both or neither of fmax and
-        frequencies are given, weights do not fit, floor is below what any evaluator resolves, or the cube
-        does not fit in memory (the text says what would).
+        frequencies are given, weights or sides do not fit, floor is below what any evaluator resolves, or the
+        cube does not fit in memory (the text says what would).
     DeviceError
         If the OpenCL device lacks the precision. Without any device numpy computes.
 
@@ -97,22 +105,38 @@ def periodogram(
             "give either fmax or frequencies: periodogram(x, 64) or periodogram(x, frequencies=f)"
         )
     w = check_weights(weights, sets, n)
+    lengths = as_sides(sides, d)
     if frequencies is not None:
         if half:
             raise InputError("half is of a cube; list only the frequencies wanted")
         wanted = check_frequencies(frequencies, d)
         with use_device(device):
-            return _listed(points, wanted, precision, w, floor, method)
-    f = check_fmax(fmax, d)
-    request = SpectrumRequest("half cube" if half else "cube", n, d, f, sets, (2 * f + 1) ** d)
+            return _listed(points, wanted, precision, w, floor, method, lengths)
+    f, request = _cube_request(n, d, fmax, sets, lengths, half=half)
     with use_device(device):
         evaluator = choose(request, precision, floor, method)
-        power, errors = evaluator.cube(points, f, w, half=half, mean=True)
+        power, errors = evaluator.box(points, request, w, mean=True)
         errors = errors.averaged(sets, n)
-        return _spectrum(power, request, evaluator, errors, half=half, weighted=w is not None)
+        return _spectrum(
+            power, request, evaluator, errors, fmax=f, half=half, weighted=w is not None, sides=lengths
+        )
 
 
-def each_power(x: FloatArray, fmax: int, precision: PrecisionName = "double") -> tuple[FloatArray, Spectrum]:
+def _cube_request(
+    n: int, d: int, fmax: object, realizations: int, sides: Sides | None, *, half: bool = False
+) -> tuple[int, SpectrumRequest]:
+    """Check fmax, and make the request for its cube or, for unequal sides, for the box round its ball."""
+    if sides is None:
+        f = check_fmax(fmax, d)
+        kind: Frequencies = "half cube" if half else "cube"
+        return f, SpectrumRequest(kind, n, d, f, realizations, (2 * f + 1) ** d)
+    f = check_harmonic(fmax, d)
+    return f, box_request(n, d, harmonics_within(f, sides), realizations, half=half)
+
+
+def each_power(
+    x: FloatArray, fmax: int, precision: PrecisionName = "double", sides: Sides | None = None
+) -> tuple[FloatArray, Spectrum]:
     """Power of every realization, and their mean.
 
     Parameters
@@ -120,20 +144,67 @@ def each_power(x: FloatArray, fmax: int, precision: PrecisionName = "double") ->
     x : (realizations, n, d) float64
         Checked points.
     fmax : int
-        Checked by ``check_fmax``.
+        Largest harmonic on each axis; for unequal sides the largest |k|.
     precision : {"double", "float"}
         As in ``periodogram``.
+    sides : tuple of d floats, optional
+        As ``as_sides`` returns them.
 
     Returns
     -------
     powers : (realizations,) + (2*fmax+1,)*d float64
+        A box for unequal sides, as in ``periodogram``.
     spectrum : Spectrum
+
+    Raises
+    ------
+    InputError
+        If fmax is not a positive integer, or the powers do not fit in memory.
     """
     sets, n, d = x.shape
-    request = SpectrumRequest("cube", n, d, fmax, sets, (2 * fmax + 1) ** d)
+    f, request = _cube_request(n, d, fmax, sets, sides)
     evaluator = choose(request, precision, None)
-    powers, errors = evaluator.cube(x, fmax, None, half=False, mean=False)
-    return powers, _spectrum(powers.mean(axis=0), request, evaluator, errors.averaged(sets, n))
+    powers, errors = evaluator.box(x, request, None, mean=False)
+    mean, averaged = powers.mean(axis=0), errors.averaged(sets, n)
+    return powers, _spectrum(mean, request, evaluator, averaged, fmax=f, sides=sides)
+
+
+def each_listed_power(
+    x: FloatArray,
+    frequencies: NDArray[np.int64],
+    precision: PrecisionName = "double",
+    sides: Sides | None = None,
+) -> tuple[FloatArray, Spectrum]:
+    """Power of every realization at listed frequencies, and their mean.
+
+    Parameters
+    ----------
+    x : (realizations, n, d) float64
+        Checked points.
+    frequencies : (m, d) int64
+        Cycles per unit length.
+    precision : {"double", "float"}
+        As in ``periodogram``.
+    sides : tuple of d floats, optional
+        As ``as_sides`` returns them.
+
+    Returns
+    -------
+    powers : (realizations, m) float64
+    spectrum : Spectrum
+    """
+    each = [_listed(one[None], frequencies, precision, None, None, None, sides) for one in x]
+    powers = np.stack([one.power for one in each])
+    errors = Errors(max(one.error_rms for one in each), max(one.error_bound for one in each))
+    errors = errors.averaged(*x.shape[:2])
+    mean = replace(
+        each[0],
+        power=powers.mean(axis=0),
+        realizations=len(x),
+        error_rms=errors.rms,
+        error_bound=errors.bound,
+    )
+    return powers, mean
 
 
 def _listed(
@@ -143,6 +214,7 @@ def _listed(
     weights: FloatArray | None,
     floor: float | None,
     method: str | None,
+    sides: Sides | None,
 ) -> Spectrum:
     sets, n, d = x.shape
     fmax = max(abs(int(frequencies.max())), abs(int(frequencies.min())))
@@ -151,7 +223,9 @@ def _listed(
     power, errors = evaluator.listed(x, frequencies, weights)
     errors = errors.averaged(sets, n)
     weighted = weights is not None
-    return _spectrum(power, request, evaluator, errors, frequencies=frequencies, weighted=weighted)
+    return _spectrum(
+        power, request, evaluator, errors, frequencies=frequencies, weighted=weighted, sides=sides
+    )
 
 
 def _spectrum(
@@ -162,13 +236,12 @@ def _spectrum(
         n=request.n,
         d=request.d,
         realizations=request.realizations,
-        fmax=request.fmax,
         precision=evaluator.precision,
         method=evaluator.method,
         device=evaluator.device,
         error_rms=errors.rms,
         error_bound=errors.bound,
-        **more,
+        **{"fmax": request.fmax, **more},
     )
 
 

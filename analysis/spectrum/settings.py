@@ -15,7 +15,8 @@ from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.plan import plan
 from gbnbench.analysis.spectrum.shell_spectrum import shells
 from gbnbench.analysis.spectrum.spectrum_plan import SpectrumPlan
-from gbnbench.core.results import ShellSpectrum, Spectrum
+from gbnbench.core.results.radial import ShellSpectrum
+from gbnbench.core.results.spectrum import Spectrum
 from gbnbench.core.torus import FloatArray
 
 

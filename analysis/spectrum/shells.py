@@ -27,11 +27,14 @@ class Shells:
         Mean |f| of each group, ascending.
     count : (size,) int64
         Frequencies in each group, over the whole space, so always even.
+    pairs : {2, 1}
+        How many of f and -f stand among the values: both in a cube, one in a list of a half space.
     """
 
     label: NDArray[np.int32]
     radius: FloatArray
     count: NDArray[np.int64]
+    pairs: int = 2
 
     @property
     def size(self) -> int:
@@ -41,7 +44,7 @@ class Shells:
     def sum(self, values: FloatArray) -> FloatArray:
         """Sum a cube of values, flat or not, over each group: (size,) float64."""
         total = np.bincount(self.label, weights=values.ravel(), minlength=self.size + 1)
-        return total[: self.size].astype(np.float64, copy=False)
+        return (total if self.pairs == 2 else 2 * total)[: self.size].astype(np.float64, copy=False)
 
     def mean(self, values: FloatArray) -> FloatArray:
         """Average a cube of values over each group: (size,) float64."""
@@ -51,7 +54,7 @@ class Shells:
         """Give the mean over each group, and the sum of squared departures over a half space: two (size,)."""
         mean = self.mean(values)
         away = values.ravel() - np.append(mean, 0.0)[self.label]
-        return mean, self.sum(away * away) / 2  # each pair f, -f stands twice in the cube
+        return mean, self.sum(away * away) / 2  # over the whole space each pair counts twice
 
 
 def squared_radius(fmax: int, d: int) -> NDArray[np.int64]:
@@ -105,6 +108,23 @@ def exact_shells(fmax: int, d: int) -> Shells:
     # The exact radius, not a mean of equal square roots.
     first = np.unique(r2[(r2 > 0) & (r2 <= fmax * fmax)])
     return Shells(shells.label, np.sqrt(first.astype(np.float64)), shells.count)
+
+
+def listed_shells(square: NDArray[np.int64]) -> Shells:
+    """Group the listed frequencies of one half space by their |f|^2.
+
+    Parameters
+    ----------
+    square : (m,) int64
+        |f|^2 of each, at least 1.
+
+    Returns
+    -------
+    Shells
+    """
+    present, label, count = np.unique(square, return_inverse=True, return_counts=True)
+    radius = np.sqrt(present.astype(np.float64))
+    return Shells(label.astype(np.int32), radius, 2 * count.astype(np.int64), pairs=1)
 
 
 @lru_cache(maxsize=2)

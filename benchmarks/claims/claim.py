@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
-from gbnbench.benchmarks.claims.sets import Drawn, Sets
+from gbnbench.benchmarks.claims.sets import DrawnSets, SetCache
 
 COLUMNS = (
     "claim", "row", "place", "quantity", "paper", "measured", "standard_error", "n", "d", "sets", "holds",
@@ -17,7 +17,7 @@ VERDICTS = (YES, PARTLY, NO, UNTRIED)
 
 
 @dataclass(frozen=True)
-class Row:
+class ClaimRow:
     """One measured number.
 
     Attributes
@@ -47,7 +47,7 @@ class Row:
     holds: str = BESIDE
 
 
-Measure = Callable[[Sets], Iterable[Row]]
+Measure = Callable[[SetCache], Iterable[ClaimRow]]
 
 
 @dataclass(frozen=True)
@@ -85,12 +85,12 @@ def reported(
     measured: float = math.nan,
     error: float = math.nan,
     *,
-    of: Drawn | None = None,
+    of: DrawnSets | None = None,
     n: int = 0,
     d: int = 0,
     sets: int = 0,
     holds: str = BESIDE,
-) -> Row:
+) -> ClaimRow:
     """Make a row of the table of claims.
 
     Parameters
@@ -101,7 +101,7 @@ def reported(
         What the paper says of it.
     measured, error : float
         The value and its standard error.
-    of : Drawn, optional
+    of : DrawnSets, optional
         Sets that were measured; n, d and their number are taken from them.
     n, d, sets : int
         Points in a set, dimension and number of sets, where there are no drawn sets.
@@ -110,11 +110,11 @@ def reported(
 
     Returns
     -------
-    Row
+    ClaimRow
     """
     if of is not None:
         sets, n, d = of.x.shape
-    return Row(name, quantity, paper, measured, error, n, d, sets, holds)
+    return ClaimRow(name, quantity, paper, measured, error, n, d, sets, holds)
 
 
 def holds(condition: bool, otherwise: str = NO) -> str:
@@ -151,7 +151,7 @@ def verdict(rows: Iterable[str]) -> str:
 def untried(what: str) -> Measure:
     """Measure nothing, and say so."""
 
-    def measure(_: Sets) -> Iterator[Row]:
-        yield Row("untried", what, holds=UNTRIED)
+    def measure(_: SetCache) -> Iterator[ClaimRow]:
+        yield ClaimRow("untried", what, holds=UNTRIED)
 
     return measure

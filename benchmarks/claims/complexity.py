@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from gbnbench.benchmarks.claims.claim import UNTRIED, Row, holds, reported
-from gbnbench.benchmarks.claims.sets import SEED, Sets
+from gbnbench.benchmarks.claims.claim import UNTRIED, ClaimRow, holds, reported
+from gbnbench.benchmarks.claims.sets import SEED, SetCache
 from gbnbench.benchmarks.timing.interleaved import Call, interleave
 from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.protocol import EnergyEvaluation
@@ -57,7 +57,7 @@ def exponent(sizes: list[int], seconds: list[float]) -> tuple[float, float]:
     return float(slope), error
 
 
-def by_points(sets: Sets) -> Iterator[Row]:
+def by_points(sets: SetCache) -> Iterator[ClaimRow]:
     """CPU time of a gradient against n."""
     for row, d, sizes, method, paper in (
         ("all-pairs", 8, [512, 1024, 2048, 4096], "theta", f"2 within {SAME:g} (quadratic)"),
@@ -78,7 +78,7 @@ def by_points(sets: Sets) -> Iterator[Row]:
         )
 
 
-def by_dimension(sets: Sets) -> Iterator[Row]:
+def by_dimension(sets: SetCache) -> Iterator[ClaimRow]:
     """CPU time of a gradient against d, all else equal: all pairs, one polynomial."""
     n, dimensions = 1024, [2, 4, 6, 8, 12, 16]
     calls = {}
@@ -114,7 +114,7 @@ def by_dimension(sets: Sets) -> Iterator[Row]:
     )
 
 
-def titan(_: Sets) -> Iterator[Row]:
+def titan(_: SetCache) -> Iterator[ClaimRow]:
     """Time 10,000 steps of 4,096 points here, and what gives the same quality."""
     n = 4096
     calls = {name: gradient(energy_evaluation(n, 2, 1.0, name), n, 2) for name in ("double", "float")}
@@ -142,7 +142,7 @@ def titan(_: Sets) -> Iterator[Row]:
         )
 
 
-def large(_: Sets) -> Iterator[Row]:
+def large(_: SetCache) -> Iterator[ClaimRow]:
     """Hundreds of thousands of points, and millions."""
     hours = 0.0
     for n, steps, title in ((100_000, 10_000, "10,000 steps"), (1_000_000, 10_000, "10,000 steps")):

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from gbnbench.analysis.radial.profile_measures import exponential_fit
-from gbnbench.benchmarks.claims.claim import BESIDE, NO, PARTLY, UNTRIED, Row, holds, reported
-from gbnbench.benchmarks.claims.sets import FAST, MILLION, PAPER, Drawn, Sets
+from gbnbench.benchmarks.claims.claim import BESIDE, NO, PARTLY, UNTRIED, ClaimRow, holds, reported
+from gbnbench.benchmarks.claims.sets import FAST, MILLION, PAPER, DrawnSets, SetCache
 from gbnbench.generators.gbn import kernel
 from gbnbench.generators.gbn.kernel_profile import theta
 
@@ -18,12 +18,12 @@ NEAR = 0.05  # relative departure of a fitted c that still counts as the formula
 SIDE = 16.0  # spacings of the torus whose kernel is transformed
 
 
-def over(high: Drawn, low: Drawn, measure: str) -> tuple[float, float]:
+def over(high: DrawnSets, low: DrawnSets, measure: str) -> tuple[float, float]:
     """Compare a measure of two groups of sets.
 
     Parameters
     ----------
-    high, low : Drawn
+    high, low : DrawnSets
         The sets whose measure is divided, and those by which it is.
     measure : str
         Name of the measure.
@@ -38,7 +38,7 @@ def over(high: Drawn, low: Drawn, measure: str) -> tuple[float, float]:
     return math.log10(ratio), math.hypot(*np.nan_to_num(errors)) / math.log(10)
 
 
-def profile(sets: Sets) -> Iterator[Row]:
+def profile(sets: SetCache) -> Iterator[ClaimRow]:
     """Eq. (19): c and the residual of an exponential fit over 0.05 <= nu <= 0.6."""
     for row, spec, title in (
         ("c-10k", PAPER, "10,000 steps"),
@@ -83,7 +83,7 @@ def profile(sets: Sets) -> Iterator[Row]:
         )
 
 
-def convention(sets: Sets) -> Iterator[Row]:
+def convention(sets: SetCache) -> Iterator[ClaimRow]:
     """Filter by the kernel of the energy and by the one whose variance it is: slope of ln P left."""
     drawn = sets.draw(PAPER, sets=8)
     for row, sigma, title in (
@@ -101,7 +101,7 @@ def convention(sets: Sets) -> Iterator[Row]:
         )
 
 
-def weight(_: Sets) -> Iterator[Row]:
+def weight(_: SetCache) -> Iterator[ClaimRow]:
     """Weight of the nominal frequency nu = 1 in the energy, sigma = 1, over the DC's."""
     square = math.exp(-((2 * math.pi) ** 2))
     yield reported("number", "e^{-(2 pi)^2}", "7.2e-18", square, holds=holds(f"{square:.1e}" == "7.2e-18"))
@@ -123,7 +123,7 @@ def weight(_: Sets) -> Iterator[Row]:
     )
 
 
-def families(sets: Sets) -> Iterator[Row]:
+def families(sets: SetCache) -> Iterator[ClaimRow]:
     """Which of the two profiles fits better, in dB of residual."""
     for row, spec, family in (
         ("gbn", PAPER, "exponential"),
@@ -168,14 +168,14 @@ def families(sets: Sets) -> Iterator[Row]:
             )
 
 
-def farthest_points(sets: Sets) -> Iterator[Row]:
+def farthest_points(sets: SetCache) -> Iterator[ClaimRow]:
     """Fit the exponent of FPO; that of void and cluster is not ours to measure."""
     drawn = sets.draw("fpo", sets=16)
     yield reported("fpo", "c of an exponential fit, FPO", "that of VnC", *drawn.value("profile_c"), of=drawn)
     yield reported("vnc", "c of an exponential fit, VnC", "that of FPO", holds=UNTRIED)
 
 
-def kernel_floor(sets: Sets) -> Iterator[Row]:
+def kernel_floor(sets: SetCache) -> Iterator[ClaimRow]:
     """Orders of magnitude from the floor of others to that of GBN as deep as Fig. 1's."""
     deep = sets.draw(MILLION, sets=8)
     fpo = sets.draw("fpo", sets=16)
@@ -192,7 +192,7 @@ def kernel_floor(sets: Sets) -> Iterator[Row]:
     yield reported("kdm-vnc", "orders from GBN up to KDM and VnC", "10", holds=UNTRIED)
 
 
-def bnot_floor(sets: Sets) -> Iterator[Row]:
+def bnot_floor(sets: SetCache) -> Iterator[ClaimRow]:
     """Count them to BNOT's public sets."""
     bnot = sets.others("bnot")
     for depth, spec in (("10k", PAPER), ("1M", MILLION)):
@@ -209,7 +209,7 @@ def bnot_floor(sets: Sets) -> Iterator[Row]:
             )
 
 
-def below(sets: Sets) -> Iterator[Row]:
+def below(sets: SetCache) -> Iterator[ClaimRow]:
     """Where GBN's mean power meets that of polynomial families."""
     gbn = sets.draw(PAPER, sets=8).radial
     for name, drawn in (("bnot", sets.others("bnot")), ("jittered", sets.draw("jittered", sets=16))):
@@ -230,7 +230,7 @@ def below(sets: Sets) -> Iterator[Row]:
         )
 
 
-def summit(sets: Sets) -> Iterator[Row]:
+def summit(sets: SetCache) -> Iterator[ClaimRow]:
     """Find the highest ring."""
     for row, spec, title in (("10k", PAPER, "10,000 steps"), ("1M", MILLION, "as deep as 1M steps")):
         drawn = sets.draw(spec, sets=8)

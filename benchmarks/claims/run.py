@@ -20,7 +20,7 @@ from pathlib import Path
 
 from gbnbench.benchmarks.claims.claim import COLUMNS, Claim
 from gbnbench.benchmarks.claims.registry import CLAIMS
-from gbnbench.benchmarks.claims.sets import MissingError, Sets
+from gbnbench.benchmarks.claims.sets import MissingError, SetCache
 from gbnbench.benchmarks.timing.machine import describe
 from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.errors import GbnbenchError, InputError
@@ -59,14 +59,14 @@ def write(path: Path, table: Mapping[str, list[dict[str, str]]]) -> None:
     write_whole(path, text.getvalue().encode())
 
 
-def measure(claim: Claim, sets: Sets) -> list[dict[str, str]]:
+def measure(claim: Claim, sets: SetCache) -> list[dict[str, str]]:
     """Measure one claim; its rows as text, with the CPU seconds of each.
 
     Parameters
     ----------
     claim : Claim
         What to measure.
-    sets : Sets
+    sets : SetCache
         The point sets that claims are measured with.
 
     Returns
@@ -89,14 +89,14 @@ def measure(claim: Claim, sets: Sets) -> list[dict[str, str]]:
     return rows
 
 
-def measure_or_explain(claim: Claim, sets: Sets) -> list[dict[str, str]] | str:
+def measure_or_explain(claim: Claim, sets: SetCache) -> list[dict[str, str]] | str:
     """Measure one claim, or say which sets by others it needs that are not there.
 
     Parameters
     ----------
     claim : Claim
         What to measure.
-    sets : Sets
+    sets : SetCache
         The point sets that claims are measured with.
 
     Returns
@@ -147,7 +147,7 @@ def _cell(value: object) -> str:
     return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
-def fill(path: Path, claims: Sequence[Claim], sets: Sets, again: bool = False) -> None:
+def fill(path: Path, claims: Sequence[Claim], sets: SetCache, again: bool = False) -> None:
     """Measure the claims that the table does not have, or all again; keep each as soon as it is known.
 
     Parameters
@@ -156,7 +156,7 @@ def fill(path: Path, claims: Sequence[Claim], sets: Sets, again: bool = False) -
         Of the table.
     claims : sequence of Claim
         What to measure.
-    sets : Sets
+    sets : SetCache
         The point sets that they are measured with.
     again : bool
         Measure also what the table has already.
@@ -199,4 +199,4 @@ def main(arguments: Sequence[str] | None = None) -> None:
     os.environ.update(ONE_THREAD)  # before the device is opened
     claims = named(given.claims)
     write_whole(given.out.with_name("machine.json"), (json.dumps(describe(), indent=1) + "\n").encode())
-    fill(given.out, claims, Sets(folders), given.again)
+    fill(given.out, claims, SetCache(folders), given.again)

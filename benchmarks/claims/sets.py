@@ -13,7 +13,10 @@ from gbnbench.analysis.measures import measures
 from gbnbench.analysis.radial.radial_power import radial
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.core.errors import GbnbenchError, InputError
-from gbnbench.core.results import Measures, RadialPower, Spectrum, gaussian_response
+from gbnbench.core.results.measures import Measures
+from gbnbench.core.results.radial import RadialPower
+from gbnbench.core.results.resolution import gaussian_response
+from gbnbench.core.results.spectrum import Spectrum
 from gbnbench.core.torus import FloatArray, as_realizations
 from gbnbench.generators.monitor import Monitor, Trace
 from gbnbench.generators.registry import find, generate
@@ -30,7 +33,7 @@ class MissingError(GbnbenchError):
 
 
 @dataclass(frozen=True)
-class Drawn:
+class DrawnSets:
     """Some sets of one kind.
 
     Attributes
@@ -75,8 +78,8 @@ class Drawn:
         return told[measure], told.standard_error[measure]
 
 
-class Sets:
-    """Draws and reads, and remembers.
+class SetCache:
+    """Draws sets or reads them, and keeps each kind for all claims.
 
     Parameters
     ----------
@@ -89,7 +92,7 @@ class Sets:
     def __init__(self, folders: Mapping[str, Path] | None = None, share: float = 1.0) -> None:
         self._folders = dict(folders or {})
         self._share = share
-        self._drawn: dict[tuple[str, int, int, int], Drawn] = {}
+        self._drawn: dict[tuple[str, int, int, int], DrawnSets] = {}
         self._traces: dict[tuple[int, ...], Trace] = {}
 
     def few(self, count: int, least: int = 2) -> int:
@@ -108,7 +111,7 @@ class Sets:
         """
         return max(least, round(self._share * count)) if self._share < 1 else count
 
-    def draw(self, spec: str, n: int = 1024, d: int = 2, sets: int = 4) -> Drawn:
+    def draw(self, spec: str, n: int = 1024, d: int = 2, sets: int = 4) -> DrawnSets:
         """Draw sets of a generator, once for all claims.
 
         Parameters
@@ -120,7 +123,7 @@ class Sets:
 
         Returns
         -------
-        Drawn
+        DrawnSets
         """
         sets = self.few(sets)
         if self._share < 1:
@@ -133,7 +136,7 @@ class Sets:
         key = (spec, n, d, sets)
         if key not in self._drawn:
             x = generate(spec, n=n, d=d, seed=SEED, realizations=sets)
-            self._drawn[key] = Drawn(x.reshape(sets, n, d))
+            self._drawn[key] = DrawnSets(x.reshape(sets, n, d))
         return self._drawn[key]
 
     def evolution(self, stops: tuple[int, ...], n: int = 1024, sets: int = 4) -> Trace:
@@ -156,10 +159,10 @@ class Sets:
             generator = f"gbn[iterations={key[-1]}]"
             x = generate(generator, n=n, seed=SEED, realizations=key[1], monitor=Monitor(trace=trace))
             self._traces[key] = trace
-            self._drawn[generator, n, 2, key[1]] = Drawn(x.reshape(key[1], n, 2))
+            self._drawn[generator, n, 2, key[1]] = DrawnSets(x.reshape(key[1], n, 2))
         return self._traces[key]
 
-    def others(self, name: str) -> Drawn:
+    def others(self, name: str) -> DrawnSets:
         """Read sets by others, all those of one size in their folder.
 
         Raises
@@ -179,5 +182,5 @@ class Sets:
                 raise InputError(
                     f"{self._folders[name]} must hold sets of one size; found {len(found)} files"
                 )
-            self._drawn[key] = Drawn(np.concatenate(found))
+            self._drawn[key] = DrawnSets(np.concatenate(found))
         return self._drawn[key]

@@ -9,11 +9,11 @@ import numpy as np
 
 from gbnbench.analysis.radial.radial_power import radial
 from gbnbench.analysis.spectrum.shells import digit_classes, exact_shells
-from gbnbench.benchmarks.claims.claim import Row, holds, reported
-from gbnbench.benchmarks.claims.sets import Sets
+from gbnbench.benchmarks.claims.claim import ClaimRow, holds, reported
+from gbnbench.benchmarks.claims.sets import SetCache
 
 
-def rings(sets: Sets) -> Iterator[Row]:
+def rings(sets: SetCache) -> Iterator[ClaimRow]:
     """Measure what annuli of width 1 and 2 do near radius 1 and near radius 40 to stratified points."""
     drawn = sets.draw("jittered", n=4096, sets=200)
     spectrum = drawn.spectrum
@@ -52,7 +52,7 @@ def rings(sets: Sets) -> Iterator[Row]:
             )
 
 
-def digits(_: Sets) -> Iterator[Row]:
+def digits(_: SetCache) -> Iterator[ClaimRow]:
     """Classes of digits beside distinct radii."""
     for d, fmax in ((2, 64), (3, 16), (8, 2)):
         classes, shells = digit_classes(fmax, d).size, exact_shells(fmax, d).size

@@ -9,14 +9,14 @@ import numpy as np
 
 from gbnbench.analysis.spatial.delaunay import neighbours
 from gbnbench.analysis.spectrum.periodogram import periodogram
-from gbnbench.benchmarks.claims.claim import BESIDE, UNTRIED, Row, holds, reported
-from gbnbench.benchmarks.claims.sets import FAST, PAPER, Sets
+from gbnbench.benchmarks.claims.claim import BESIDE, UNTRIED, ClaimRow, holds, reported
+from gbnbench.benchmarks.claims.sets import FAST, PAPER, SetCache
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gauss_newton.modes import bound_coordinates, edge_binding
 from gbnbench.generators.spectral_control.stealthy import band_power
 
 
-def counted(_: Sets) -> Iterator[Row]:
+def counted(_: SetCache) -> Iterator[ClaimRow]:
     """Real numbers that the bands bind, over the 2 N coordinates."""
     n = 1024
     side = math.isqrt(n)
@@ -41,7 +41,7 @@ def counted(_: Sets) -> Iterator[Row]:
     )
 
 
-def step(sets: Sets) -> Iterator[Row]:
+def step(sets: SetCache) -> Iterator[ClaimRow]:
     """Largest power below the step's edge."""
     for row, spec, edge, title in (
         ("descent", "gbn[iterations=3000,edge=0.5]", 0.5, "3,000 steps of descent on the truncated energy"),
@@ -61,7 +61,7 @@ def step(sets: Sets) -> Iterator[Row]:
         )
 
 
-def heck(sets: Sets) -> Iterator[Row]:
+def heck(sets: SetCache) -> Iterator[ClaimRow]:
     """Lay the step of Heck et al. beside ours."""
     theirs = sets.others("step")
     ours = sets.draw("gbn[iterations=3000,edge=0.5]", sets=2)
@@ -78,7 +78,7 @@ def heck(sets: Sets) -> Iterator[Row]:
     )
 
 
-def wide(sets: Sets) -> Iterator[Row]:
+def wide(sets: SetCache) -> Iterator[ClaimRow]:
     """Draw steps of one share of the coordinates in several dimensions."""
     for d, n in ((2, 1024), (3, 1000), (4, 1296)):
         edge = edge_binding(0.6, d)
@@ -100,7 +100,7 @@ def wide(sets: Sets) -> Iterator[Row]:
         )
 
 
-def peaks(sets: Sets) -> Iterator[Row]:
+def peaks(sets: SetCache) -> Iterator[ClaimRow]:
     """Height of the primary peak by dimension, n = 1024, 320 gradients."""
     found: list[float] = []
     for d in (2, 3, 4, 5):
@@ -123,7 +123,7 @@ def regularity(x: FloatArray) -> float:
     return float(periodogram(x, frequencies=np.array([[n]])).power[0]) / n
 
 
-def line(sets: Sets) -> Iterator[Row]:
+def line(sets: SetCache) -> Iterator[ClaimRow]:
     """One dimension: the whole energy's way to the grid, and truncated energies."""
     n = 256
     for steps in (100, 10_000):
@@ -159,7 +159,7 @@ def line(sets: Sets) -> Iterator[Row]:
         )
 
 
-def degrees(sets: Sets) -> Iterator[Row]:
+def degrees(sets: SetCache) -> Iterator[ClaimRow]:
     """Mean number of neighbours."""
     for d, paper in ((2, "6"), (3, "13")):
         drawn = sets.draw(FAST, d=d, sets=8 if d == 2 else 4)
@@ -176,7 +176,7 @@ def degrees(sets: Sets) -> Iterator[Row]:
     yield reported("delaunay-4", "mean number of Delaunay neighbours, d = 4", "24", holds=UNTRIED)
 
 
-def lowest(sets: Sets) -> Iterator[Row]:
+def lowest(sets: SetCache) -> Iterator[ClaimRow]:
     """Noise and peak of what Fig. 8 lays side by side."""
     gbn = sets.draw(PAPER, sets=8)
     others = {

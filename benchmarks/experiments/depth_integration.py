@@ -38,7 +38,7 @@ COLUMNS = ("n", "d", "integrand", "source", "variance", "standard_error", "predi
 
 
 @dataclass(frozen=True)
-class Drawn:
+class FamilySample:
     """Integrands of one family.
 
     Attributes
@@ -57,9 +57,9 @@ class Drawn:
 
 
 FAMILIES = {
-    "64 Gaussians": Drawn(Gaussians(), 12, Gaussians().mean_energy),
-    "half space": Drawn(HalfSpaces(), 200),
-    "Korobov": Drawn(Korobov(), 100, Korobov().mean_energy),
+    "64 Gaussians": FamilySample(Gaussians(), 12, Gaussians().mean_energy),
+    "half space": FamilySample(HalfSpaces(), 200),
+    "Korobov": FamilySample(Korobov(), 100, Korobov().mean_energy),
 }
 
 

@@ -18,7 +18,7 @@ from gbnbench.analysis.spatial.valence import valence6
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.shells import exact_shells
 from gbnbench.core.errors import RefusalError
-from gbnbench.core.results import RadialPower
+from gbnbench.core.results.radial import RadialPower
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn.energy import energy_evaluation
 
@@ -128,3 +128,8 @@ def or_nan(compute: Callable[[], float]) -> float:
         return compute()
     except RefusalError:
         return math.nan
+
+
+def key_text(key: tuple[Any, ...]) -> tuple[str, ...]:
+    """Return a key as the file has it."""
+    return tuple(f"{cell:.6g}" if isinstance(cell, float) else str(cell) for cell in key)

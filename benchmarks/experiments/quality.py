@@ -23,7 +23,7 @@ from gbnbench.analysis.spectrum.limits import default_fmax
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.shell_spectrum import shells as shells_alone
 from gbnbench.benchmarks.timing.machine import Rows, describe
-from gbnbench.core.results import ShellSpectrum
+from gbnbench.core.results.radial import ShellSpectrum
 from gbnbench.generators.registry import generate
 
 SEED = 2022

@@ -6,84 +6,21 @@ the set before, so that the law is tested and not only the sum.
 
 from __future__ import annotations
 
-import math
 import tempfile
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gbnbench.benchmarks.spectra.hard_case import Frequencies, HardCase, Points
+from gbnbench.benchmarks.spectra.hard_lattices import lattices
 from gbnbench.benchmarks.spectra.reference import LongArray, reference_amplitudes, reference_roots
 from gbnbench.core.torus import FloatArray
 from gbnbench.io.points import load
 
-Frequencies = NDArray[np.int64]
-Points = Callable[[], FloatArray]
-
 FAR = 2**20
 GRID = 2**53
-SHALLOW = 1e-25  # a true power near the least that double resolves
-N, ODD, MANY, MOST = (
-    256,
-    225,
-    4099,
-    1_000_000,
-)  # points of most cases, of those of an odd lattice, of the large
-
-
-@dataclass(frozen=True)
-class HardCase:
-    """A point set, where to look, and what is to be seen there.
-
-    Attributes
-    ----------
-    name : str
-        What is hard about it.
-    n, d, reach : int
-        Points, dimension, largest |f_a|.
-    build : callable
-        Makes the (n, d) points, always the same.
-    truth : callable
-        (points, frequencies) -> square root of the true power.
-    cube : bool
-        Whether the whole cube of frequencies is evaluated too, or only those listed.
-    probes : int
-        Random frequencies looked at, besides the corners and axes of the cube.
-    also : tuple of tuple of int
-        Further frequencies.
-    ceiling : callable or None
-        frequencies -> what the square root of power cannot exceed, inf where nothing is known.
-    scattered : bool
-        Whether the typical error is meant for such points.
-    """
-
-    name: str
-    n: int
-    d: int
-    reach: int
-    build: Points
-    truth: Callable[[FloatArray, Frequencies], LongArray] = reference_roots
-    cube: bool = True
-    probes: int = 48
-    also: tuple[tuple[int, ...], ...] = ()
-    ceiling: Callable[[Frequencies], FloatArray] | None = None
-    scattered: bool = False
-
-    def frequencies(self) -> Frequencies:
-        """(m, d) distinct frequencies at which errors are taken."""
-        rng = np.random.default_rng([self.n, self.d, self.reach])
-        near = min(3, self.reach)
-        rows = [
-            rng.integers(-self.reach, self.reach + 1, (self.probes, self.d)),
-            rng.integers(-near, near + 1, (self.probes // 4, self.d)),
-        ]
-        if self.probes > 10:
-            rows.append(np.array([[self.reach] * self.d, [-self.reach] * self.d]))
-            rows.append(np.eye(self.d, dtype=np.int64)[[0, -1]] * self.reach)
-        rows.append(np.array(self.also, np.int64).reshape(-1, self.d))
-        return np.unique(np.concatenate(rows), axis=0)
+N, MANY, MOST = 256, 4099, 1_000_000  # points of most cases, of those beyond one chunk, of the large
 
 
 def hard_cases(quick: bool = False) -> tuple[HardCase, ...]:
@@ -92,7 +29,7 @@ def hard_cases(quick: bool = False) -> tuple[HardCase, ...]:
     Each size has a twin in which all points coincide: there rounding errors add up, which is a worst
     case. At far frequencies that of the coordinates adds up where half of the points lie elsewhere.
     """
-    cases = [*_lattices(), *_scattered(), *_borders(), *_laws()]
+    cases = [*lattices(), *_scattered(), *_borders(), *_laws()]
     if not quick:
         cases.append(replace(_random("a million points", MOST, 2, 20), probes=6))
         cases.append(replace(_random("a million points, |f| to 2^20", MOST, 2, FAR, cube=False), probes=4))
@@ -100,85 +37,6 @@ def hard_cases(quick: bool = False) -> tuple[HardCase, ...]:
     coincident = [_coincident(*shape) for shape in shapes]
     parted = [_parted(n, d, reach) for n, d, reach, _ in shapes if reach == FAR]
     return (*cases, *coincident, *parted)
-
-
-# Lattices ----------------------------------------------------------------------------------------------
-
-
-def lattice(m: int, d: int) -> FloatArray:
-    """Return the regular grid of m**d points k/m, rounded where m is no power of two.
-
-    Parameters
-    ----------
-    m, d : int
-        Points on each axis, and dimension.
-
-    Returns
-    -------
-    (m**d, d) float64
-    """
-    axes = np.meshgrid(*[np.arange(m) / m] * d, indexing="ij")
-    return np.stack(axes, axis=-1).reshape(-1, d)
-
-
-def _lattices() -> list[HardCase]:
-    dyadic = [_dyadic(m, d, reach) for m, d, reach in ((256, 1, 600), (16, 2, 40), (4, 4, 5), (2, 8, 2))]
-    return [*dyadic, _uneven(15**2, 1, 600), _uneven(15, 2, 40), _displaced()]
-
-
-def _dyadic(m: int, d: int, reach: int) -> HardCase:
-    """Take a lattice whose coordinates are exact: sqrt(n) on the harmonics, 0 off them."""
-
-    def truth(x: FloatArray, f: Frequencies) -> LongArray:
-        return _comb(x, f, m)
-
-    also = ((m,) * d, (m,) + (0,) * (d - 1))
-    name = f"dyadic lattice {m}^{d}"
-    return HardCase(name, m**d, d, reach, lambda: lattice(m, d), truth, probes=800, also=also)
-
-
-def _uneven(m: int, d: int, reach: int) -> HardCase:
-    """Take a lattice whose coordinates are rounded: its power off the harmonics is small, not 0."""
-    n = m**d
-
-    def ceiling(f: Frequencies) -> FloatArray:
-        return _rounded(f, m, n)
-
-    name = f"rounded lattice {m}^{d}"
-    return HardCase(name, n, d, reach, lambda: lattice(m, d), probes=100, also=((m,) * d,), ceiling=ceiling)
-
-
-def _comb(x: FloatArray, f: Frequencies, m: int) -> LongArray:
-    """sqrt(n) on the harmonics of an exact lattice, 0 off them."""
-    return np.where((f % m == 0).all(axis=1), np.sqrt(np.longdouble(len(x))), np.longdouble(0))
-
-
-def _rounded(f: Frequencies, m: int, n: int) -> FloatArray:
-    """Root of n (2 pi |f| 2^-54)^2 off the harmonics: coordinates are within 2^-54 of the lattice's."""
-    length = np.sqrt((f.astype(float) ** 2).sum(axis=1))
-    return np.where((f % m == 0).all(axis=1), np.inf, math.sqrt(n) * 2 * math.pi * length * 2.0**-54)
-
-
-def _displaced() -> HardCase:
-    """Move a dyadic lattice's first point along axis 0 by so little that P is 1e-25 at f_0 = 1.
-
-    Off the harmonics F = exp(-2 pi i f_0 step) - 1, whence P = 4 sin(pi f_0 step)^2 / n.
-    """
-    m, d = 16, 2
-    step = np.ldexp(np.rint(np.ldexp(math.asin(math.sqrt(SHALLOW * N) / 2) / math.pi, 64)), -64)
-
-    def build() -> FloatArray:
-        x = lattice(m, d)
-        x[0, 0] = step
-        return x
-
-    def truth(x: FloatArray, f: Frequencies) -> LongArray:
-        moved = 2 * np.abs(np.sin(np.pi * f[:, 0] * np.longdouble(step))) / np.sqrt(np.longdouble(len(x)))
-        return np.where((f % m == 0).all(axis=1), reference_roots(x, f), moved)
-
-    return HardCase(
-        f"true power {SHALLOW:g}", N, d, 5, build, truth, probes=100, also=((1, 0), (-1, 0), (1, 3), (1, -5))
-    )
 
 
 # Scattered points --------------------------------------------------------------------------------------

@@ -20,9 +20,12 @@ from gbnbench.analysis.spectrum.evaluators.nufft import transform as nufft
 from gbnbench.analysis.spectrum.evaluators.nufft.limits import DIMENSIONS
 from gbnbench.analysis.spectrum.evaluators.registry import Method, title_of
 from gbnbench.analysis.spectrum.periodogram import periodogram
-from gbnbench.benchmarks.spectra.hard_cases import Frequencies, HardCase, hard_cases
+from gbnbench.benchmarks.spectra.hard_case import Frequencies, HardCase
+from gbnbench.benchmarks.spectra.hard_cases import hard_cases
+from gbnbench.benchmarks.timing.machine import Row
 from gbnbench.core.atomic_write import write_whole
-from gbnbench.core.results import Spectrum, resolvable_power
+from gbnbench.core.results.resolution import resolvable_power
+from gbnbench.core.results.spectrum import Spectrum
 from gbnbench.core.torus import FloatArray
 from gbnbench.opencl import runtime
 
@@ -32,7 +35,6 @@ TYPICAL = 10  # the stated rms may be off by so much on scattered points
 IDLE = 1e4  # a ratio from which on only its magnitude is told
 NEAR = 1024  # |f_a| up to which float's coordinates hardly count; beyond, errors are compared apart
 LISTED = {"numpy": "numpy direct sum"}  # what an evaluation is called where frequencies are listed
-Row = dict[str, Any]
 HEAD = """# Hard cases
 
 Point sets that bring out the errors of a periodogram, by every evaluation, as met on

@@ -16,6 +16,7 @@ from gbnbench.opencl.peak_rate import fma_peak
 
 PACKAGES = ("gbnbench", "numpy", "pyopencl", "pocl-binary-distribution", "finufft")
 REPEATS = 3
+Row = dict[str, Any]  # of a table, by column
 
 
 def processor() -> str:

@@ -4,23 +4,19 @@ from __future__ import annotations
 
 import base64
 import html
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gbnbench.api.source_arguments import SourceLike, as_sources
 from gbnbench.core.errors import InputError
-from gbnbench.execution import progress
-from gbnbench.opencl import use_device
-from gbnbench.reports.comparison import table
+from gbnbench.reports.comparison import markdown, table, terminal
 from gbnbench.reports.comparison.figure_files import planned, png, write_figures
 from gbnbench.reports.html.page import write_report
 from gbnbench.runs.baseline import Change
-from gbnbench.runs.comparison_folder import long_table, read_run, wide_table
+from gbnbench.runs.comparison_folder import read_run
 from gbnbench.runs.comparison_result import Run, SourceResult
-from gbnbench.runs.sources import DEFAULT_SOURCES
-from gbnbench.studies.comparison import run_comparison
+from gbnbench.runs.comparison_tables import long_table, wide_table
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -116,7 +112,7 @@ class Comparison:
         InputError
             If there is no column of such a name.
         """
-        return table.markdown_table(self.run, measures, errors=errors)
+        return markdown.markdown_table(self.run, measures, errors=errors)
 
     @property
     def sources(self) -> tuple[SourceResult, ...]:
@@ -175,7 +171,7 @@ class Comparison:
         return path
 
     def __str__(self) -> str:
-        return table.terminal_text(self.run)
+        return terminal.terminal_text(self.run)
 
     def _repr_html_(self) -> str:
         """Return the table and the main pictures, for a notebook."""
@@ -187,98 +183,6 @@ class Comparison:
         ]
         skipped = [f"<p>skipped: {html.escape(line)}</p>" for line in self.skipped]
         return "\n".join([_html_table(self.run), *skipped, *pictures])
-
-
-def compare(
-    sources: SourceLike | Iterable[SourceLike] | Mapping[str, SourceLike] = DEFAULT_SOURCES,
-    *,
-    n: int | Sequence[int] = 1024,
-    d: int | Sequence[int] = 2,
-    realizations: int = 16,
-    seed: int = 0,
-    out: str | Path | None = None,
-    baseline: str | Path | None = None,
-    jobs: int | None = None,
-    quiet: bool = False,
-    device: str | None = None,
-    pictures: bool = False,
-    command: str = "gbnbench.compare",
-) -> Comparison:
-    """Make and measure every source, in a folder from which the same call goes on where it was stopped.
-
-    Parameters
-    ----------
-    sources : str, path, array_like, Generator or Source, or a sequence or mapping of these
-        Generators such as ``"gbn[iterations=1000]"``, files and folders, points (n, d) or
-        (realizations, n, d) on the unit torus, and instances of generators of your own. A mapping gives
-        labels: ``{"mine": x, "theirs": "their.txt"}``. By default six classics.
-    n, d : int or sequence of int
-        Points a set and dimensions for the generators: each is made at every pair. Files and arrays bring
-        their own.
-    realizations : int
-        Sets of each generator, >= 1.
-    seed : int
-        >= 0; realization k draws from ``SeedSequence(seed, spawn_key=(k,))``.
-    out : path, optional
-        The folder; by default one under ``runs`` named by the settings. One that holds another comparison,
-        such as of another array, is refused.
-    baseline : path, optional
-        Folder of a finished comparison against which this one is judged.
-    jobs : int, optional
-        Worker processes, each with one thread; by default one a core.
-    quiet : bool
-        No progress on standard error.
-    device : str, optional
-        Part of the name of the OpenCL device, or its position, as in ``GBNBENCH_DEVICE``, which it overrides.
-    pictures : bool
-        Also write report.html and the figures into the folder; ``Comparison.report`` makes them later.
-    command : str
-        What the manifest and the report say was called.
-
-    Returns
-    -------
-    Comparison
-
-    Raises
-    ------
-    InputError
-        If something given is no source, a number is wrong, the folder holds something else, or the baseline
-        is no finished comparison.
-    RefusalError
-        If no generator can make such sets and nothing else was given.
-    DeviceError
-        If there is no device, or the name fits none or several.
-    UnfinishedError
-        If a piece of the work failed; what is finished is kept, and the same call tries only the rest.
-
-    Examples
-    --------
-    >>> import tempfile, gbnbench
-    >>> x = gbnbench.generate("jittered", n=64, realizations=2)
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     comparison = gbnbench.compare(
-    ...         {"white": "random", "mine": x}, n=64, realizations=2, out=folder, jobs=1, quiet=True
-    ...     )
-    >>> comparison.table[["source", "n", "d", "realizations"]].values.tolist()
-    [['white', 64, 2, 2], ['mine', 64, 2, 2]]
-    >>> bool(comparison.table.noise_floor[1] < comparison.table.noise_floor[0])
-    True
-    """
-    with use_device(device):
-        found, skipped = as_sources(sources, n, d, realizations)
-        with progress.choose(quiet) as shown:
-            done = run_comparison(
-                found,
-                None if out is None else Path(out),
-                seed=seed,
-                jobs=jobs,
-                baseline=None if baseline is None else Path(baseline),
-                command=command,
-                skipped=skipped,
-                progress=shown,
-                draw=draw if pictures else None,
-            )
-    return Comparison(done.run, done.folder, done.changes, done.notes, done.reused, done.pieces, done.seconds)
 
 
 def draw(run: Run, folder: Path) -> None:

@@ -12,17 +12,18 @@ from typing import TYPE_CHECKING
 from gbnbench.api.source_arguments import SourceLike, as_sources
 from gbnbench.core.atomic_write import write_whole
 from gbnbench.execution import progress
+from gbnbench.io.points import ReadingOptions
 from gbnbench.opencl import use_device
 from gbnbench.reports.comparison.figure_files import pdf, png
 from gbnbench.reports.integration import variance
+from gbnbench.runs.sources import DEFAULT_READING
 from gbnbench.studies.integration.study import (
     DEFAULT_INTEGRANDS,
     DEFAULT_N,
     DEFAULT_SOURCES,
-    IntegrationStudy,
-    read_integration,
     run_integration_study,
 )
+from gbnbench.studies.integration.study_folder import IntegrationStudy, read_integration
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -133,6 +134,7 @@ def integrate(
     jobs: int | None = None,
     quiet: bool = False,
     device: str | None = None,
+    reading: ReadingOptions = DEFAULT_READING,
     pictures: bool = False,
     command: str = "gbnbench.integrate",
 ) -> Integration:
@@ -163,6 +165,8 @@ def integrate(
         No progress on standard error.
     device : str, optional
         Part of the name of the OpenCL device, or its position, as in ``GBNBENCH_DEVICE``, which it overrides.
+    reading : ReadingOptions
+        How files are read: columns, box and so on, as ``load`` takes them; the same for all.
     pictures : bool
         Also write the picture into the folder; ``Integration.picture`` makes it later.
     command : str
@@ -195,7 +199,7 @@ def integrate(
     (['random', 'jittered'], True)
     """
     with use_device(device):
-        found, skipped = as_sources(sources, n, d, realizations)
+        found, skipped = as_sources(sources, n, d, realizations, reading)
         with progress.choose(quiet) as shown:
             done = run_integration_study(
                 found,

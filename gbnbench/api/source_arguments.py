@@ -11,7 +11,8 @@ import numpy as np
 
 from gbnbench.core.errors import InputError
 from gbnbench.generators.protocol import Generator
-from gbnbench.runs.sources import Source, array_source, resolve
+from gbnbench.io.points import ReadingOptions
+from gbnbench.runs.sources import DEFAULT_READING, Source, array_source, resolve
 
 SourceLike = Any  # str, Path, array_like, Generator or Source
 
@@ -21,6 +22,7 @@ def as_sources(
     n: int | Sequence[int],
     d: int | Sequence[int],
     realizations: int,
+    reading: ReadingOptions = DEFAULT_READING,
 ) -> tuple[tuple[Source, ...], tuple[str, ...]]:
     """Turn what Python was given into sources, in the order given.
 
@@ -33,6 +35,8 @@ def as_sources(
         Sizes and dimensions for the generators; files and arrays bring their own.
     realizations : int
         Sets of each generator.
+    reading : ReadingOptions
+        How files are read.
 
     Returns
     -------
@@ -53,7 +57,7 @@ def as_sources(
         sources: list[Source] = []
         skipped: list[str] = []
         for label, item in given.items():
-            found, refused = resolve([_source(item, str(label))], sizes, dimensions, realizations)
+            found, refused = resolve([_source(item, str(label))], sizes, dimensions, realizations, reading)
             sources += [replace(source, label=str(label)) for source in found]
             skipped += refused
         found, _ = resolve(sources, sizes, dimensions, realizations)
@@ -66,7 +70,7 @@ def as_sources(
         count += _is_array(item)
         label = "array" if arrays == 1 else f"array {count}"
         named.append(_source(item, label))
-    return resolve(named, sizes, dimensions, realizations)
+    return resolve(named, sizes, dimensions, realizations, reading)
 
 
 def _source(item: SourceLike, label: str) -> str | Path | Generator | Source:

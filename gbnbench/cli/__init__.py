@@ -13,18 +13,20 @@ from gbnbench.cli.analyze import analyze
 from gbnbench.cli.bench import bench
 from gbnbench.cli.check import check
 from gbnbench.cli.compare import compare
+from gbnbench.cli.convert import convert
 from gbnbench.cli.devices import devices, doctor
 from gbnbench.cli.figures import figures
 from gbnbench.cli.generate import generate
 from gbnbench.cli.integrate import integrate
 from gbnbench.cli.report import report
 from gbnbench.cli.spectrum import spectrum
+from gbnbench.cli.standard_streams import in_words, lasting_streams
 from gbnbench.core.errors import GbnbenchError
 
 BAD, STOPPED, PIPE = 2, 130, 141  # exit codes; 0 is done, 1 is worse than a baseline or a failed check
 
 TASKS: dict[str, tuple[click.Command, ...]] = {
-    "Start here": (compare, spectrum, analyze, generate),
+    "Start here": (compare, spectrum, analyze, generate, convert),
     "Studies": (integrate, figures, report),
     "This machine": (check, bench, devices, doctor),
 }
@@ -89,7 +91,11 @@ for _commands in TASKS.values():
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command and exit: 0 done, 1 worse or failed check, 2 bad input or use, 130 stopped."""
-    sys.exit(run(sys.argv[1:] if arguments is None else arguments))
+    with lasting_streams() as output:
+        code = run(sys.argv[1:] if arguments is None else arguments)
+        if output is not None and output.fault is not None:
+            code = max(_fail(in_words(output.fault), BAD), code)
+    sys.exit(code)
 
 
 def run(arguments: Sequence[str]) -> int:

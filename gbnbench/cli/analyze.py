@@ -10,13 +10,15 @@ from typing import TYPE_CHECKING
 import click
 
 from gbnbench.cli import options
+from gbnbench.cli.point_files import naming, read_cube
 from gbnbench.core.errors import GbnbenchError
 
 if TYPE_CHECKING:
     import pandas as pd
 
-    from gbnbench.core.results import Measures
+    from gbnbench.core.results.measures import Measures
     from gbnbench.core.torus import FloatArray
+    from gbnbench.io.points import ReadingOptions
 
 
 LOW, BAND = 0.5, 0.05  # nu to which a box's own spectrum is shown, and of each of its bands
@@ -30,10 +32,16 @@ LOW, BAND = 0.5, 0.05  # nu to which a box's own spectrum is shown, and of each 
     help="Also measure projections: 1 for every axis, 2 for every plane, 0+2 for one; parted by /.",
 )  # fmt: skip
 @click.option("--box", is_flag=True, help="Also measure sets of the box: density by depth, own spectrum.")
+@options.reading
 @options.json
 @options.device
 def analyze(
-    files: tuple[Path, ...], as_json: bool, explain: bool, projections: str | None, box: bool
+    files: tuple[Path, ...],
+    as_json: bool,
+    explain: bool,
+    projections: str | None,
+    box: bool,
+    reading: ReadingOptions,
 ) -> None:
     """Every measure of the sets in files, one row a set.
 
@@ -42,20 +50,20 @@ def analyze(
     if explain and as_json:
         raise click.UsageError("--explain and --json do not go together: leave one out")
     if explain:
-        _explain(files)
+        _explain(files, reading)
         return
     from gbnbench.analysis.measures import measures
-    from gbnbench.io.points import read
 
     rows: list[tuple[Path, int, int, int, Measures]] = []
     more: list[dict[str, pd.DataFrame]] = []
     failed = False
     for path in files:
         try:
-            for index, x in enumerate(read(path)):
-                tables = _tables(x, projections, box)
-                rows.append((path, index, x.shape[0], x.shape[1], measures(x)))
-                more.append(tables)
+            for index, x in enumerate(read_cube(path, reading)):
+                with naming(path, index):
+                    tables = _tables(x, projections, box)
+                    rows.append((path, index, x.shape[0], x.shape[1], measures(x)))
+                    more.append(tables)
         except GbnbenchError as error:
             failed = True
             click.echo(f"gbnbench: error: {error}", err=True)
@@ -108,18 +116,18 @@ def _tables(x: FloatArray, projections: str | None, box: bool) -> dict[str, pd.D
     return tables
 
 
-def _explain(files: tuple[Path, ...]) -> None:
+def _explain(files: tuple[Path, ...], reading: ReadingOptions) -> None:
     """Print, for each file, the plan of its sets' spectra."""
     from gbnbench.analysis.spectrum.settings import SpectrumSettings
-    from gbnbench.io.points import read
 
     failed = False
     for path in files:
         try:
-            shapes = [x.shape for x in read(path)]
+            shapes = [x.shape for x in read_cube(path, reading)]
             for n, d in dict.fromkeys(shapes):
                 times = shapes.count((n, d))
-                plan = SpectrumSettings().plan(n, d, 1)
+                with naming(path, shapes.index((n, d))):
+                    plan = SpectrumSettings().plan(n, d, 1)
                 click.echo(f"{path}{f', {times} sets, each' * (times > 1)}:\n{plan}")
         except GbnbenchError as error:
             failed = True

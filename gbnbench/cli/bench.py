@@ -16,7 +16,7 @@ from gbnbench.core.text_table import aligned, number
 if TYPE_CHECKING:
     import pandas as pd
 
-    from gbnbench.benchmarks.spectra.speed_error import SpectrumTables
+    from gbnbench.benchmarks.spectra.benchmark import SpectrumTables
 
 
 SPEED_HEAD = (
@@ -49,7 +49,7 @@ def periodogram(out: Path, quick: bool, as_json: bool, quiet: bool) -> None:
     by round. Tables are kept as they come, so a run that is stopped leaves what it has measured.
     """
     from gbnbench.benchmarks.spectra import cases
-    from gbnbench.benchmarks.spectra.speed_error import run
+    from gbnbench.benchmarks.spectra.benchmark import run
     from gbnbench.execution import progress
 
     plan = cases.quick() if quick else cases.full()
@@ -89,7 +89,7 @@ def _draw(outcome: SpectrumTables, out: Path) -> None:
 def _report(outcome: SpectrumTables) -> Iterator[str]:
     """Write what was measured as text, a table a case."""
     from gbnbench.benchmarks.spectra.hard_table import resolvable
-    from gbnbench.benchmarks.spectra.speed_error import slopes
+    from gbnbench.benchmarks.spectra.scaling import slopes
 
     machine = outcome.machine
     yield f"{machine['processor']}, {machine['cores']} cores; {machine['device']}"

@@ -14,7 +14,7 @@ from gbnbench.cli.json_text import json_text
 from gbnbench.core.text_table import aligned, number
 
 if TYPE_CHECKING:
-    from gbnbench.benchmarks.gbn.floor_time import FloorTables
+    from gbnbench.benchmarks.gbn.benchmark import FloorTables
 
 END_HEAD = (
     "case", "method", "precision", "gradients", "CPU s a set", "ms a gradient", "noise floor", "P(1)",
@@ -49,7 +49,7 @@ def gbn(out: Path, quick: bool, as_json: bool, quiet: bool) -> None:
     for variable in ("POCL_MAX_PTHREAD_COUNT", "POCL_CPU_MAX_CU_COUNT"):  # read when the device is opened
         os.environ.setdefault(variable, ONE_THREAD[variable])
     from gbnbench.benchmarks.gbn import floor_cases
-    from gbnbench.benchmarks.gbn.floor_time import run
+    from gbnbench.benchmarks.gbn.benchmark import run
     from gbnbench.execution import progress
 
     plan = floor_cases.quick() if quick else floor_cases.full()

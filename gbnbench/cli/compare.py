@@ -11,9 +11,11 @@ import click
 
 from gbnbench.cli import options
 from gbnbench.cli.json_text import json_text
+from gbnbench.cli.standard_streams import wants_colour
 
 if TYPE_CHECKING:
     from gbnbench.api.comparison import Comparison
+    from gbnbench.io.points import ReadingOptions
 
 EPILOG = """\b
 Examples:
@@ -34,6 +36,7 @@ an unknown setting, as in gbn[x=1], lists those there are.
 @click.option("-d", "d", type=options.WholeNumbers(), default="2", show_default=True, help="Dimensions.")
 @options.out_folder("Run folder.  [default: runs/NAME, by the settings]")
 @click.option("--baseline", type=click.Path(path_type=Path), help="A finished run to be judged against.")
+@options.reading
 @options.realizations(16)
 @options.seed
 @options.jobs
@@ -51,13 +54,14 @@ def compare(
     jobs: int | None,
     as_json: bool,
     quiet: bool,
+    reading: ReadingOptions,
 ) -> None:
     """Compare generators and files side by side: table, report.
 
     SOURCES are generators with settings, files and folders, any mix; a folder is one source for each (n, d)
     in it. Stopped in any way, the same command goes on where it was.
     """
-    from gbnbench.api.comparison import compare as make
+    from gbnbench.api.compare import compare as make
     from gbnbench.runs.sources import DEFAULT_SOURCES
 
     comparison = make(
@@ -70,6 +74,7 @@ def compare(
         baseline=baseline,
         jobs=jobs,
         quiet=quiet,
+        reading=reading,
         pictures=True,
         command=shlex.join(["gbnbench", *sys.argv[1:]]),
     )
@@ -80,14 +85,14 @@ def compare(
 
 def _show(comparison: Comparison, as_json: bool) -> None:
     """Print the table, warnings, the verdicts against the baseline, and where everything is."""
-    from gbnbench.reports.comparison.table import terminal_text
+    from gbnbench.reports.comparison.terminal import terminal_text
 
     for line in comparison.skipped:
         click.echo(f"gbnbench: skipped: {line}", err=True)
     if as_json:
         click.echo(json_text(comparison.measures))
     else:
-        click.echo(terminal_text(comparison.run, colour=sys.stdout.isatty()))
+        click.echo(terminal_text(comparison.run, colour=wants_colour()))
     for source in comparison.sources:
         for warning in source.warnings:
             click.echo(f"gbnbench: warning: {source.label} (n={source.n}, d={source.d}): {warning}", err=True)

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from gbnbench.cli import options
 from gbnbench.core.errors import InputError
+
+if TYPE_CHECKING:
+    from gbnbench.io.points import ReadingOptions
 
 EPILOG = """\b
 Examples:
@@ -26,6 +30,7 @@ Examples:
     help="Sets of a method without a generator here (bnot, kdm, vnc, bluenets, step, ...): a file or folder.",
 )  # fmt: skip
 @click.option("--no-captions", is_flag=True, help="Leave captions out of the pictures; captions.md has them.")
+@options.reading
 @options.quick_or_full("Small counts: minutes instead of hours.", default="full")
 @options.seed
 @options.jobs
@@ -40,6 +45,7 @@ def figures(
     seed: int,
     jobs: int | None,
     quiet: bool,
+    reading: ReadingOptions,
 ) -> None:
     """Make the figures of the paper (Ahmed, Ren & Wonka 2022).
 
@@ -54,7 +60,7 @@ def figures(
     from gbnbench.reports.paper.user_sets import check_sets
 
     wanted = find([] if names == ("all",) else names)
-    options = FigureOptions("quick" if quick else "full", _given(sets), seed)
+    options = FigureOptions("quick" if quick else "full", _given(sets), seed, reading)
     check_sets(wanted, options)
     with progress.choose(quiet) as teller:
         if options.scale == "full":

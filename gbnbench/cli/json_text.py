@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import sys
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -12,7 +13,13 @@ if TYPE_CHECKING:
 
 def json_text(content: object) -> str:
     """Return content as indented JSON; numbers that are not finite become null, tables lists of rows."""
-    return json.dumps(_plain(content), indent=2, ensure_ascii=False, allow_nan=False)
+    plain = _plain(content)
+    text = json.dumps(plain, indent=2, ensure_ascii=False, allow_nan=False)
+    try:
+        text.encode(getattr(sys.stdout, "encoding", None) or "utf-8")
+    except UnicodeEncodeError:  # the odd bytes of a file's name, or an encoding of few signs
+        return json.dumps(plain, indent=2, allow_nan=False)
+    return text
 
 
 def records(table: pd.DataFrame) -> list[dict[str, Any]]:

@@ -1,7 +1,8 @@
-"""Options that several commands share, each with one name, and the two sections in which help shows them."""
+"""Options that several commands share, each with one name, and the sections in which help shows them."""
 
 from __future__ import annotations
 
+import functools
 import os
 from collections.abc import Callable
 from pathlib import Path
@@ -11,13 +12,14 @@ import click
 
 F = TypeVar("F", bound=Callable[..., Any])
 SHARED = {"--seed", "--realizations", "--jobs", "--quick", "--json", "--quiet", "--device", "--help"}
+READING = {"--period", "--bounds", "--wrap", "--columns", "--raw", "--array"}
 
 
 class Command(click.Command):
-    """A command whose help shows its own options first, then those that many commands have."""
+    """A command whose help shows its own options first, then those of reading and those of many commands."""
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Write the two sections.
+        """Write the sections.
 
         Parameters
         ----------
@@ -26,13 +28,15 @@ class Command(click.Command):
         formatter : click.HelpFormatter
             Takes the text.
         """
-        own: list[tuple[str, str]] = []
-        shared: list[tuple[str, str]] = []
+        sections: dict[str, list[tuple[str, str]]] = {
+            "Options": [], "Reading options": [], "Options of many commands": []
+        }  # fmt: skip
         for parameter in self.get_params(ctx):
             record = parameter.get_help_record(ctx)
             if isinstance(parameter, click.Option) and record is not None:
-                (shared if {*parameter.opts} & SHARED else own).append(record)
-        for title, records in (("Options", own), ("Options of many commands", shared)):
+                title = "Options of many commands" if {*parameter.opts} & SHARED else "Options"
+                sections["Reading options" if {*parameter.opts} & READING else title].append(record)
+        for title, records in sections.items():
             if records:
                 with formatter.section(title):
                     formatter.write_dl(records)
@@ -187,3 +191,29 @@ def device(command: F) -> F:
         help="OpenCL device: a number or part of a name from 'gbnbench devices'. [default: $GBNBENCH_DEVICE, "
         "else the best]",
     )(command)  # fmt: skip
+
+
+def reading(command: F) -> F:
+    """Add the options that say how files of points are read, which a command gets as ``reading``."""
+
+    @functools.wraps(command)
+    def with_reading(*args: Any, **kwargs: Any) -> Any:
+        from gbnbench.io.points.reading_options import reading_options
+
+        given = [kwargs.pop(name.removeprefix("--")) for name in (*_TEXTS, "--wrap")]
+        return command(*args, reading=reading_options(*given), **kwargs)
+
+    decorated = click.option("--wrap", is_flag=True, help="Bring points outside into the box.")(with_reading)
+    for name, (metavar, text) in reversed(_TEXTS.items()):
+        decorated = click.option(name, metavar=metavar, help=text)(decorated)
+    return decorated  # type: ignore[return-value]
+
+
+# in the order of the arguments of reading_options
+_TEXTS = {
+    "--columns": ("X,Y", "Columns that are coordinates, by name; without names by number, from 1."),
+    "--raw": ("TYPE,D", "Binary without a header: float32,3 is three a point; >float32,3 big-endian."),
+    "--array": ("NAME", "Array of an .npz, or key of a JSON file, that holds the points."),
+    "--period": ("SIDES", "Sides of the torus in the files' unit, such as 512,512 for pixels."),
+    "--bounds": ("ENDS", "Ends of each axis, such as 0,512,0,256."),
+}

@@ -12,6 +12,7 @@ from gbnbench.cli import options
 
 if TYPE_CHECKING:
     from gbnbench.analysis.precision import PrecisionName
+    from gbnbench.io.points import ReadingOptions
 
 EPILOG = """\b
 Examples:
@@ -91,6 +92,7 @@ class Band(click.ParamType[tuple[float, float]]):
               "[default: 1024]")  # fmt: skip
 @click.option("-d", "d", type=click.IntRange(1), help="Dimension, likewise.  [default: 2]")
 @click.option("--realizations", type=click.IntRange(1), help="Sets, likewise.  [default: 1]")
+@options.reading
 @options.json
 @options.quiet
 @options.out_file("File to write, replacing any: .npz .npy .csv .png .pdf.")
@@ -115,6 +117,7 @@ def spectrum(
     out: Path | None,
     as_json: bool,
     quiet: bool,
+    reading: ReadingOptions,
 ) -> None:
     """Exact power of the point sets in files.
 
@@ -139,7 +142,7 @@ def spectrum(
 
     if out is not None and not explain:
         output.check_place(out)
-    sets = work.read_sets(files, each=each)
+    sets = work.read_sets(files, reading, each=each)
     if out is not None and not explain:
         inputs = [*files, *filter(None, (at, weights))]
         output.check_outs(output.places(out, len(sets), each=each), inputs, each=each)

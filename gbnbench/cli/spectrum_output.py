@@ -10,7 +10,8 @@ import click
 
 from gbnbench.cli.spectrum_text import exactness, headline
 from gbnbench.core.errors import InputError
-from gbnbench.core.results import ShellSpectrum, Spectrum
+from gbnbench.core.results.radial import ShellSpectrum
+from gbnbench.core.results.spectrum import Spectrum
 from gbnbench.io.points.writer import write_atomically
 from gbnbench.runs.spectrum_files import DATA, check_writable, encode
 

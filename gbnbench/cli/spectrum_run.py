@@ -13,20 +13,21 @@ import numpy as np
 
 from gbnbench.analysis.spectrum.settings import SpectrumSettings
 from gbnbench.cli.json_text import json_text
+from gbnbench.cli.point_files import naming, read_cube
 from gbnbench.cli.spectrum_output import check_format, places, write
 from gbnbench.cli.spectrum_text import as_record, as_text
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
 from gbnbench.execution import progress
 from gbnbench.io.lists import read_weights
-from gbnbench.io.points import read
+from gbnbench.io.points import ReadingOptions
 
 SLOW = 3.0  # expected seconds that are said beforehand
 PATIENCE = 1.0  # seconds before progress is shown
 
 
 @dataclass(frozen=True)
-class Sets:
+class LabelledSets:
     """Point sets that give one spectrum.
 
     Attributes
@@ -44,19 +45,21 @@ class Sets:
     x: FloatArray
 
 
-def read_sets(files: Sequence[Path], *, each: bool) -> list[Sets]:
+def read_sets(files: Sequence[Path], reading: ReadingOptions, *, each: bool) -> list[LabelledSets]:
     """Read every set of the files: one entry a set, or one of all, which then agree in n and d.
 
     Parameters
     ----------
     files : sequence of Path
         Point-set files.
+    reading : ReadingOptions
+        How they are read.
     each : bool
         Whether every set has a spectrum of its own.
 
     Returns
     -------
-    list of Sets
+    list of LabelledSets
 
     Raises
     ------
@@ -68,11 +71,11 @@ def read_sets(files: Sequence[Path], *, each: bool) -> list[Sets]:
     names: list[str] = []
     sets: list[FloatArray] = []
     for path in files:
-        found = read(path)
+        found = read_cube(path, reading)
         names += [f"{path}, set {k}" if len(found) > 1 else str(path) for k in range(len(found))]
         sets += found
     if each or not sets:
-        return [Sets(name, (name,), x[None]) for name, x in zip(names, sets, strict=True)]
+        return [LabelledSets(name, (name,), x[None]) for name, x in zip(names, sets, strict=True)]
     for name, x in zip(names, sets, strict=True):
         if x.shape != sets[0].shape:
             raise InputError(
@@ -80,17 +83,17 @@ def read_sets(files: Sequence[Path], *, each: bool) -> list[Sets]:
                 f"{name} has n={len(x)}, d={x.shape[1]}; --each gives a spectrum of each"
             )
     more = f" and {len(files) - 1} more" if len(files) > 1 else ""
-    return [Sets(f"{files[0]}{more}", tuple(names), np.stack(sets))]
+    return [LabelledSets(f"{files[0]}{more}", tuple(names), np.stack(sets))]
 
 
-def explain(settings: SpectrumSettings, sets: Sequence[Sets], weights: Path | None) -> None:
+def explain(settings: SpectrumSettings, sets: Sequence[LabelledSets], weights: Path | None) -> None:
     """Print the plan of each size of sets, having checked the weights.
 
     Parameters
     ----------
     settings : SpectrumSettings
         Which frequencies, how exact.
-    sets : sequence of Sets
+    sets : sequence of LabelledSets
         One for each spectrum.
     weights : Path, optional
         File of the points' weights.
@@ -101,7 +104,7 @@ def explain(settings: SpectrumSettings, sets: Sequence[Sets], weights: Path | No
         If the weights do not fit, or no evaluator can do it.
     """
     _weights(weights, sets)
-    alike: dict[tuple[int, ...], list[Sets]] = {}
+    alike: dict[tuple[int, ...], list[LabelledSets]] = {}
     for one in sets:
         alike.setdefault(one.x.shape, []).append(one)
     for (realizations, n, d), same in alike.items():
@@ -111,7 +114,7 @@ def explain(settings: SpectrumSettings, sets: Sequence[Sets], weights: Path | No
 
 def compute(
     settings: SpectrumSettings,
-    sets: Sequence[Sets],
+    sets: Sequence[LabelledSets],
     weights: Path | None,
     out: Path | None,
     *,
@@ -125,7 +128,7 @@ def compute(
     ----------
     settings : SpectrumSettings
         Which frequencies, how exact.
-    sets : sequence of Sets
+    sets : sequence of LabelledSets
         One for each spectrum.
     weights : Path, optional
         File of the points' weights.
@@ -159,7 +162,7 @@ def compute(
                 one = replace(one, label=f"{one.label} weighted by {weights}")
             if settings.sigma is not None:
                 one = replace(one, label=f"{one.label} filtered by a Gaussian of {settings.sigma:g} spacings")
-            with _bar(plan.request.frequencies, quiet) as tell:
+            with naming(Path(one.label)), _bar(plan.request.frequencies, quiet) as tell:
                 result = settings.evaluate(one.x, w, tell)
             if paths:
                 write(paths[k], result, one.label, one.sources)
@@ -179,7 +182,7 @@ def compute(
         ) from None
 
 
-def _weights(path: Path | None, sets: Sequence[Sets]) -> list[FloatArray | None]:
+def _weights(path: Path | None, sets: Sequence[LabelledSets]) -> list[FloatArray | None]:
     """Weights of each entry, read once; several entries of one n may have weights of their own."""
     if path is None:
         return [None] * len(sets)

@@ -13,7 +13,9 @@ from gbnbench.analysis.radial.radial_power import shells_from_cube
 from gbnbench.analysis.spectrum.evaluators.registry import title_of
 from gbnbench.cli.json_text import records
 from gbnbench.core.errors import RefusalError
-from gbnbench.core.results import ShellSpectrum, Spectrum, resolvable_power
+from gbnbench.core.results.radial import ShellSpectrum
+from gbnbench.core.results.resolution import resolvable_power
+from gbnbench.core.results.spectrum import Spectrum
 from gbnbench.runs.spectrum_files import columns
 
 ROWS = 16  # printed

@@ -2,43 +2,89 @@
 
 from __future__ import annotations
 
+import atexit
 import contextlib
-import getpass
 import json
 import os
+import shutil
+import stat
 import tempfile
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from gbnbench.core.atomic_write import write_whole
 
+VARIABLE = "GBNBENCH_CACHE"
+BLOCK = 4096  # bytes that a usable folder takes: a full disk may still make an empty file
+
 
 def is_writable(folder: Path) -> bool:
-    """Return whether a file can really be made in a folder, which is created if need be."""
+    """Return whether a file with content can really be made in a folder, which is created if need be."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder):
-            return True
+        with tempfile.TemporaryFile(dir=folder) as file:
+            file.write(bytes(BLOCK))
+            file.flush()
+        return True
     except OSError:
         return False
 
 
-@cache
-def cache_folder() -> Path:
-    """Choose the first writable of ``$GBNBENCH_CACHE``, the user's cache folder and a temporary one."""
+def user_folder(kind: Literal["cache", "config"], program: str) -> Path | None:
+    """Return the folder of a program's cache or settings, or None where no home is known.
+
+    Parameters
+    ----------
+    kind : {"cache", "config"}
+        What it holds.
+    program : str
+        Whose folder.
+
+    Returns
+    -------
+    Path or None
+        It need not exist, or be writable.
+    """
     import platformdirs
 
-    named = os.environ.get("GBNBENCH_CACHE")
-    for folder in ([Path(named)] if named else []) + [Path(platformdirs.user_cache_dir("gbnbench"))]:
-        if is_writable(folder):
+    find = platformdirs.user_cache_dir if kind == "cache" else platformdirs.user_config_dir
+    try:
+        folder = Path(find(program, program))
+    except RuntimeError:  # neither HOME nor a user of this number; older versions answer "~/.cache"
+        return None
+    return folder if folder.is_absolute() else None
+
+
+@cache
+def cache_folder() -> Path:
+    """Choose the first writable of ``$GBNBENCH_CACHE``, the user's cache folder and a temporary one.
+
+    Raises
+    ------
+    OSError
+        If no folder of this machine can be written, not even a temporary one.
+    """
+    named = os.environ.get(VARIABLE)
+    for folder in (Path(named) if named else None, user_folder("cache", "gbnbench")):
+        if folder is not None and is_writable(folder):
             return folder
-    own = Path(tempfile.gettempdir()) / f"gbnbench-cache-{getpass.getuser()}"
-    with contextlib.suppress(OSError):
-        own.mkdir(mode=0o700, exist_ok=True)
-        if own.owner() == getpass.getuser() and is_writable(own):  # nobody else's prepared one
-            return own
-    return Path(tempfile.mkdtemp(prefix="gbnbench-cache-"))
+    return _temporary_folder()
+
+
+def _temporary_folder() -> Path:
+    """Make a temporary cache, the same for every process of this user where the system tells users apart."""
+    if hasattr(os, "getuid"):
+        own = Path(tempfile.gettempdir()) / f"gbnbench-cache-{os.getuid()}"  # a user id may have no name
+        with contextlib.suppress(OSError):
+            own.mkdir(mode=0o700, exist_ok=True)
+            found = own.lstat()  # nobody else's prepared one, and no link of theirs
+            if stat.S_ISDIR(found.st_mode) and found.st_uid == os.getuid() and is_writable(own):
+                return own
+    passing = Path(tempfile.mkdtemp(prefix="gbnbench-cache-"))
+    atexit.register(shutil.rmtree, passing, ignore_errors=True)
+    os.environ[VARIABLE] = str(passing)  # worker processes share it
+    return passing
 
 
 def recall(name: str) -> Any | None:

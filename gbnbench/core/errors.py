@@ -27,6 +27,10 @@ class RefusalError(InputError):
     """A generator or measure cannot serve this n and d, and says why."""
 
 
+class ShortSpectrumError(RefusalError):
+    """A measure needs frequencies beyond the end of the spectrum."""
+
+
 class FormatError(InputError):
     """A file cannot be read as a point set.
 

@@ -13,12 +13,14 @@ Dolbilin & Huson, "Periodic Delone tilings", Periodica Mathematica Hungarica 34,
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gbnbench.core.sides import Sides
 from gbnbench.core.torus import FloatArray
 
 if TYPE_CHECKING:
@@ -52,6 +54,40 @@ def with_images(x: FloatArray, margin: float) -> tuple[FloatArray, NDArray[np.in
     return tiled, owner
 
 
+def images_in_box(x: FloatArray, sides: Sides, margin: float) -> tuple[FloatArray, NDArray[np.intp]]:
+    """Append to one point set of a box the periodic images that lie within margin of it, however far.
+
+    Parameters
+    ----------
+    x : (n, d) float64
+        Positions in [0, s_a) on each axis.
+    sides : tuple of d floats
+        Sides of the box.
+    margin : float
+        Width of the border, in the unit of the sides.
+
+    Returns
+    -------
+    tiled : (m, d) float64
+        The n points first, then their images in [-margin, s_a + margin).
+    owner : (m,) intp
+        Index in x of which each row is an image.
+    """
+    tiled, owner = x, np.arange(len(x), dtype=np.intp)
+    for axis, side in enumerate(sides):
+        rows, owners = [tiled], [owner]
+        for ring in range(1, math.ceil(margin / side) + 1):
+            for shift in (ring * side, -ring * side):
+                moved = tiled[:, axis] + shift
+                near = (moved >= -margin) & (moved < side + margin)
+                image = tiled[near]
+                image[:, axis] = moved[near]
+                rows.append(image)
+                owners.append(owner[near])
+        tiled, owner = np.concatenate(rows), np.concatenate(owners)
+    return tiled, owner
+
+
 def copies(x: FloatArray, shifts: Iterable[ArrayLike]) -> tuple[FloatArray, NDArray[np.intp]]:
     """Repeat a whole set at given shifts, as where a margin of 1 is not enough.
 
@@ -73,8 +109,8 @@ def copies(x: FloatArray, shifts: Iterable[ArrayLike]) -> tuple[FloatArray, NDAr
     return tiled, np.tile(np.arange(len(x), dtype=np.intp), len(tiled) // len(x))
 
 
-def overhang(centre: FloatArray, radius: FloatArray, side: float = 1.0) -> float:
-    """Distance by which balls stick out of the box [0, side]^d: the margin that proves them empty.
+def overhang(centre: FloatArray, radius: FloatArray, side: float | Sides = 1.0) -> float:
+    """Distance by which balls stick out of the box from 0 to side: the margin that proves them empty.
 
     Parameters
     ----------
@@ -82,15 +118,15 @@ def overhang(centre: FloatArray, radius: FloatArray, side: float = 1.0) -> float
         Circumcentres, or Voronoi vertices.
     radius : (...) float64
         Their distances to the nearest points of the tiling.
-    side : float
-        Side of the box.
+    side : float or tuple of d floats
+        Side of a cube, or sides of a box.
 
     Returns
     -------
     float
         Largest over all balls, negative where all lie well inside; -inf where there are none.
     """
-    beyond = np.maximum(-centre, centre - side).max(axis=-1) + radius
+    beyond = np.maximum(-centre, centre - np.asarray(side)).max(axis=-1) + radius
     return float(beyond.max(initial=-np.inf))
 
 

@@ -12,12 +12,20 @@ from dataclasses import dataclass
 import numpy as np
 
 from gbnbench.analysis.precision import PrecisionName
+from gbnbench.analysis.spatial.discrepancy import discrepancies
 from gbnbench.analysis.spectrum.evaluators.gridded.product import griddable
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.shell_spectrum import shells
 from gbnbench.core.errors import GbnbenchError
 from gbnbench.core.torus import displacement
-from gbnbench.doctor.numpy_references import numpy_box_gradient, numpy_gradient, numpy_power
+from gbnbench.doctor.numpy_references import (
+    numpy_box_gradient,
+    numpy_centred_square,
+    numpy_gradient,
+    numpy_periodic_square,
+    numpy_power,
+    numpy_star_square,
+)
 from gbnbench.generators.fpo.relocation import Sweeps, move_afresh
 from gbnbench.generators.gbn.box import BoxEnergy
 from gbnbench.generators.gbn.energy import energy_evaluation
@@ -33,8 +41,11 @@ QUICK_ENERGIES = ((401, 2, 1.0), (53, 3, 0.7))
 QUICK_BOXES = ((90, 2, 1.0),)
 BOXES = (*QUICK_BOXES, (1500, 2, 0.5), (120, 3, 1.0), (60, 8, 1.0))
 SWEEP, QUICK_SWEEP = 101, 41  # points of the farthest-point kernel's sweep
+DISCREPANCIES = ((2111, 2), (83, 5))  # n, d; one more than a block of columns
+QUICK_DISCREPANCIES = ((83, 5),)
 DISTANCE = 1e-9  # a sweep's departure, in box sides
 AMPLITUDE = {"double": 1e-14, "float": 2e-6}  # error allowed, over sqrt(n)
+SQUARE = 1e-13  # error allowed of a discrepancy's square
 GRADIENT = {"double": 1e-11, "float": 1e-4}  # over the largest component
 
 
@@ -156,6 +167,18 @@ def _farthest_points(n: int, precision: str) -> Iterator[Check]:
     yield Check("farthest-point sweep", f"n={n} d=2", precision, error, DISTANCE)
 
 
+def _discrepancies(n: int, d: int, precision: str) -> Iterator[Check]:
+    x = np.random.default_rng(n).random((n, d))
+    found = discrepancies(x, ["CD", "L2-star", "L2-periodic"])
+    squares = {
+        "centred": found["CD"][0] - numpy_centred_square(x),
+        "star": found["L2-star"][0] ** 2 - numpy_star_square(x),
+        "periodic": found["L2-periodic"][0] ** 2 - numpy_periodic_square(x),
+    }
+    for kind, error in squares.items():
+        yield Check(f"discrepancy, {kind}", f"n={n} d={d}", precision, abs(float(error)), SQUARE)
+
+
 def examine(quick: bool = False) -> Examination:
     """Try every kernel on the chosen device.
 
@@ -180,6 +203,7 @@ def examine(quick: bool = False) -> Examination:
         ]
         if precision == "double":
             work.append((_farthest_points, (QUICK_SWEEP if quick else SWEEP,)))
+            work.extend((_discrepancies, case) for case in (QUICK_DISCREPANCIES if quick else DISCREPANCIES))
         for check, case in work:
             try:
                 checks.extend(check(*case, precision))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 import time
 from types import TracebackType
@@ -11,6 +12,7 @@ if TYPE_CHECKING:
     from rich.progress import Progress as Bar
 
 QUIET_SECONDS = 10.0  # between plain lines
+PLAIN_TERMINALS = ("dumb", "unknown")  # values of TERM: they know neither colours nor moving the cursor
 
 
 class Progress:
@@ -174,4 +176,5 @@ def choose(quiet: bool) -> Progress:
     """Pick by where standard error goes."""
     if quiet:
         return Progress()
-    return Live() if sys.stderr.isatty() else Lines()
+    moving = sys.stderr.isatty() and os.environ.get("TERM") not in PLAIN_TERMINALS
+    return Live() if moving else Lines()

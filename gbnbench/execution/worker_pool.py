@@ -15,9 +15,11 @@ import threading
 import traceback
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import IO, Any, Self
 
 from gbnbench.core.errors import GbnbenchError
+from gbnbench.core.process_end import cause_of_end
 from gbnbench.opencl.device import DEVICE_VARIABLE, selected
 
 # One thread a worker: the processes share the cores, and CPU seconds then mean one core's seconds.
@@ -128,13 +130,16 @@ class Pool:
 
     def _attend(self) -> None:
         child: subprocess.Popen[bytes] | None = None
-        with tempfile.TemporaryFile() as complaints:
+        with _scratch() as complaints:
             while (task := self._todo.get()) is not None:
-                if child is None:
-                    child = self._start(complaints)
+                key, call = task
+                try:
+                    child = child or self._start(complaints)
+                except OSError as error:
+                    self._done.put(Finished(key, failure=f"no process can be started for it: {error}"))
+                    continue
                 if child is None:
                     break
-                key, call = task
                 try:
                     _send(child.stdin, call)
                     succeeded, value = pickle.loads(_receive(child.stdout))  # noqa: S301 - our own child
@@ -176,18 +181,15 @@ class Pool:
 
 def _post_mortem(code: int, complaints: IO[bytes]) -> str:
     complaints.seek(0)
-    lines = [line.strip() for line in complaints.read().decode(errors="replace").splitlines() if line.strip()]
-    if code < 0:
-        try:
-            name = signal.Signals(-code).name
-        except ValueError:
-            name = f"signal {-code}"
-        cause = f"its process was killed by {name}"
-        if name == "SIGKILL":
-            cause += " (often by the system for want of memory)"
-    else:
-        cause = f"its process ended with exit code {code}"
-    return f"{cause}: {lines[-1]}" if lines else cause
+    return cause_of_end(code, complaints.read())
+
+
+def _scratch() -> IO[bytes]:
+    """Open a file for what a child complains; where no temporary file can be made, complaints are lost."""
+    try:
+        return tempfile.TemporaryFile()
+    except OSError:
+        return Path(os.devnull).open("w+b")
 
 
 def _send(pipe: IO[bytes] | None, message: bytes) -> None:

@@ -10,11 +10,10 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gbnbench.core.cache_folder import cache_folder, is_writable
 from gbnbench.core.errors import DeviceError
+from gbnbench.core.library_caches import lead_caches
 
 if TYPE_CHECKING:
     import pyopencl as cl
@@ -79,15 +78,14 @@ class Device:
 
 
 def import_pyopencl() -> Any:
-    """Import pyopencl with a cache folder that PoCL can write, or say what to install.
-
-    Notes
-    -----
-    With an unwritable cache folder PoCL offers a platform without devices.
-    """
-    kept = os.environ.get("POCL_CACHE_DIR")
-    if "pyopencl" not in sys.modules and (kept is None or not is_writable(Path(kept))):
-        os.environ["POCL_CACHE_DIR"] = str(cache_folder() / "pocl")
+    """Import pyopencl with cache folders that it and PoCL can write, or say what to install."""
+    try:
+        if "pyopencl" not in sys.modules:
+            lead_caches()
+    except OSError as error:
+        raise DeviceError(
+            f"no folder can be written for compiled kernels ({error}). Set GBNBENCH_CACHE to one that can"
+        ) from None
     try:
         import pyopencl
     except ImportError as error:

@@ -93,10 +93,12 @@ class Runtime:
         """
         lanes = self.widths.float64 if precision == "double" else self.widths.float32
         if lanes == 0:
+            widths = self.widths
+            fault = f" ({widths.fault})" if widths.fault else ""
+            other = ' or precision="float" where a power floor of 1e-13 suffices' if widths.float32 else ""
             raise DeviceError(
-                f"{self.device.label} does not compute in {precision}; choose another device (gbnbench "
-                f"devices) "
-                'or precision="float" where a power floor of 1e-13 suffices'
+                f"{self.device.label} does not compute in {precision}{fault}; choose another device "
+                f"(gbnbench devices){other}"
             )
         return lanes
 

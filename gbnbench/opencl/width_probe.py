@@ -14,7 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from gbnbench.core.cache_folder import recall, remember
+from gbnbench.core.cache_folder import cache_folder, recall, remember
+from gbnbench.core.process_end import cause_of_end
 from gbnbench.opencl.device import Device, handle, import_pyopencl
 
 SECONDS = 120
@@ -29,10 +30,13 @@ class VectorWidths:
     ----------
     float32, float64 : int
         Lanes; 0 where the precision does not work at all.
+    fault : str
+        What the child processes ended of where nothing was proven; empty where something was.
     """
 
     float32: int
     float64: int
+    fault: str = ""
 
 
 def _works(context: Any, queue: Any, precision: str, width: int) -> bool:
@@ -49,7 +53,8 @@ def _works(context: Any, queue: Any, precision: str, width: int) -> bool:
     source = "\n".join((kernels / name).read_text() for name in ("vector.cl", "probe.cl"))
     try:
         program = cl.Program(context, source).build(
-            [f"-D DOUBLE={int(precision == 'double')}", f"-D LANES={width}"]
+            [f"-D DOUBLE={int(precision == 'double')}", f"-D LANES={width}"],
+            cache_dir=str(cache_folder() / "pyopencl"),
         )
         cl.Kernel(program, "probe")(queue, (1,), (1,), device_a, device_b, out)
         got = np.empty_like(a)
@@ -76,18 +81,24 @@ def _child(platform: int, device: int, precision: str) -> None:
             print(width, flush=True)
 
 
-def _widest(device: Device, precision: str) -> int:
-    """Widest vector that a child process proved before it ended or died; 0 for none."""
+def _widest(device: Device, precision: str) -> tuple[int, str]:
+    """Widest vector that a child process proved before it ended or died; 0 for none, with what it died of."""
     arguments = (*device.position, precision)
     call = f"from gbnbench.opencl.width_probe import _child; _child(*{arguments!r})"
+    fault = ""
     try:
-        output: bytes | None = subprocess.run(
+        child = subprocess.run(
             [sys.executable, "-c", call], capture_output=True, timeout=SECONDS, check=False
-        ).stdout
+        )
+        output: bytes | None = child.stdout
+        if child.returncode != 0:
+            fault = f"a kernel was tried in {precision}, and {cause_of_end(child.returncode, child.stderr)}"
     except subprocess.TimeoutExpired as late:
         output = late.stdout
+        fault = f"a kernel was tried in {precision}, and its process gave no answer in {SECONDS} seconds"
     proven = (output or b"").split()
-    return max((int(width) for width in proven if width.isdigit()), default=0)
+    widest = max((int(width) for width in proven if width.isdigit()), default=0)
+    return widest, "" if widest else fault
 
 
 def vector_widths(device: Device) -> VectorWidths:
@@ -95,7 +106,9 @@ def vector_widths(device: Device) -> VectorWidths:
     known = recall(f"widths-{device.fingerprint}")
     if isinstance(known, dict) and set(known) == {"float32", "float64"}:
         return VectorWidths(**known)
-    found = VectorWidths(_widest(device, "float"), _widest(device, "double") if device.has_double else 0)
-    if found.float32:  # nothing at all proven is a broken installation, which may be mended: ask again
-        remember(f"widths-{device.fingerprint}", {"float32": found.float32, "float64": found.float64})
+    single, fault = _widest(device, "float")
+    double, another = _widest(device, "double") if device.has_double else (0, "")
+    found = VectorWidths(single, double, fault or another)
+    if single and not found.fault:  # a process may die of what is mended later: ask again
+        remember(f"widths-{device.fingerprint}", {"float32": single, "float64": double})
     return found

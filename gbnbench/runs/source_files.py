@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gbnbench.core.results import Measures, RadialPower, Spectrum
+from gbnbench.core.results.measures import Measures
+from gbnbench.core.results.radial import RadialPower
+from gbnbench.core.results.spectrum import Spectrum
 from gbnbench.io import data_files
 from gbnbench.runs.comparison_result import SourceResult
 

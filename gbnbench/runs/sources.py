@@ -5,24 +5,26 @@ from __future__ import annotations
 import dataclasses
 import difflib
 import hashlib
+import json
 import re
 from collections import Counter
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.errors import FormatError, InputError, RefusalError
 from gbnbench.core.settings import specification
 from gbnbench.core.torus import FloatArray, as_realizations
 from gbnbench.generators.protocol import Generator
 from gbnbench.generators.registry import GENERATORS, find, of_instance
-from gbnbench.io.points import read
+from gbnbench.io.points import ReadingOptions, read_sets
+from gbnbench.io.points.formats.registry import FOLDER_SUFFIXES, in_folders
 
-SUFFIXES = (".txt", ".dat", ".rps", ".eps", ".csv", ".npy", ".npz")  # what a folder's point sets end in
+DEFAULT_READING = ReadingOptions()
 DEFAULT_SOURCES = ("random", "jittered", "sobol", "lloyd", "fpo", "gbn")
 
 
@@ -43,9 +45,15 @@ class Source:
     sets : (realizations, n, d) float64 or None
         None for generators.
     digest : str
-        SHA-256 of the contents of files or of an array, empty for generators.
+        SHA-256 of the contents of files and of how they are read, or of an array; empty for generators.
     kind : {"generator", "files", "array"}
         Where the points come from.
+    reading : mapping
+        What the user said of how the files are read, as ``ReadingOptions.record`` writes it.
+    sides : tuple of float or None
+        Sides of the box in the files' unit; None where they tell none.
+    toroidal : bool or None
+        Whether the box is a torus, where the files or the user say so.
     """
 
     key: str
@@ -57,6 +65,9 @@ class Source:
     sets: FloatArray | None = None
     digest: str = ""
     kind: Literal["generator", "files", "array"] = "generator"
+    reading: Mapping[str, Any] = field(default_factory=dict)
+    sides: tuple[float, ...] | None = None
+    toroidal: bool | None = None
 
     def identity(self) -> dict[str, Any]:
         """Return what decides its points, JSON-ready: sources of equal identity give equal results."""
@@ -64,7 +75,8 @@ class Source:
             "key": self.key, "label": self.label, "n": self.n, "d": self.d, "realizations": self.realizations
         }  # fmt: skip
         if self.generator is None:
-            return {**same, "kind": self.kind, "sha256": self.digest}
+            read = {"reading": dict(self.reading)} if self.reading else {}
+            return {**same, "kind": self.kind, "sha256": self.digest, **read}
         kind = type(self.generator)
         own = {} if GENERATORS.get(kind.name) is kind else {"class": f"{kind.__module__}.{kind.__qualname__}"}
         return {
@@ -104,7 +116,11 @@ def array_source(x: ArrayLike, label: str = "array") -> Source:
 
 
 def resolve(
-    names: Iterable[str | Path | Generator | Source], n: Sequence[int], d: Sequence[int], realizations: int
+    names: Iterable[str | Path | Generator | Source],
+    n: Sequence[int],
+    d: Sequence[int],
+    realizations: int,
+    reading: ReadingOptions = DEFAULT_READING,
 ) -> tuple[tuple[Source, ...], tuple[str, ...]]:
     """Turn names into sources, in their order.
 
@@ -118,6 +134,8 @@ def resolve(
         Sizes and dimensions for the generators: each is made at every pair. Files bring their own.
     realizations : int
         Sets for each generator. Files bring their own.
+    reading : ReadingOptions
+        How the files are read.
 
     Returns
     -------
@@ -155,7 +173,7 @@ def resolve(
         if generator is None:
             path = Path(str(name))
             title = _title(path)
-            sources.extend(_read(path, title if stems[title] == 1 else str(path)))
+            sources.extend(_read(path, title if stems[title] == 1 else str(path), reading))
             continue
         text = specification(generator)
         for size, dimension in dict.fromkeys((size, dimension) for dimension in d for size in n):
@@ -189,29 +207,43 @@ def _title(path: Path) -> str:
     return path.resolve().name if path.is_dir() else path.stem
 
 
-def _read(path: Path, title: str) -> list[Source]:
+def _read(path: Path, title: str, reading: ReadingOptions) -> list[Source]:
     """Read the sets of a file or folder, a source for each (n, d) among them."""
     files = [path]
     if path.is_dir():
         files = sorted(
-            (f for f in path.iterdir() if f.is_file() and f.suffix.lower() in SUFFIXES and f.name[0] != "."),
+            (f for f in path.iterdir() if f.is_file() and in_folders(f)),
             key=lambda f: [(part.isdigit(), int(part) if part.isdigit() else 0, part)
                            for part in re.split(r"(\d+)", f.name)],
         )  # fmt: skip
         if not files:
-            raise InputError(f"{path} holds no point sets; files are known by {', '.join(SUFFIXES)}")
+            raise InputError(f"{path} holds no point sets; files are known by {', '.join(FOLDER_SUFFIXES)}")
     groups: dict[tuple[int, int], list[FloatArray]] = {}
     digests: dict[tuple[int, int], list[str]] = {}
+    boxes: dict[tuple[int, int], tuple[tuple[float, ...] | None, bool | None]] = {}
     for file in files:
         digest = _sha256(file)
-        for x in read(file):
-            groups.setdefault((x.shape[0], x.shape[1]), []).append(x)
-            digests.setdefault((x.shape[0], x.shape[1]), []).append(digest)
+        found = read_sets(file, reading)
+        for x in found.sets:
+            shape = (x.shape[0], x.shape[1])
+            groups.setdefault(shape, []).append(x)
+            digests.setdefault(shape, []).append(digest)
+            if boxes.setdefault(shape, (found.sides, found.toroidal)) != (found.sides, found.toroidal):
+                raise FormatError(file, f"its box is not that of the files before: {_box(*boxes[shape])}")
+    said = reading.record()
+    more = json.dumps(said) if said else ""
     return [
-        Source("", title, n, d, len(sets), sets=np.stack(sets),
-               digest=hashlib.sha256("".join(digests[n, d]).encode()).hexdigest(), kind="files")
+        Source("", title, n, d, len(sets), sets=np.stack(sets), kind="files", reading=said,
+               digest=hashlib.sha256(("".join(digests[n, d]) + more).encode()).hexdigest(),
+               sides=boxes[n, d][0], toroidal=boxes[n, d][1])
         for (n, d), sets in groups.items()
     ]  # fmt: skip
+
+
+def _box(sides: tuple[float, ...] | None, toroidal: bool | None) -> str:
+    """Describe a box in an error."""
+    size = "the unit torus" if sides is None else "sides " + " x ".join(f"{side:g}" for side in sides)
+    return f"{size}, no torus" if toroidal is False else size
 
 
 def _sha256(path: Path) -> str:

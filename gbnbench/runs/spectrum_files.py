@@ -14,7 +14,9 @@ from gbnbench import __version__
 from gbnbench.analysis.radial.anisotropy import ROUNDING_VARIANCE, anisotropy
 from gbnbench.analysis.radial.profile_measures import ROUNDING_POWER
 from gbnbench.core.errors import InputError
-from gbnbench.core.results import ShellSpectrum, Spectrum, resolvable_power
+from gbnbench.core.results.radial import ShellSpectrum
+from gbnbench.core.results.resolution import resolvable_power
+from gbnbench.core.results.spectrum import Spectrum
 from gbnbench.io import data_files
 from gbnbench.runs.source_files import SPECTRUM_SCALARS
 

@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter, NullLocator
 
-from gbnbench.reports import style
+from gbnbench.reports import layout, style
 
 ORDER = (
     ("valence6", "neighbours: share of 6", False),
@@ -91,7 +91,7 @@ def figure(table: pd.DataFrame, n: int = 1024, d: int = 2, start: int = 100) -> 
         seeds=tried.seed.nunique(), n=n, d=d, start=start, low=edges[0], high=edges[-1],
         failed=int((~tried.converged.astype(str).eq("True")).sum()), tried=len(tried),
     )  # fmt: skip
-    sheet = style.sheet(
+    sheet = layout.sheet(
         "What depth costs in order", caption, len(ORDER) + 2, 2.35, [1.9], columns=3, left=0.6,
         between=0.92, right=0.5, under=0.44, key=0.36, titles=True,
     )  # fmt: skip

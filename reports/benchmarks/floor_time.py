@@ -18,7 +18,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from gbnbench.generators.gbn.operation_counts import CUTOFF
 from gbnbench.generators.gbn.published_quality import AUTHORS_FLOOR
-from gbnbench.reports import style
+from gbnbench.reports import layout, style
 from gbnbench.reports.benchmarks.speed_error import machine_line
 
 WIDTH, HEIGHT, COLUMNS = 2.35, 2.05, 4  # inches; panels in a row
@@ -67,7 +67,7 @@ def figure(floors: pd.DataFrame, forces: pd.DataFrame, machine: Mapping[str, Any
     ]
     panels += [(f"{case}, kernel cut off", _cutoffs, rows) for case, rows in cut.groupby("case", sort=False)]
     panels += [(f"{case}, forces", _forces, rows) for case, rows in forces.groupby("case", sort=False)]
-    sheet = style.sheet(
+    sheet = layout.sheet(
         "How deep in what time: Gaussian Blue Noise",
         CAPTION + (GRID if _regular(whole) else "") + machine_line(machine),
         len(panels),

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter, PercentFormatter
 
-from gbnbench.reports import style
+from gbnbench.reports import layout, style
 from gbnbench.reports.benchmarks.speed_error import machine_line
 
 # Colour, marker and dash of each method.
@@ -39,7 +39,7 @@ def figure(scaling: pd.DataFrame, machine: Mapping[str, Any]) -> Figure:
     Parameters
     ----------
     scaling : DataFrame
-        Columns of ``gbnbench.benchmarks.spectra.speed_error.SCALING``.
+        Columns of ``gbnbench.benchmarks.spectra.scaling.SCALING``.
     machine : mapping
         The record ``machine.json``.
 
@@ -49,7 +49,7 @@ def figure(scaling: pd.DataFrame, machine: Mapping[str, Any]) -> Figure:
         CPU time, and below it the share of peak speed, one column for each quantity that is varied.
     """
     sweeps = list(dict.fromkeys(scaling.sweep))
-    sheet = style.sheet(
+    sheet = layout.sheet(
         "How the cost grows",
         CAPTION + machine_line(machine),
         len(sweeps),
@@ -145,7 +145,7 @@ def _share(ax: Axes, part: pd.DataFrame, across: str) -> None:
     """Share of the peak, of the plain product at every size."""
     known = part[part.share_of_peak.notna()]
     if not len(known):
-        style.empty(ax, "peak not measured")
+        layout.empty(ax, "peak not measured")
         return
     for precision, rows in known.groupby("precision"):
         colour, marker, dash = LOOKS[PLAIN[str(precision)]]

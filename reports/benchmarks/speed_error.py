@@ -13,7 +13,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from gbnbench.reports import style
+from gbnbench.reports import layout, style
 
 WIDTH, HEIGHT, COLUMNS = 2.3, 1.9, 4  # inches; panels in a row
 ROOM = 26  # points that the name of a precision takes beside its marker
@@ -60,7 +60,7 @@ def figure(speed: pd.DataFrame, machine: Mapping[str, Any]) -> Figure:
     if names:
         tolerances = ", ".join(name.removeprefix("FINUFFT ") for name in names)
         caption += f"FINUFFT, one thread, tolerances from right to left: {tolerances}. "
-    sheet = style.sheet(
+    sheet = layout.sheet(
         "What a spectrum costs, and how exact it is",
         caption + machine_line(machine),
         len(cases),

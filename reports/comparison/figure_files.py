@@ -23,13 +23,14 @@ from gbnbench.reports.comparison import (
     valence,
     zone_plate,
 )
+from gbnbench.reports.source_groups import Group, groups, members
 from gbnbench.runs.comparison_result import Run, SourceResult
 
 
 class Kind(NamedTuple):
     """A kind of figure: the function that draws it, and the condition on a source to appear in it."""
 
-    draw: Callable[[Run, style.Group | None], Figure]
+    draw: Callable[[Run, Group | None], Figure]
     needs: Callable[[SourceResult], bool]
 
 
@@ -81,14 +82,14 @@ def pdf(figure: Figure) -> bytes:
     return stream.getvalue()
 
 
-def planned(run: Run) -> list[tuple[str, Callable[[Run, style.Group | None], Figure], style.Group | None]]:
+def planned(run: Run) -> list[tuple[str, Callable[[Run, Group | None], Figure], Group | None]]:
     """List the figures of a run as (file stem, drawing function, (n, d)); stems tell several (n, d) apart."""
-    every = style.groups(run)
-    plan: list[tuple[str, Callable[[Run, style.Group | None], Figure], style.Group | None]] = []
+    every = groups(run)
+    plan: list[tuple[str, Callable[[Run, Group | None], Figure], Group | None]] = []
     for group in every:
         suffix = f"_n{group[0]}_d{group[1]}" if len(every) > 1 else ""
         for name, kind in FIGURES.items():
-            if any(map(kind.needs, style.members(run, group))):
+            if any(map(kind.needs, members(run, group))):
                 plan.append((name + suffix, kind.draw, group))
     if sweep.several(run):
         plan.append(("sweep", sweep.figure, None))

@@ -8,8 +8,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from gbnbench.reports import style
+from gbnbench.reports import captions, layout, style
 from gbnbench.reports.comparison import points, radial, spectrum, valence, zone_plate
+from gbnbench.reports.source_groups import Group, members
 from gbnbench.runs.comparison_result import Run, SourceResult
 
 Draw = Callable[[Axes, SourceResult], None]
@@ -51,7 +52,7 @@ def rows(run: Run, sources: Sequence[SourceResult]) -> list[tuple[str, float, Dr
 
 
 @style.styled
-def figure(run: Run, group: style.Group | None = None) -> Figure:
+def figure(run: Run, group: Group | None = None) -> Figure:
     """Draw points, spectrum, radial power, anisotropy, zone plate and valence of every source.
 
     Parameters
@@ -66,7 +67,7 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
     Figure
         One column for each source.
     """
-    sources = style.members(run, group)
+    sources = members(run, group)
     lines = rows(run, sources)
     names = [name for name, _, _ in lines]
     width = 2.4
@@ -83,9 +84,9 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
         + f". {' '.join(dict.fromkeys(filter(None, notes)))} "
     ).replace("  ", " ")
     gap = {"radial power": 0.08, "anisotropy\n(dB)": 0.32, "valence": 0.06}
-    sheet = style.sheet(
+    sheet = layout.sheet(
         "Side by side",
-        caption + style.settings(run, group),
+        caption + captions.settings(run, group),
         len(sources),
         width,
         [width * ratio for _, ratio, _ in lines],
@@ -97,7 +98,7 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
         key=0.8 if "valence" in names else 0.55,
     )
     for stack, first, source in zip(sheet.cells, sheet.first, sources, strict=True):
-        stack[0].set_title(style.name(source, run, 26), loc="left", weight="bold")
+        stack[0].set_title(captions.name(source, run, 26), loc="left", weight="bold")
         for ax, (name, _, draw) in zip(stack, lines, strict=True):
             draw(ax, source)
             if name == "radial power":
@@ -112,8 +113,8 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
     return sheet.figure
 
 
-def _keys(sheet: style.Sheet, sources: Sequence[SourceResult], valences: bool) -> None:
+def _keys(sheet: layout.Sheet, sources: Sequence[SourceResult], valences: bool) -> None:
     if valences:
         valence.key(sheet)
-        sheet = style.Sheet(sheet.figure, sheet.cells, sheet.first, sheet.foot + 0.27)
+        sheet = layout.Sheet(sheet.figure, sheet.cells, sheet.first, sheet.foot + 0.27)
     spectrum.add_colour_bar(sheet, spectrum.norm(sources))

@@ -10,7 +10,8 @@ from matplotlib.ticker import LogFormatterSciNotation, LogLocator, NullLocator
 from numpy.typing import NDArray
 
 from gbnbench.core.torus import FloatArray
-from gbnbench.reports import style
+from gbnbench.reports import captions, layout, style
+from gbnbench.reports.source_groups import Group, members
 from gbnbench.runs.comparison_result import Run, SourceResult
 
 # Where power is exactly 0, double precision leaves some 1e-30 and float 1e-13; deep sets reach 1e-26.
@@ -31,7 +32,7 @@ def guide(sources: list[SourceResult]) -> tuple[float, float] | None:
 
 
 @style.styled
-def figure(run: Run, group: style.Group | None = None) -> Figure:
+def figure(run: Run, group: Group | None = None) -> Figure:
     """Draw the power of every exact shell of every source.
 
     Parameters
@@ -46,7 +47,7 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
     Figure
         One plot of all sources. Shells whose power is zero to rounding stand as triangles on its floor.
     """
-    sources = style.members(run, group)
+    sources = members(run, group)
     strokes = style.strokes(run)
     gone = [_zero(source) for source in sources]
     powers = [np.where(zero, np.nan, s.radial.power) for s, zero in zip(sources, gone, strict=True)]
@@ -64,12 +65,12 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
             "Dotted: epsilon exp(4 pi^2 nu^2), the ideal Gaussian blue noise, at the deepest epsilon fitted "
             "with c near 4 pi^2. "
         )
-    labels = [style.name(source, run, 30) for source in sources]
-    room = style.legend_room(labels)
+    labels = [captions.name(source, run, 30) for source in sources]
+    room = layout.legend_room(labels)
     if curve is not None:
         labels.append(r"$\epsilon\,e^{4\pi^2\nu^2}$")
-    caption += style.settings(run, group)
-    sheet = style.sheet(
+    caption += captions.settings(run, group)
+    sheet = layout.sheet(
         "Radial power, log-log", caption, 1, 6.6, [4.6], left=0.7, under=0.42, right=room, titles=False
     )
     ax = sheet.cells[0][0]
@@ -127,7 +128,7 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
     ax.grid(True, which="major")
     ax.set_xlabel("nu = |f| n^(-1/d)")
     ax.set_ylabel("radial power")
-    style.beside(ax, handles, labels)
+    layout.beside(ax, handles, labels)
     return sheet.figure
 
 

@@ -7,7 +7,8 @@ import math
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from gbnbench.reports import style
+from gbnbench.reports import captions, layout, style
+from gbnbench.reports.source_groups import Group, members
 from gbnbench.runs.comparison_result import Run, SourceResult
 
 MOST = 16384  # beyond this many points in the plane a panel would be solid ink: a corner is shown instead
@@ -40,7 +41,7 @@ def panel(ax: Axes, source: SourceResult) -> None:
     source : SourceResult
         Source to draw.
     """
-    style.frame(ax)
+    layout.frame(ax)
     x = source.points[0]
     side = window(source)
     ax.set_xlim(0, side)
@@ -59,7 +60,7 @@ def panel(ax: Axes, source: SourceResult) -> None:
 
 
 @style.styled
-def figure(run: Run, group: style.Group | None = None) -> Figure:
+def figure(run: Run, group: Group | None = None) -> Figure:
     """Draw the first realization of every source.
 
     Parameters
@@ -74,15 +75,15 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
     Figure
         One panel for each source.
     """
-    sources = style.members(run, group)
+    sources = members(run, group)
     notes = " ".join(dict.fromkeys(filter(None, map(note, sources))))
     caption = f"First realization of each source in the unit square, x right, y up. {notes} ".replace(
         "  ", " "
     )
-    sheet = style.sheet(
-        "Points", caption + style.settings(run, group), len(sources), 2.5, [2.5], columns=3, left=0.2
+    sheet = layout.sheet(
+        "Points", caption + captions.settings(run, group), len(sources), 2.5, [2.5], columns=3, left=0.2
     )
     for (ax,), source in zip(sheet.cells, sources, strict=True):
         panel(ax, source)
-        ax.set_title(style.name(source, run, 30), loc="left")
+        ax.set_title(captions.name(source, run, 30), loc="left")
     return sheet.figure

@@ -10,7 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from gbnbench.reports import style
+from gbnbench.reports import captions, layout, style
+from gbnbench.reports.source_groups import Group, members
 from gbnbench.runs.comparison_result import Run, SourceResult
 
 CAP = 6.0  # a lattice's harmonics carry power n: the axis stops here and the panel says what it leaves out
@@ -118,7 +119,7 @@ def anisotropy_panel(
 
 
 @style.styled
-def figure(run: Run, group: style.Group | None = None) -> Figure:
+def figure(run: Run, group: Group | None = None) -> Figure:
     """Draw radial power above anisotropy for every source, on shared scales.
 
     Parameters
@@ -133,7 +134,7 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
     Figure
         One pair of axes for each source.
     """
-    sources = style.members(run, group)
+    sources = members(run, group)
     strokes = style.strokes(run)
     top, limits = power_limit(sources), decibel_limits(sources)
     caption = (
@@ -141,9 +142,9 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
         "anisotropy of each ring around its shells' own means; the dashed line is isotropic noise over "
         "M realizations, -10 log10(M) dB. "
     )
-    sheet = style.sheet(
+    sheet = layout.sheet(
         "Radial power and anisotropy",
-        caption + style.settings(run, group),
+        caption + captions.settings(run, group),
         len(sources),
         2.75,
         [1.55, 0.8],
@@ -156,7 +157,7 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
     for (power, anisotropy), first, source in zip(sheet.cells, sheet.first, sources, strict=True):
         power_panel(power, source, strokes[source.key], top)
         anisotropy_panel(anisotropy, source, strokes[source.key], limits)
-        power.set_title(style.name(source, run, 34), loc="left")
+        power.set_title(captions.name(source, run, 34), loc="left")
         power.tick_params(labelbottom=False, labelleft=first)
         anisotropy.tick_params(labelleft=first)
         anisotropy.set_xlabel("nu")

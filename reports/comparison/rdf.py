@@ -7,7 +7,8 @@ import math
 import numpy as np
 from matplotlib.figure import Figure
 
-from gbnbench.reports import style
+from gbnbench.reports import captions, layout, style
+from gbnbench.reports.source_groups import Group, members
 from gbnbench.runs.comparison_result import Run
 
 CAP = 5.0  # a lattice's shells are narrow and tall: the axis stops here
@@ -15,7 +16,7 @@ REACH = 5.0  # in densest spacings; beyond it every curve lies on 1
 
 
 @style.styled
-def figure(run: Run, group: style.Group | None = None) -> Figure:
+def figure(run: Run, group: Group | None = None) -> Figure:
     """Draw the radial distribution function of every source that has one.
 
     Parameters
@@ -31,23 +32,23 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
         One plot of all these sources.
     """
     strokes = style.strokes(run)
-    drawn = [(s, s.rdf) for s in style.members(run, group) if s.rdf is not None]
-    labels = [style.name(source, run, 30) for source, _ in drawn]
+    drawn = [(s, s.rdf) for s in members(run, group) if s.rdf is not None]
+    labels = [captions.name(source, run, 30) for source, _ in drawn]
     curves = [(t["r"].to_numpy(dtype=float), t["g"].to_numpy(dtype=float)) for _, t in drawn]
     tops = [float(np.nanmax(g)) for _, g in curves if np.isfinite(g).any()]
     top = min(CAP, 1.1 * max(tops, default=2.0))
     caption = "g(r) over all realizations, r in spacings of the densest lattice; 1 is white noise. "
     if max(tops, default=0.0) > top:
         caption += f"The axis stops at {top:g}; the highest value is {max(tops):.3g}. "
-    sheet = style.sheet(
+    sheet = layout.sheet(
         "Radial distribution function",
-        caption + style.settings(run, group),
+        caption + captions.settings(run, group),
         1,
         6.0,
         [2.9],
         left=0.55,
         under=0.42,
-        right=style.legend_room(labels),
+        right=layout.legend_room(labels),
         titles=False,
     )
     ax = sheet.cells[0][0]
@@ -62,5 +63,5 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
     ax.grid(True)
     ax.set_xlabel("r / densest spacing")
     ax.set_ylabel("g(r)")
-    style.beside(ax, handles, labels)
+    layout.beside(ax, handles, labels)
     return sheet.figure

@@ -12,8 +12,10 @@ from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
 from gbnbench import __version__
 from gbnbench.analysis.radial.radial_power import shells_from_cube
-from gbnbench.core.results import Measures, ShellSpectrum, Spectrum
-from gbnbench.reports import style
+from gbnbench.core.results.measures import Measures
+from gbnbench.core.results.radial import ShellSpectrum
+from gbnbench.core.results.spectrum import Spectrum
+from gbnbench.reports import captions, layout, style
 from gbnbench.reports.comparison import radial, spectrum
 from gbnbench.reports.comparison.loglog import ZERO
 from gbnbench.runs.comparison_result import Run, SourceResult
@@ -62,9 +64,9 @@ def figure(result: Spectrum | ShellSpectrum, label: str) -> Figure:
             f"Left: log10 of power at every integer frequency, zero in the middle, axes in nu, clipped at "
             f"{scale.vmin:.0e} and {scale.vmax:g}, DC left out. Right: {caption[0].lower()}{caption[1:]}"
         )
-    sheet = style.sheet(
-        style.shown(label, 60),
-        caption + style.settings(run),
+    sheet = layout.sheet(
+        captions.shown(label, 60),
+        caption + captions.settings(run),
         2 if square else 1,
         WIDTH if square else 5.2,
         [UPPER, LOWER],
@@ -95,7 +97,7 @@ def figure(result: Spectrum | ShellSpectrum, label: str) -> Figure:
     return sheet.figure
 
 
-def _picture(cell: list[Axes], source: SourceResult, sheet: style.Sheet, scale: LogNorm) -> None:
+def _picture(cell: list[Axes], source: SourceResult, sheet: layout.Sheet, scale: LogNorm) -> None:
     """Draw the log10 map over the whole height of a cell, and its colour bar."""
     upper, lower = cell
     top, foot = upper.get_position(), lower.get_position()

@@ -12,9 +12,10 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Colormap, LogNorm
 from matplotlib.figure import Figure
 
-from gbnbench.core.results import Spectrum
+from gbnbench.core.results.spectrum import Spectrum
 from gbnbench.core.torus import FloatArray
-from gbnbench.reports import style
+from gbnbench.reports import captions, layout, style
+from gbnbench.reports.source_groups import Group, members
 from gbnbench.runs.comparison_result import Run, SourceResult
 
 CEILING = 10.0
@@ -102,7 +103,7 @@ def panel(ax: Axes, source: SourceResult, scale: LogNorm | None, *, ticks: bool 
     """
     image = plane(source.spectrum)
     if image is None:
-        style.empty(ax, "no frequency of the plane was evaluated")
+        layout.empty(ax, "no frequency of the plane was evaluated")
         return
     reach = (source.spectrum.fmax + 0.5) * source.spectrum.spacing
     extent = (-reach, reach, -reach, reach)
@@ -113,7 +114,7 @@ def panel(ax: Axes, source: SourceResult, scale: LogNorm | None, *, ticks: bool 
     else:
         safe = np.maximum(without_dc(image), float(scale.vmin or LOWEST))
         ax.imshow(safe.T, cmap=palette(), norm=scale, origin="lower", extent=extent, aspect="equal")
-    style.frame(ax)
+    layout.frame(ax)
     if ticks:
         whole = math.floor(reach)
         marks = [-whole, 0, whole] if whole else [0]
@@ -123,7 +124,7 @@ def panel(ax: Axes, source: SourceResult, scale: LogNorm | None, *, ticks: bool 
 
 
 @style.styled
-def figure(run: Run, group: style.Group | None = None) -> Figure:
+def figure(run: Run, group: Group | None = None) -> Figure:
     """Draw log10 of the power above the grey picture of PSA for every source, on shared scales.
 
     Parameters
@@ -138,7 +139,7 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
     Figure
         One pair of pictures for each source.
     """
-    sources = style.members(run, group)
+    sources = members(run, group)
     scale = norm(sources)
     notes = " ".join(dict.fromkeys(filter(None, map(note, sources))))
     caption = (
@@ -146,9 +147,9 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
         f"Upper picture of a pair: log10, one scale for all sources, clipped at {scale.vmin:.0e} and "
         f"{CEILING:g}, DC left out; lower: grey = log2(1 + sqrt(P)/4), white from P = 16 (PSA). {notes} "
     ).replace("  ", " ")
-    sheet = style.sheet(
+    sheet = layout.sheet(
         "Power spectra",
-        caption + style.settings(run, group),
+        caption + captions.settings(run, group),
         len(sources),
         2.2,
         [2.2, 2.2],
@@ -162,14 +163,14 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
     for (log, grey), first, source in zip(sheet.cells, sheet.first, sources, strict=True):
         panel(log, source, scale)
         panel(grey, source, None)
-        log.set_title(style.name(source, run, 28), loc="left")
+        log.set_title(captions.name(source, run, 28), loc="left")
         log.tick_params(labelbottom=False, labelleft=first)
         grey.tick_params(labelleft=first)
     add_colour_bar(sheet, scale)
     return sheet.figure
 
 
-def add_colour_bar(sheet: style.Sheet, scale: LogNorm) -> None:
+def add_colour_bar(sheet: layout.Sheet, scale: LogNorm) -> None:
     """Draw a horizontal bar of log10 power between the cells and the caption.
 
     Parameters

@@ -10,7 +10,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from gbnbench.analysis.measure_definitions import BY_NAME
-from gbnbench.reports import style
+from gbnbench.reports import captions, layout, style
+from gbnbench.reports.source_groups import Group
 from gbnbench.runs.comparison_result import Run, SourceResult
 
 # Each with whether its axis is logarithmic.
@@ -109,11 +110,11 @@ def panel(ax: Axes, run: Run, measure: str, logarithmic: bool) -> None:
     ax.xaxis.set_major_formatter(FuncFormatter(lambda n, _: f"{n:,.0f}"))
     ax.grid(True)
     if not drawn:
-        style.empty(ax, "undefined for all sources")
+        layout.empty(ax, "undefined for all sources")
 
 
 @style.styled
-def figure(run: Run, group: style.Group | None = None) -> Figure:  # noqa: ARG001 - every figure is called alike
+def figure(run: Run, group: Group | None = None) -> Figure:  # noqa: ARG001 - every figure is called alike
     """Draw the noise floor and other measures against n.
 
     Parameters
@@ -130,11 +131,11 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:  # noqa: ARG00
     """
     joined = lines(run)
     many = len({d for _, d in joined}) > 1
-    labels = [style.shown(label, 30) + (f" (d={d})" if many else "") for label, d in joined]
+    labels = [captions.shown(label, 30) + (f" (d={d})" if many else "") for label, d in joined]
     caption = "Each measure against the number of points; bars are one standard error over realizations. "
-    sheet = style.sheet(
+    sheet = layout.sheet(
         "Against the number of points",
-        caption + style.settings(run),
+        caption + captions.settings(run),
         len(MEASURES),
         2.3,
         [1.7],
@@ -142,7 +143,7 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:  # noqa: ARG00
         left=0.55,
         between=0.5,
         under=0.45,
-        right=style.legend_room(labels),
+        right=layout.legend_room(labels),
     )
     strokes = style.strokes(run)
     for (ax,), (measure, logarithmic) in zip(sheet.cells, MEASURES, strict=True):
@@ -164,5 +165,5 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:  # noqa: ARG00
         )[0]
         for line in joined.values()
     ]
-    style.beside(corner, handles, labels)
+    layout.beside(corner, handles, labels)
     return sheet.figure

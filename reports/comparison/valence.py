@@ -13,8 +13,9 @@ from gbnbench.analysis.spatial.delaunay_stars import SHORTEST_EDGE
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.periodic_delaunay import copies, overhang, voronoi_diagram, with_images
 from gbnbench.core.torus import FloatArray, spacing
-from gbnbench.reports import style
+from gbnbench.reports import captions, layout, style
 from gbnbench.reports.comparison import points
+from gbnbench.reports.source_groups import Group, members
 from gbnbench.runs.comparison_result import Run, SourceResult
 
 # ColorBrewer RdBu around a near white six: fewer neighbours blue, more red; safe for the colour-blind.
@@ -97,15 +98,15 @@ def panel(ax: Axes, source: SourceResult) -> None:
         One source of a comparison.
     """
     if source.d != 2:
-        style.empty(ax, "the picture of valence needs d = 2")
+        layout.empty(ax, "the picture of valence needs d = 2")
         return
     side = points.window(source)
     try:
         polygons, degrees = cells(source.points[0], side)
     except RefusalError as refusal:
-        style.empty(ax, str(refusal))
+        layout.empty(ax, str(refusal))
         return
-    style.frame(ax)
+    layout.frame(ax)
     ax.set_xlim(0, side)
     ax.set_ylim(0, side)
     ax.set_aspect("equal")
@@ -138,7 +139,7 @@ def histogram_panel(ax: Axes, source: SourceResult) -> None:
         One source of a comparison.
     """
     if source.valence is None:
-        style.empty(ax, f"no Delaunay valence for d = {source.d}")
+        layout.empty(ax, f"no Delaunay valence for d = {source.d}")
         return
     degree = source.valence["degree"].to_numpy(dtype=int)
     share = source.valence["share"].to_numpy(dtype=float)
@@ -166,7 +167,7 @@ def histogram_panel(ax: Axes, source: SourceResult) -> None:
 
 
 @style.styled
-def figure(run: Run, group: style.Group | None = None) -> Figure:
+def figure(run: Run, group: Group | None = None) -> Figure:
     """Draw cells coloured by valence above the histogram of all realizations, one pair for each source.
 
     Parameters
@@ -181,7 +182,7 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
     Figure
         With its caption.
     """
-    sources = style.members(run, group)
+    sources = members(run, group)
     flat = any(source.d == 2 for source in sources)
     caption = "Share of points, in percent, with each number of Delaunay neighbours on the torus. "
     if flat:
@@ -190,9 +191,9 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
             "point's valence in the Delaunay triangulation on the torus. Below: share of points with each "
             "number of neighbours, in percent, all realizations. "
         )
-    sheet = style.sheet(
+    sheet = layout.sheet(
         "Delaunay valence",
-        caption + style.settings(run, group),
+        caption + captions.settings(run, group),
         len(sources),
         2.6,
         [2.6, 0.75] if flat else [1.2],
@@ -206,13 +207,13 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
         if flat:
             panel(stack[0], source)
         histogram_panel(stack[-1], source)
-        stack[0].set_title(style.name(source, run, 30), loc="left")
+        stack[0].set_title(captions.name(source, run, 30), loc="left")
     if flat:
         key(sheet)
     return sheet.figure
 
 
-def key(sheet: style.Sheet) -> None:
+def key(sheet: layout.Sheet) -> None:
     """Names of the colours, in a strip above the caption."""
     width, height = sheet.figure.get_size_inches()
     sheet.figure.legend(

@@ -5,7 +5,8 @@ from __future__ import annotations
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from gbnbench.reports import style
+from gbnbench.reports import captions, layout, style
+from gbnbench.reports.source_groups import Group, members
 from gbnbench.runs.comparison_result import Run, SourceResult
 
 
@@ -22,7 +23,7 @@ def panel(ax: Axes, source: SourceResult, *, exact: bool = False) -> None:
         Draw pixel for pixel, for axes of at least that many pixels.
     """
     if source.zone_plate is None:
-        style.empty(ax, "a zone plate needs d = 2")
+        layout.empty(ax, "a zone plate needs d = 2")
         return
     ax.imshow(
         source.zone_plate,
@@ -33,11 +34,11 @@ def panel(ax: Axes, source: SourceResult, *, exact: bool = False) -> None:
         extent=(0, 1, 0, 1),
         interpolation="none" if exact else "antialiased",
     )
-    style.frame(ax)
+    layout.frame(ax)
 
 
 @style.styled
-def figure(run: Run, group: style.Group | None = None) -> Figure:
+def figure(run: Run, group: Group | None = None) -> Figure:
     """Draw the zone plate of the first realization of every source, with one pattern, filter and grey scale.
 
     Parameters
@@ -52,7 +53,7 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
     Figure
         One panel for each source.
     """
-    sources = style.members(run, group)
+    sources = members(run, group)
     pixels = max((len(s.zone_plate) for s in sources if s.zone_plate is not None), default=0)
     side = min(max(pixels / style.DPI, 2.6), 4.2)  # about a pixel of the plate to one of the PNG
     caption = (
@@ -60,10 +61,11 @@ def figure(run: Run, group: style.Group | None = None) -> Figure:
         "each source and rebuilt by the same filter. Fringes around the corner are the signal and their "
         "grain is low-frequency noise; whatever shows farther out is aliasing. "
     )
-    sheet = style.sheet(
-        "Zone plates", caption + style.settings(run, group), len(sources), side, [side], columns=3, left=0.2
-    )
+    sheet = layout.sheet(
+        "Zone plates", caption + captions.settings(run, group), len(sources), side, [side],
+        columns=3, left=0.2,
+    )  # fmt: skip
     for (ax,), source in zip(sheet.cells, sources, strict=True):
         panel(ax, source, exact=True)
-        ax.set_title(style.name(source, run, 30), loc="left")
+        ax.set_title(captions.name(source, run, 30), loc="left")
     return sheet.figure

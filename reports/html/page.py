@@ -13,10 +13,11 @@ from jinja2 import Environment, FunctionLoader, StrictUndefined
 
 from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.number_text import NOTHING
-from gbnbench.reports import style
+from gbnbench.reports import captions, style
 from gbnbench.reports.comparison import gallery, loglog, points, rdf, spectrum, sweep, table, valence
 from gbnbench.reports.html import notes
 from gbnbench.reports.html.pictures import colour_bar, figure_picture, gallery_panel
+from gbnbench.reports.source_groups import Group, groups, members
 from gbnbench.runs.comparison_result import Run, SourceResult
 
 ALTERNATIVE_TEXTS = {  # of the pictures in each row of the gallery
@@ -46,13 +47,13 @@ def write_report(run: Run, path: str | Path) -> None:
 
 def page(run: Run) -> str:
     """Return the page as text; every label, path and setting in it is escaped."""
-    every = style.groups(run)
+    every = groups(run)
     swept = sweep.several(run)
     environment = _environment()
     text = environment.get_template("report.html").render(
         title=_title(run),
         version=run.manifest.get("version", ""),
-        settings=style.settings(run),
+        settings=captions.settings(run),
         links=_links(every, swept),
         warnings=[(table.row_label(s, run), warning) for s in run.sources for warning in s.warnings],
         skipped=[_sentence(source) for source in run.manifest.get("skipped") or []],
@@ -99,11 +100,11 @@ def _title(run: Run) -> str:
     return f"gbnbench: {few}" + (f" and {len(labels) - 4} more" if len(labels) > 4 else "")
 
 
-def _anchor(group: style.Group) -> str:
+def _anchor(group: Group) -> str:
     return f"n{group[0]}-d{group[1]}"
 
 
-def _links(every: Sequence[style.Group], swept: bool) -> list[tuple[str, str]]:
+def _links(every: Sequence[Group], swept: bool) -> list[tuple[str, str]]:
     """Anchor and title of each section."""
     links = []
     for n, d in every:
@@ -117,9 +118,9 @@ def _sentence(item: object) -> str:
     return ", ".join(f"{k}: {v}" for k, v in item.items()) if isinstance(item, Mapping) else str(item)
 
 
-def _group(run: Run, group: style.Group, several: bool) -> dict[str, Any]:
+def _group(run: Run, group: Group, several: bool) -> dict[str, Any]:
     """Content of the sections of one (n, d)."""
-    sources = style.members(run, group)
+    sources = members(run, group)
     overlay = figure_picture(loglog.figure(run, group), "Log-log overlay of the radial power of all sources")
     pairs = None
     if any(source.rdf is not None for source in sources):
@@ -135,7 +136,7 @@ def _group(run: Run, group: style.Group, several: bool) -> dict[str, Any]:
     }
 
 
-def _rows(run: Run, group: style.Group) -> list[dict[str, Any]]:
+def _rows(run: Run, group: Group) -> list[dict[str, Any]]:
     strokes = style.strokes(run)
     return [
         {

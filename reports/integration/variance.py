@@ -13,15 +13,15 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogFormatterSciNotation, LogLocator, NullLocator
 
 from gbnbench.analysis.integration.variance import MOST_SCATTER
-from gbnbench.reports import style
-from gbnbench.studies.integration.study import IntegrationStudy
+from gbnbench.reports import captions, layout, style
+from gbnbench.studies.integration.study_folder import IntegrationStudy
 
 CAPTION = (
     "Mean squared error of the mean over n points, over {instances} integrands of each family and {sets} "
     "sets of each source. {bands}: 95%, over integrands and sets. "
 )
-FORETOLD = (
-    "Crosses: what the sets' power spectra foretell (the inner product with the integrands' spectra), with a "
+PREDICTED = (
+    "Crosses: what the sets' power spectra predict (the inner product with the integrands' spectra), with a "
     "bar for what white noise beyond the frequencies summed would add. "
 )
 SLOPES = (
@@ -70,11 +70,10 @@ def panel(ax: Axes, part: pd.DataFrame, by_source: dict[str, style.Stroke]) -> N
             )
         else:
             ax.vlines(line["n"], line["low"], line["high"], color=stroke.colour, linewidth=1.2, alpha=0.6)
-        told = line[line["foretold"] > 0]
-        ax.plot(told["n"], told["foretold"], "x", color=stroke.colour, markersize=5, markeredgewidth=0.9)
-        ax.vlines(
-            told["n"], told["foretold"], told["foretold"] + told["beyond"], color=stroke.colour, linewidth=0.9
-        )
+        predicted = line[line["foretold"] > 0]
+        least = predicted["foretold"]
+        ax.plot(predicted["n"], least, "x", color=stroke.colour, markersize=5, markeredgewidth=0.9)
+        ax.vlines(predicted["n"], least, least + predicted["beyond"], color=stroke.colour, linewidth=0.9)
     sizes = np.array(sorted(part["n"].unique()), dtype=float)
     positive = part[part["variance"] > 0]
     if len(sizes) > 1 and len(positive):
@@ -136,21 +135,21 @@ def figure(study: IntegrationStudy) -> Figure:
         sets=_span(table["realizations"]),
         bands="Bands" if several else "Bars",
     )
-    caption += FORETOLD if table["foretold"].notna().any() else ""
+    caption += PREDICTED if table["foretold"].notna().any() else ""
     caption += SLOPES if several else ""
     caption += f"{shifts} random shifts of each set. " if shifts else ""
     caption += f"Seed {study.manifest.get('seed')} · gbnbench {study.manifest.get('version')}"
     keys = {key: _key(study, part) for key, part in parts}
     longest = max((len(label) for labels in keys.values() for label in labels), default=0)
     columns = min(2 if len(parts) <= 4 else 3, len(parts))
-    sheet = style.sheet(
+    sheet = layout.sheet(
         "Variance of integration", caption, len(parts), 3.4, [2.9], columns=columns, left=0.7,
-        between=0.85 + style.legend_room(["x" * longest]), under=0.46,
-        right=style.legend_room(["x" * longest]),
+        between=0.85 + layout.legend_room(["x" * longest]), under=0.46,
+        right=layout.legend_room(["x" * longest]),
     )  # fmt: skip
     for (ax,), (key, part) in zip(sheet.cells, parts, strict=True):
         panel(ax, part, by_source)
-        ax.set_title(f"{style.shown(str(key[0]), 40)}, d = {key[1]}", loc="left")
+        ax.set_title(f"{captions.shown(str(key[0]), 40)}, d = {key[1]}", loc="left")
         ax.set_xlabel("points n")
         ax.set_ylabel("variance")
         handles = [
@@ -164,7 +163,7 @@ def figure(study: IntegrationStudy) -> Figure:
             )
             for label in dict.fromkeys(part["source"].astype(str))
         ]
-        style.beside(ax, handles, keys[key])
+        layout.beside(ax, handles, keys[key])
     return sheet.figure
 
 
@@ -177,7 +176,7 @@ def _key(study: IntegrationStudy, part: pd.DataFrame) -> list[str]:
             (slopes["source"] == label) & (slopes["d"] == part["d"].iloc[0])
             & (slopes["integrand"] == part["integrand"].iloc[0])
         ]  # fmt: skip
-        text = style.shown(label, 22)
+        text = captions.shown(label, 22)
         if len(found) and math.isfinite(found["slope"].iloc[0]):
             text += f"  {found['slope'].iloc[0]:.2f} ± {found['standard_error'].iloc[0]:.2f}"
             text += " bent" if found["scatter"].iloc[0] > MOST_SCATTER else ""

@@ -15,12 +15,14 @@ from numpy.typing import NDArray
 
 from gbnbench import __version__
 from gbnbench.execution.progress import Progress
+from gbnbench.io.points import ReadingOptions
 from gbnbench.runs.comparison_result import Run
 from gbnbench.runs.resumable import Task, run_tasks
-from gbnbench.runs.sources import resolve
+from gbnbench.runs.sources import DEFAULT_READING, resolve
 from gbnbench.runs.task_folder import Arrays, TaskFolder
 from gbnbench.studies.comparison import run_comparison
-from gbnbench.studies.integration.study import IntegrationStudy, run_integration_study
+from gbnbench.studies.integration.study import run_integration_study
+from gbnbench.studies.integration.study_folder import IntegrationStudy
 
 
 @dataclass(frozen=True)
@@ -35,12 +37,15 @@ class ComparisonRequest:
         Sizes and dimensions for the generators.
     realizations : int
         Sets of each generator.
+    reading : ReadingOptions
+        How the files are read.
     """
 
     sources: tuple[str, ...]
     n: tuple[int, ...] = (1024,)
     d: tuple[int, ...] = (2,)
     realizations: int = 16
+    reading: ReadingOptions = DEFAULT_READING
 
 
 @dataclass(frozen=True)
@@ -61,6 +66,8 @@ class IntegrationRequest:
         Integrands of each family.
     shifts : int
         Random toroidal shifts of each set.
+    reading : ReadingOptions
+        How the files are read.
     """
 
     sources: tuple[str, ...]
@@ -70,6 +77,7 @@ class IntegrationRequest:
     integrands: tuple[str, ...]
     instances: int
     shifts: int = 0
+    reading: ReadingOptions = DEFAULT_READING
 
 
 @dataclass(frozen=True)
@@ -141,17 +149,20 @@ def obtain(request: DataRequest, folder: Path, seed: int, jobs: int, progress: P
     GbnbenchError
         As ``compare``, ``integrate`` and ``run_tasks`` do.
     """
+    if not isinstance(request, TableRequest):
+        sources, skipped = resolve(
+            request.sources, request.n, request.d, request.realizations, request.reading
+        )
     if isinstance(request, ComparisonRequest):
-        sources, skipped = resolve(request.sources, request.n, request.d, request.realizations)
         return run_comparison(
             sources, folder, seed=seed, jobs=jobs, command="gbnbench figures", skipped=skipped,
             progress=progress,
         ).run  # fmt: skip
     if isinstance(request, IntegrationRequest):
         return run_integration_study(
-            request.sources, folder, n=request.n, d=request.d, realizations=request.realizations,
-            integrands=request.integrands, instances=request.instances, shifts=request.shifts, seed=seed,
-            jobs=jobs, command="gbnbench figures", progress=progress,
+            sources, folder, integrands=request.integrands, instances=request.instances,
+            shifts=request.shifts, seed=seed, jobs=jobs, command="gbnbench figures", skipped=skipped,
+            progress=progress,
         ).study  # fmt: skip
     store = TaskFolder(folder, {"gbnbench": __version__, **_content(request)})
     name = request.function.__name__.replace("_", " ")
@@ -176,5 +187,8 @@ def _content(request: DataRequest) -> dict[str, Any]:
         content: dict[str, Any] = {"function": function, "calls": calls}
     else:
         content = {"kind": KINDS[type(request)], **dataclasses.asdict(request)}
+        content["reading"] = request.reading.record()
+        if not content["reading"]:
+            del content["reading"]
     done: dict[str, Any] = json.loads(json.dumps(content))  # as it will be read back
     return done

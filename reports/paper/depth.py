@@ -15,10 +15,11 @@ from gbnbench.core.number_text import number
 from gbnbench.generators.spectral_control.deep import Deep
 from gbnbench.reports import style
 from gbnbench.reports.integration import variance
-from gbnbench.reports.paper import axes, shared
+from gbnbench.reports.paper import gallery_requests, panels, radial_axes, wording
 from gbnbench.reports.paper.data import ComparisonRequest, DataRequest, IntegrationRequest
 from gbnbench.reports.paper.figure import PAGE, Drawing, FigureOptions, PaperFigure
-from gbnbench.reports.paper.shared import Column
+from gbnbench.reports.paper.method_columns import Column, generated_column, user_columns
+from gbnbench.reports.paper.method_styles import stroke, title_of
 
 GRADIENTS = (100, 320, 1000, 3000)  # of Gaussian Blue Noise; 320 are the default
 STEEPNESS = (39.5, 59.2, 79.0)  # of the deep profile: 4, 6 and 8 pi^2; 10 pi^2 is the default
@@ -44,7 +45,7 @@ def _deep(options: FigureOptions) -> list[str]:
 
 def needs(options: FigureOptions) -> Mapping[str, DataRequest]:
     """Ask for sets along both paths to depth, and for a study of integration."""
-    n, gradients = shared.size(options), _gradients(options)
+    n, gradients = gallery_requests.size(options), _gradients(options)
     longest, others = gradients[-1], gradients[:-1]
     sources = (*map(_gbn, others), *_deep(options))
     few = options.pick(2, 8, 1000)  # the longest runs are those of figure 1
@@ -56,7 +57,7 @@ def needs(options: FigureOptions) -> Mapping[str, DataRequest]:
             (BESIDE, _gbn(gradients[1]), "deep"), sizes, (2,), options.pick(2, 8, 100), (FAMILY,),
             options.pick(2, 20, 100),
         ),
-        **shared.user_set_requests(options, options.sets),
+        **gallery_requests.user_set_requests(options, options.sets),
     }  # fmt: skip
 
 
@@ -75,13 +76,13 @@ def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
     Drawing
         The figure, as wide as the page, with its caption.
     """
-    n, gradients = shared.size(options), _gradients(options)
+    n, gradients = gallery_requests.size(options), _gradients(options)
     gbn = [
-        shared.generated_column(data["long" if k == gradients[-1] else "sets"], _gbn(k), n, f"GBN, {k:,}")
+        generated_column(data["long" if k == gradients[-1] else "sets"], _gbn(k), n, f"GBN, {k:,}")
         for k in gradients
     ]
-    deep = [shared.generated_column(data["sets"], text, n) for text in _deep(options)]
-    theirs = shared.user_columns(data, options.sets, n)
+    deep = [generated_column(data["sets"], text, n) for text in _deep(options)]
+    theirs = user_columns(data, options.sets, n)
     table = data["study"].variance
 
     def paint(panel: SubFigure) -> None:
@@ -91,46 +92,46 @@ def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
         _integration(variance, table)
         for ax, letter, name in zip(bottom.subplots(1, 3), "cde", ORDER, strict=True):
             _order(ax, name, gbn, deep, theirs)
-            shared.heading(ax, letter, f"{ORDER[name]} against depth")
+            panels.heading(ax, letter, f"{ORDER[name]} against depth")
 
     return Drawing(PAGE, 4.6, paint, _caption(gbn, deep, theirs, table, options))
 
 
 def _spectra(ax: Axes, gbn: Mapping[int, Column], deep: Column, theirs: Sequence[Column]) -> None:
-    colour = shared.stroke("gbn").colour
+    colour = stroke("gbn").colour
     radials = [deep.source.radial]
     for gradients, one in gbn.items():
         if len(gbn) > 3 and gradients not in SHOWN:
             continue
         dash = SHOWN.get(gradients, style.DASHES[0])
-        shared.curve(ax, one.source.radial, style.Stroke(colour, dash), one.title, linewidth=0.8)
+        radial_axes.curve(ax, one.source.radial, style.Stroke(colour, dash), one.title, linewidth=0.8)
         radials.append(one.source.radial)
-    shared.curve(ax, deep.source.radial, deep.stroke, deep.title, linewidth=0.9)
+    radial_axes.curve(ax, deep.source.radial, deep.stroke, deep.title, linewidth=0.9)
     for one in theirs:
-        shared.curve(ax, one.source.radial, one.stroke, one.title, linewidth=0.8)
+        radial_axes.curve(ax, one.source.radial, one.stroke, one.title, linewidth=0.8)
         radials.append(one.source.radial)
     target, edge = Deep().profile(2)
     nu = np.geomspace(deep.source.radial.nu[0], edge, 200)
     ax.plot(nu, target(nu), color=deep.stroke.colour, linewidth=2.6, alpha=0.22, zorder=1.5)
-    axes.loglog(ax, shared.lowest(radials) / 3, (float(nu[0]) * 0.95, 2.05))
+    radial_axes.loglog(ax, radial_axes.lowest(radials) / 3, (float(nu[0]) * 0.95, 2.05))
     ax.set_ylabel("radial power")
     ax.legend(loc="lower right", fontsize=6.5, handlelength=2.4, borderaxespad=0.2, labelspacing=0.3)
-    shared.heading(ax, "a", "radial power")
+    panels.heading(ax, "a", "radial power")
 
 
 def _integration(ax: Axes, table: Any) -> None:
-    strokes = {label: shared.stroke(label.partition("[")[0]) for label in table["source"].unique()}
+    strokes = {label: stroke(label.partition("[")[0]) for label in table["source"].unique()}
     variance.panel(ax, table, strokes)
     ax.set_xlabel("points n")
     ax.set_ylabel("variance of the integral")
     for label, line in strokes.items():
         rows = table[table["source"] == label].sort_values("n")
         ax.annotate(
-            shared.title_of(label), (float(rows["n"].iloc[-1]), float(rows["variance"].iloc[-1])),
+            title_of(label), (float(rows["n"].iloc[-1]), float(rows["variance"].iloc[-1])),
             xytext=(-6, -3) if label == "deep" else (-4, 6), textcoords="offset points", ha="right",
             size=6.5, color=line.colour,
         )  # fmt: skip
-    shared.heading(ax, "b", "integration, 64 Gaussians")
+    panels.heading(ax, "b", "integration, 64 Gaussians")
 
 
 def _order(
@@ -138,7 +139,7 @@ def _order(
 ) -> None:
     """Draw one measure of order against the noise floor, deeper sets to the right."""
     paths = [
-        (gbn, shared.stroke("gbn"), "o"), (deep, shared.stroke("deep"), "D"),
+        (gbn, stroke("gbn"), "o"), (deep, stroke("deep"), "D"),
         *(([one], one.stroke, "s") for one in theirs),
     ]  # fmt: skip
     for path, line, marker in paths:
@@ -196,7 +197,7 @@ def _caption(
         if steep
         else ""
     )
-    also = f" Also {shared.listed([one.title for one in theirs])}, of given files." if theirs else ""
+    also = f" Also {wording.listed([one.title for one in theirs])}, of given files." if theirs else ""
     return (
         "Depth against order. Gaussian Blue Noise (GBN) becomes deeper by longer optimisation (gradients "
         "of Nesterov's method in the labels; 320 do the work of the paper's 10,000 steps) and more ordered "
@@ -204,14 +205,14 @@ def _caption(
         "move, and its steepness c costs little order. (a) Radial power, the grey line is white noise; pale: "
         "the deep target. (b) Variance of the integral of toroidal sums of 64 Gaussians of width "
         f"512^(-1/2): {int(plain.instances)} integrands, {int(plain.realizations)} sets; bands 95%; "
-        f"crosses: foretold by the spectra; grey: 1/n. At n = {most:,} it is {number(plain.variance)} for "
+        f"crosses: predicted by the spectra; grey: 1/n. At n = {most:,} it is {number(plain.variance)} for "
         f"GBN and {number(at['deep'].variance)} for deep{worse}. (c, d, e) Share of six-sided Voronoi "
         "cells, sixfold order and spectral peak against the noise floor, deeper to the right, with "
         f"standard errors. {path}From {usual.title.partition(', ')[2]} to "
         f"{longest.title.partition(', ')[2]} gradients GBN's floor goes from {of(usual, 'noise_floor')} to "
         f"{of(longest, 'noise_floor')}, its v6 from {of(usual, 'valence6')} to {of(longest, 'valence6')}; "
         f"deep has {of(last, 'noise_floor')} and {of(last, 'valence6')}. "
-        f"{shared.counted([*gbn, *deep])[0].upper()}{shared.counted([*gbn, *deep])[1:]}; d = 2.{also}"
+        f"{wording.counted([*gbn, *deep])[0].upper()}{wording.counted([*gbn, *deep])[1:]}; d = 2.{also}"
     )
 
 

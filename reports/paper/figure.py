@@ -10,7 +10,9 @@ from typing import Any, Literal
 
 from matplotlib.figure import Figure, SubFigure
 
+from gbnbench.io.points import ReadingOptions
 from gbnbench.reports import style
+from gbnbench.reports.captions import shown
 from gbnbench.reports.paper.data import DataRequest
 
 Scale = Literal["tiny", "quick", "full"]  # tiny is for tests
@@ -30,11 +32,14 @@ class FigureOptions:
         sets.
     seed : int
         Seed of all data.
+    reading : ReadingOptions
+        How the files of sets are read.
     """
 
     scale: Scale
     sets: Mapping[str, str] = field(default_factory=dict)
     seed: int = 0
+    reading: ReadingOptions = field(default_factory=ReadingOptions)
 
     def pick(self, tiny: Any, quick: Any, full: Any) -> Any:
         """Return the value for this scale.
@@ -139,7 +144,7 @@ def compose(drawing: Drawing, heading: str, foot: str, captions: bool = True) ->
         return figure
     text = signs(f"{heading} {drawing.caption} {foot}")
     width = max(24, int((drawing.width - 0.16) / 0.0455))
-    lines = textwrap.wrap(style.shown(text, 10_000), width)
+    lines = textwrap.wrap(shown(text, 10_000), width)
     room = 0.1 + 0.122 * len(lines)
     figure = Figure(figsize=(drawing.width, drawing.height + room), layout="constrained")
     top, bottom = figure.subfigures(2, 1, squeeze=False, height_ratios=[drawing.height, room])[:, 0]

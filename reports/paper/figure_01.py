@@ -11,13 +11,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import SubFigure
 
 from gbnbench.analysis.radial.profile_measures import exponential_fit, powerlaw_fit
-from gbnbench.core.results import RadialPower
+from gbnbench.core.results.radial import RadialPower
 from gbnbench.reports import style
 from gbnbench.reports.comparison import spectrum
-from gbnbench.reports.paper import shared
+from gbnbench.reports.paper import gallery_requests, panels, radial_axes, wording
 from gbnbench.reports.paper.data import ComparisonRequest, DataRequest
 from gbnbench.reports.paper.figure import PAGE, Drawing, FigureOptions, PaperFigure
-from gbnbench.reports.paper.shared import Column
+from gbnbench.reports.paper.method_columns import Column, generated_column, user_columns
+from gbnbench.reports.paper.method_styles import NAMES
 
 PAPER = ("bnot", "kdm", "vnc", "bluenets")
 BEFORE_FPO = ("bnot", "kdm", "vnc")
@@ -37,26 +38,26 @@ def _large(options: FigureOptions) -> int:
 
 def _long_n(options: FigureOptions) -> int:
     """Return the number of points of the long runs in the plot: that of the gallery below the full scale."""
-    n: int = _large(options) if options.scale == "full" else shared.size(options)
+    n: int = _large(options) if options.scale == "full" else gallery_requests.size(options)
     return n
 
 
 def needs(options: FigureOptions) -> Mapping[str, DataRequest]:
     """Ask for sets for the gallery and larger ones for the plot."""
     return {
-        "classic": shared.classic(options),
+        "classic": gallery_requests.classic(options),
         "long": ComparisonRequest(
-            (_long(options)[0],), (shared.size(options),), (2,), options.pick(2, 8, 1000)
+            (_long(options)[0],), (gallery_requests.size(options),), (2,), options.pick(2, 8, 1000)
         ),
         "large": ComparisonRequest(
             ("jittered", "sobol", "fpo", "gbn"), (_large(options),), (2,), options.pick(2, 8, 1000)
         ),
         **(
             {"large-long": ComparisonRequest((_long(options)[0],), (_long_n(options),), (2,), 1000)}
-            if _long_n(options) != shared.size(options)
+            if _long_n(options) != gallery_requests.size(options)
             else {}
         ),
-        **shared.user_set_requests(options, shared.methods_with_sets(options, PAPER)),
+        **gallery_requests.user_set_requests(options, gallery_requests.methods_with_sets(options, PAPER)),
     }
 
 
@@ -75,25 +76,23 @@ def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
     Drawing
         The figure, as wide as the page, with its caption.
     """
-    n, text, long_n = shared.size(options), _long(options)[0], _long_n(options)
-    methods = shared.methods_with_sets(options, PAPER)
+    n, text, long_n = gallery_requests.size(options), _long(options)[0], _long_n(options)
+    methods = gallery_requests.methods_with_sets(options, PAPER)
     early, late = (
-        shared.user_columns(data, [m for m in methods if (m in BEFORE_FPO) is first], n)
-        for first in (True, False)
+        user_columns(data, [m for m in methods if (m in BEFORE_FPO) is first], n) for first in (True, False)
     )
-    long = shared.generated_column(data["long"], text, n, "GBN, 1M")
+    long = generated_column(data["long"], text, n, "GBN, 1M")
     gallery = [
         *early,
-        shared.generated_column(data["classic"], "fpo", n),
+        generated_column(data["classic"], "fpo", n),
         *late,
-        shared.generated_column(data["classic"], "gbn", n),
+        generated_column(data["classic"], "gbn", n),
         long,
     ]
     strata, sobol, fpo, gbn = (
-        shared.generated_column(data["large"], name, _large(options))
-        for name in ("jittered", "sobol", "fpo", "gbn")
+        generated_column(data["large"], name, _large(options)) for name in ("jittered", "sobol", "fpo", "gbn")
     )
-    longest = shared.generated_column(data.get("large-long", data["long"]), text, long_n, "GBN, 1M")
+    longest = generated_column(data.get("large-long", data["long"]), text, long_n, "GBN, 1M")
     lines = [sobol, strata, *early, fpo, *late, gbn, longest]
     beside = len(gallery) <= NARROW
     wide = 1.12 if beside else min(1.5, (PAGE - 0.5) / len(gallery) - 0.04)
@@ -115,33 +114,33 @@ def _pictures(panel: SubFigure, gallery: Sequence[Column], wide: float) -> None:
     axes = panel.subplots(3, len(gallery), squeeze=False)
     for k, one in enumerate(gallery):
         points, grey, close = axes[:, k]
-        shared.scatter(points, one.source, wide)
-        shared.heading(points, "abcdefghijklmnop"[k], one.title)
+        panels.scatter(points, one.source, wide)
+        panels.heading(points, "abcdefghijklmnop"[k], one.title)
         spectrum.panel(grey, one.source, None, ticks=False)
-        shared.power_map(close, one.source, CLOSE)
-    shared.power_bar(list(axes[2]), location="bottom", shrink=0.9)
+        panels.power_map(close, one.source, CLOSE)
+    panels.power_bar(list(axes[2]), location="bottom", shrink=0.9)
 
 
 def _plot(ax: Axes, lines: Sequence[Column], letter: str) -> None:
     low = min(one.source.radial.nu[0] for one in lines)
-    shared.white(ax)
+    radial_axes.white(ax)
     for k, one in enumerate(lines):
         many = len(one.source.radial.nu) > 2000
         thin = {"linewidth": 0.4, "alpha": 0.7} if one is lines[0] else {"linewidth": 0.7 if many else 0.9}
-        shared.curve(ax, one.source.radial, one.stroke, one.title, zorder=2 + 0.1 * k, **thin)
+        radial_axes.curve(ax, one.source.radial, one.stroke, one.title, zorder=2 + 0.1 * k, **thin)
     named = {one.source.label: one for one in lines}
-    if theirs := [one for one in lines if one.title == shared.NAMES["bnot"]]:
+    if theirs := [one for one in lines if one.title == NAMES["bnot"]]:
         _between(ax, theirs[0].source.radial, named["gbn"].source.radial)
     nu = np.geomspace(low, 0.35, 50)
     ax.plot(nu, math.pi**2 / 3 * nu**2, ":", color=style.INK, linewidth=0.9, zorder=4)
     epsilon = named["gbn"].source.measures["profile_epsilon"]
     nu = np.geomspace(low, 0.72, 200)
     ax.plot(nu, epsilon * np.exp(4 * math.pi**2 * nu**2), ":", color=style.INK, linewidth=0.9, zorder=4)
-    shared.log_nu(ax, 0.95 * low)
-    shared.log_power(ax, shared.lowest(one.source.radial for one in lines), 30, ticks=9)
+    radial_axes.log_nu(ax, 0.95 * low)
+    radial_axes.log_power(ax, radial_axes.lowest(one.source.radial for one in lines), 30, ticks=9)
     ax.set_ylabel("radial power")
     ax.legend(loc="lower right", fontsize=6.8, handlelength=2.0, borderaxespad=0.2, labelspacing=0.3)
-    shared.heading(ax, letter, "radial power")
+    panels.heading(ax, letter, "radial power")
 
 
 def _between(ax: Axes, above: RadialPower, below: RadialPower) -> None:
@@ -162,14 +161,16 @@ def _between(ax: Axes, above: RadialPower, below: RadialPower) -> None:
 
 def _caption(gallery: Sequence[Column], lines: Sequence[Column], options: FigureOptions) -> str:
     gradients = _long(options)[1]
-    bnot = any(one.title == shared.NAMES["bnot"] for one in lines)
+    bnot = any(one.title == NAMES["bnot"] for one in lines)
     shaded = " Shaded: what GBN gains over BNOT." if bnot else ""
     fits = ", ".join(
         f"{exponential_fit(one.source.radial).residual_db:.1f} and "
         f"{powerlaw_fit(one.source.radial).residual_db:.1f} ({one.title})"
         for one in lines
     )
-    floors = ", ".join(f"{shared.rounded(one.source.measures['noise_floor'])} ({one.title})" for one in lines)
+    floors = ", ".join(
+        f"{wording.rounded(one.source.measures['noise_floor'])} ({one.title})" for one in lines
+    )
     return (
         "Blue noise of different methods. Top: a set; middle: the mean spectrum in PSA's grey, white from a "
         f"power of 16; below: log10 of its middle, up to a nu of {CLOSE:g}: in grey all are dark there, and "
@@ -179,8 +180,8 @@ def _caption(gallery: Sequence[Column], lines: Sequence[Column], options: Figure
         f"Residuals in dB of the exponential and of the power law fitted to each: {fits}. GBN took 320 "
         "gradients of Nesterov's method, the work of the paper's 10,000 steps of descent; GBN, 1M, takes "
         f"{gradients:,} in place of its million steps (k gradients do the work of about k^2/9). Pictures: "
-        f"{shared.counted(gallery)}; plot: {shared.counted(lines)}; d = 2. "
-        f"{shared.missing_sets_note(options, PAPER)}"
+        f"{wording.counted(gallery)}; plot: {wording.counted(lines)}; d = 2. "
+        f"{wording.missing_sets_note(options, PAPER)}"
     ).rstrip()
 
 

@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 from gbnbench.analysis.radial.profile_measures import peak
 from gbnbench.analysis.spectrum.shell_spectrum import shells
 from gbnbench.core.number_text import number
-from gbnbench.core.results import RadialPower
+from gbnbench.core.results.radial import RadialPower
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.generators.registry import find
-from gbnbench.reports.paper import axes, shared
+from gbnbench.reports.paper import panels, radial_axes
 from gbnbench.reports.paper.data import ComparisonRequest, DataRequest, TableRequest
 from gbnbench.reports.paper.figure import PAGE, Drawing, FigureOptions, PaperFigure
 from gbnbench.runs.comparison_result import Run, SourceResult
@@ -153,13 +153,13 @@ def level(nu: FloatArray, power: FloatArray, c: float) -> float:
 
 def _sigmas(ax: Axes, by_sigma: Mapping[float, SourceResult]) -> None:
     lowest = min(float(source.radial.power.min()) for source in by_sigma.values())
-    for colour, (sigma, source) in zip(axes.family(len(by_sigma)), by_sigma.items(), strict=True):
+    for colour, (sigma, source) in zip(radial_axes.family(len(by_sigma)), by_sigma.items(), strict=True):
         nu, power = source.radial.nu, source.radial.power
         ax.plot(nu, power, color=colour, linewidth=0.8, label=f"{sigma:g}", zorder=3 - sigma / 4)
         c = 4 * math.pi**2 * sigma**2
-        axes.profile(ax, level(nu, power, c), c, nu)
-    axes.loglog(ax, lowest / 4, (float(nu[0]) * 0.93, 2.1))
-    shared.heading(ax, "a", r"kernel width $\sigma$, $d = 2$")
+        radial_axes.profile(ax, level(nu, power, c), c, nu)
+    radial_axes.loglog(ax, lowest / 4, (float(nu[0]) * 0.93, 2.1))
+    panels.heading(ax, "a", r"kernel width $\sigma$, $d = 2$")
     ax.set_ylabel("radial power")
     ax.legend(title=r"$\sigma$", fontsize=6.5, title_fontsize=7, loc="lower right", handlelength=1.6,
               labelspacing=0.25)  # fmt: skip
@@ -168,7 +168,7 @@ def _sigmas(ax: Axes, by_sigma: Mapping[float, SourceResult]) -> None:
 def _dimensions(ax: Axes, by_dimension: Mapping[int, RadialPower]) -> None:
     lowest = min(float(radial.power.min()) for radial in by_dimension.values())
     for colour, marker, (d, radial) in zip(
-        axes.family(len(by_dimension)), MARKERS, by_dimension.items(), strict=True
+        radial_axes.family(len(by_dimension)), MARKERS, by_dimension.items(), strict=True
     ):
         nu, power = radial.nu, radial.power
         low = nu < 0.95  # beyond it markers would hide the lines
@@ -176,9 +176,9 @@ def _dimensions(ax: Axes, by_dimension: Mapping[int, RadialPower]) -> None:
         ax.plot(nu, power, color=colour, linewidth=0.8, label=f"{d}", zorder=2 + d / 10, marker=marker,
                 markevery=marked, markersize=2.8, markeredgewidth=0)  # fmt: skip
     nu, power = by_dimension[2].nu, by_dimension[2].power
-    axes.profile(ax, level(nu, power, 4 * math.pi**2), 4 * math.pi**2, nu)
-    axes.loglog(ax, lowest / 4, (float(nu[0]) * 0.93, 2.1))
-    shared.heading(ax, "b", r"dimension $d$, $\sigma = 1$")
+    radial_axes.profile(ax, level(nu, power, 4 * math.pi**2), 4 * math.pi**2, nu)
+    radial_axes.loglog(ax, lowest / 4, (float(nu[0]) * 0.93, 2.1))
+    panels.heading(ax, "b", r"dimension $d$, $\sigma = 1$")
     ax.legend(title="$d$", fontsize=6.5, title_fontsize=7, loc="lower right", handlelength=1.6,
               labelspacing=0.25)  # fmt: skip
 

@@ -15,7 +15,7 @@ from gbnbench.core.number_text import number
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn.kernel_profile import truncated_transform
 from gbnbench.reports import style
-from gbnbench.reports.paper import shared
+from gbnbench.reports.paper import panels
 from gbnbench.reports.paper.data import DataRequest, TableRequest
 from gbnbench.reports.paper.figure import PAGE, Drawing, FigureOptions, PaperFigure
 
@@ -91,7 +91,7 @@ def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:  # noqa: A
         for ax, letter, title in zip(
             axes, "abc", ("kernel", "its transform", "its transform, logarithmic"), strict=True
         ):
-            shared.heading(ax, letter, title)
+            panels.heading(ax, letter, title)
             ax.set_xlabel(r"$x/\sigma$" if letter == "a" else r"frequency, cycles per $\sigma$")
         axes[0].set_ylim(0, 1.4)
         axes[0].set_yticks([0, 0.5, 1])

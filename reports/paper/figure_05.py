@@ -11,9 +11,11 @@ from matplotlib.figure import SubFigure
 
 from gbnbench.reports import style
 from gbnbench.reports.comparison import spectrum
-from gbnbench.reports.paper import shared
+from gbnbench.reports.paper import gallery_requests, panels, radial_axes, wording
 from gbnbench.reports.paper.data import ComparisonRequest, DataRequest
 from gbnbench.reports.paper.figure import PAGE, Drawing, FigureOptions, PaperFigure
+from gbnbench.reports.paper.method_columns import generated_column
+from gbnbench.reports.paper.method_styles import stroke
 
 CUTOFFS = (1, 2, 3, 4)  # sigmas
 STROKES = (
@@ -21,7 +23,7 @@ STROKES = (
         style.Stroke(to_hex(colormaps["viridis"](0.85 - 0.2 * k)), style.DASHES[0])
         for k in range(len(CUTOFFS))
     ),
-    shared.stroke("gbn"),
+    stroke("gbn"),
 )
 
 
@@ -29,9 +31,11 @@ def needs(options: FigureOptions) -> Mapping[str, DataRequest]:
     """Ask for sets at each cut-off, of the whole kernel, and of centroidal tessellations."""
     cut = tuple(f"gbn[cutoff={cutoff}]" for cutoff in CUTOFFS)
     return {
-        "cut": ComparisonRequest(cut, (shared.size(options),), (2,), shared.sets(options)),
-        "whole": shared.classic(options),
-        "cvt": shared.relaxed(options),
+        "cut": ComparisonRequest(
+            cut, (gallery_requests.size(options),), (2,), gallery_requests.sets(options)
+        ),
+        "whole": gallery_requests.classic(options),
+        "cvt": gallery_requests.relaxed(options),
     }
 
 
@@ -50,39 +54,39 @@ def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
     Drawing
         The figure, as wide as the page, with its caption.
     """
-    n = shared.size(options)
+    n = gallery_requests.size(options)
     columns = [
-        shared.generated_column(data["cvt"], "lloyd", n, "CVT"),
+        generated_column(data["cvt"], "lloyd", n, "CVT"),
         *(
-            shared.generated_column(data["cut"], f"gbn[cutoff={cutoff}]", n, f"cut at {cutoff}σ")
+            generated_column(data["cut"], f"gbn[cutoff={cutoff}]", n, f"cut at {cutoff}σ")
             for cutoff in CUTOFFS
         ),
-        shared.generated_column(data["whole"], "gbn", n, "whole"),
+        generated_column(data["whole"], "gbn", n, "whole"),
     ]
     strokes = [columns[0].stroke, *STROKES]
-    low = shared.lowest(one.source.radial for one in columns)
+    low = radial_axes.lowest(one.source.radial for one in columns)
 
     def paint(panel: SubFigure) -> None:
         axes = panel.subplots(3, len(columns), height_ratios=[1, 1, 1.05])
         for k, (one, line) in enumerate(zip(columns, strokes, strict=True)):
             points, grey, power = axes[:, k]
-            shared.scatter(points, one.source, 1.05)
-            shared.heading(points, "abcdef"[k], one.title)
+            panels.scatter(points, one.source, 1.05)
+            panels.heading(points, "abcdef"[k], one.title)
             spectrum.panel(grey, one.source, None, ticks=False)
-            shared.white(power)
-            shared.curve(power, columns[-1].source.radial, style.Stroke("#c4cad3", "-"), linewidth=1.6)
-            shared.curve(power, one.source.radial, line)
-            shared.log_nu(power, 0.97 * n**-0.5, marks=(0.05, 0.2, 1))
-            shared.log_power(power, low, 100)
+            radial_axes.white(power)
+            radial_axes.curve(power, columns[-1].source.radial, style.Stroke("#c4cad3", "-"), linewidth=1.6)
+            radial_axes.curve(power, one.source.radial, line)
+            radial_axes.log_nu(power, 0.97 * n**-0.5, marks=(0.05, 0.2, 1))
+            radial_axes.log_power(power, low, 100)
             power.tick_params(labelleft=k == 0)
         axes[2, 0].set_ylabel("radial power")
 
-    floors = [f"{shared.rounded(one.source.measures['noise_floor'])} ({one.title})" for one in columns]
+    floors = [f"{wording.rounded(one.source.measures['noise_floor'])} ({one.title})" for one in columns]
     six = [one.source.measures["valence6"] for one in columns]
     near = [one.source.measures["mean_distance"] for one in columns]
     caption = (
         "What cutting the kernel off in space does: Gaussian Blue Noise of sigma = 1 whose points see each "
-        f"other within {shared.listed([str(c) for c in CUTOFFS])} sigma alone, and without end, after the "
+        f"other within {wording.listed([str(c) for c in CUTOFFS])} sigma alone, and without end, after the "
         "same number of gradients; (a) centroidal Voronoi tessellations by Lloyd's method, beside 1 sigma. "
         "Top: a set; middle: the mean spectrum in PSA's grey; bottom: radial power on exact shells, the "
         f"whole kernel's repeated in grey. Noise floors: {', '.join(floors)}. With 1 sigma "
@@ -90,7 +94,7 @@ def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
         f"{100 * six[-1]:.0f}% with the whole kernel). With 2 and 3 sigma points pair up and clump, as the "
         "negative lobes of the cut kernel's transform options: the mean distance to the nearest neighbour is "
         f"{near[2]:.2f} and {near[3]:.2f} of the densest packing's, beside {near[-1]:.2f}. "
-        f"{shared.counted(columns)} each, d = 2. The paper took 10,000 steps of descent; 320 gradients of "
+        f"{wording.counted(columns)} each, d = 2. The paper took 10,000 steps of descent; 320 gradients of "
         "Nesterov's method do the work of about as many."
     )
     return Drawing(PAGE, 3.75, paint, caption)

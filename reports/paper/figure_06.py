@@ -11,9 +11,9 @@ from matplotlib.figure import SubFigure
 from gbnbench.core.number_text import number
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn.kernel_profile import energy_profile
-from gbnbench.reports.paper.axes import family
 from gbnbench.reports.paper.data import DataRequest, TableRequest
 from gbnbench.reports.paper.figure import COLUMN, Drawing, FigureOptions, PaperFigure
+from gbnbench.reports.paper.radial_axes import family
 
 POINTS = (1, 2, 4, 8, 16, 32, 64)  # an axis
 SIGMA = 1.0

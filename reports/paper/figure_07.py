@@ -7,32 +7,25 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import SubFigure
-from matplotlib.ticker import LogLocator, NullLocator
 
 from gbnbench.analysis.radial.profile_measures import exponential_fit, noise_floor
 from gbnbench.analysis.spectrum.shell_spectrum import shells
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.number_text import number
-from gbnbench.core.results import RadialPower
+from gbnbench.core.results.radial import RadialPower
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.monitor import Monitor, Trace
 from gbnbench.generators.protocol import realization_rng
-from gbnbench.reports import style
-from gbnbench.reports.paper import axes, shared
+from gbnbench.reports.paper import panels, radial_axes
 from gbnbench.reports.paper.data import DataRequest, TableRequest
+from gbnbench.reports.paper.evolution_panels import METHODS, filtered_spectra, progress, raw_spectra
 from gbnbench.reports.paper.figure import PAGE, Drawing, FigureOptions, PaperFigure
 
 COUNTS = (1, 3, 10, 30, 100, 300, 1000, 3000, 10_000, 30_000, 100_000)
 KERNEL, VARIANCE = 1.0, math.sqrt(0.5)  # filters, in spacings: the energy's kernel, and Eq. 14's
-METHODS = {"descent": "descent", "nesterov": "Nesterov's method"}
 UNITS = {"descent": "steps", "nesterov": "gradients"}
-LOOKS: dict[str, dict[str, Any]] = {
-    "descent": {"linestyle": style.DASHES[1], "marker": "s"},
-    "nesterov": {"linestyle": "-", "marker": "o"},
-}
 
 
 def gradients(steps: int) -> int:
@@ -117,20 +110,20 @@ def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
     """
     counts = _counts(options)
     found = {method: _mean(data["evolution"], method) for method in METHODS}
-    colours = axes.family(len(counts["descent"]))[::-1]
+    colours = radial_axes.family(len(counts["descent"]))[::-1]
 
     def paint(panel: SubFigure) -> None:
         grid = panel.subplots(2, 3, width_ratios=(1, 1, 0.9))
         for row, (method, letters) in enumerate(zip(METHODS, ("ab", "cd"), strict=True)):
             raw, filtered, _ = grid[row]
-            _raw(raw, found[method], counts[method], UNITS[method], colours)
-            _filtered(filtered, found[method], colours)
-            shared.heading(raw, letters[0], METHODS[method])
-            shared.heading(filtered, letters[1], "the same, filtered")
-        _progress(grid[0, 2], found, counts, colours, "excess")
-        _progress(grid[1, 2], found, counts, colours, "floor")
-        shared.heading(grid[0, 2], "e", "excess energy a point")
-        shared.heading(grid[1, 2], "f", "noise floor")
+            raw_spectra(raw, found[method], counts[method], UNITS[method], colours)
+            filtered_spectra(filtered, found[method], colours)
+            panels.heading(raw, letters[0], METHODS[method])
+            panels.heading(filtered, letters[1], "the same, filtered")
+        progress(grid[0, 2], found, counts, colours, "excess")
+        progress(grid[1, 2], found, counts, colours, "floor")
+        panels.heading(grid[0, 2], "e", "excess energy a point")
+        panels.heading(grid[1, 2], "f", "noise floor")
 
     return Drawing(PAGE, 4.0, paint, _caption(found, counts, options))
 
@@ -151,64 +144,6 @@ def _mean(pieces: Mapping[str, Mapping[str, FloatArray]], method: str) -> dict[s
     """Mean over blocks of equally many sets."""
     blocks = [piece for key, piece in pieces.items() if key.startswith(method)]
     return {what: np.mean([block[what] for block in blocks], axis=0) for what in blocks[0]}
-
-
-def _raw(
-    ax: Axes, found: Mapping[str, FloatArray], counts: Sequence[int], unit: str, colours: Sequence[str]
-) -> None:
-    for count, power, colour in zip(counts, found["power"], colours, strict=True):
-        ax.plot(found["nu"], power, color=colour, linewidth=0.7, label=f"{count:,}")
-    axes.loglog(ax, float(found["power"].min()) / 4, _span(found))
-    ax.set_ylabel("radial power")
-    ax.legend(title=unit, fontsize=5.8, title_fontsize=6.5, loc="lower right", handlelength=1.2,
-              labelspacing=0.12, borderaxespad=0.1)  # fmt: skip
-
-
-def _filtered(ax: Axes, found: Mapping[str, FloatArray], colours: Sequence[str]) -> None:
-    for power, colour in zip(found["kernel"], colours, strict=True):
-        ax.plot(found["nu"], power, color=colour, linewidth=0.7)
-    narrow = found["variance"][-1]
-    ax.plot(found["nu"], narrow, color=style.COLOURS[1], linewidth=0.6)
-    ridge = int(np.argmax(narrow))
-    ax.annotate(
-        r"$\sigma/\sqrt{2}$", (found["nu"][ridge], narrow[ridge]), xytext=(3, 2), textcoords="offset points",
-        size=6.5, color=style.COLOURS[1],
-    )  # fmt: skip
-    axes.loglog(ax, float(found["power"].min()) / 4, _span(found))
-
-
-def _progress(
-    ax: Axes,
-    found: Mapping[str, Mapping[str, FloatArray]],
-    counts: Mapping[str, Sequence[int]],
-    colours: Sequence[str],
-    what: str,
-) -> None:
-    """Draw a line for each method, with a dot in the colour of its spectrum at each count of evaluations."""
-    for method, look in LOOKS.items():
-        at, values = np.array(counts[method]), found[method][what]
-        if what == "excess":
-            ax.plot(np.arange(1, len(values) + 1), values, color=style.INK, linewidth=0.8,
-                    linestyle=look["linestyle"])  # fmt: skip
-            values = values[at - 1]
-        else:
-            ax.plot(at, values, color=style.INK, linewidth=0.8, linestyle=look["linestyle"])
-        ax.scatter(at, values, c=colours, s=11, marker=look["marker"], linewidths=0, zorder=3)
-        ax.plot([], [], color=style.INK, linewidth=0.8, linestyle=look["linestyle"], marker=look["marker"],
-                markersize=3, label=METHODS[method])  # fmt: skip
-    ax.set_xscale("log")
-    ax.set_yscale("log")
-    ax.xaxis.set_major_locator(LogLocator(numticks=6))
-    ax.yaxis.set_major_locator(LogLocator(numticks=6))
-    for axis in (ax.xaxis, ax.yaxis):
-        axis.set_minor_locator(NullLocator())
-    ax.set_xlabel("evaluations of the energy")
-    if what == "excess":
-        ax.legend(fontsize=6.3, loc="upper right", handlelength=2.4, borderaxespad=0.1)
-
-
-def _span(found: Mapping[str, FloatArray]) -> tuple[float, float]:
-    return float(found["nu"][0]) * 0.93, float(found["nu"][-1]) * 1.04
 
 
 def _caption(

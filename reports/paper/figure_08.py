@@ -10,9 +10,10 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, MaxNLocator
 
 from gbnbench.reports.comparison import spectrum, valence, zone_plate
-from gbnbench.reports.paper import shared
+from gbnbench.reports.paper import gallery_requests, panels, radial_axes, wording
 from gbnbench.reports.paper.data import ComparisonRequest, DataRequest
 from gbnbench.reports.paper.figure import PAGE, Drawing, FigureOptions, PaperFigure
+from gbnbench.reports.paper.method_columns import generated_column, user_columns
 
 PAPER = ("bnot", "kdm", "vnc", "ccvt", "bluenets")
 ROWS = ("points", "spectrum", "radial\npower", "zone plate", "valence")
@@ -20,11 +21,14 @@ ROWS = ("points", "spectrum", "radial\npower", "zone plate", "valence")
 
 def needs(options: FigureOptions) -> Mapping[str, DataRequest]:
     """Ask for generators that are commonly compared, and the user's sets."""
-    strata = ComparisonRequest(("jittered",), (shared.size(options),), (2,), shared.sets(options))
-    methods = shared.methods_with_sets(options, PAPER)
+    strata = ComparisonRequest(
+        ("jittered",), (gallery_requests.size(options),), (2,), gallery_requests.sets(options)
+    )
+    methods = gallery_requests.methods_with_sets(options, PAPER)
     return {
-        "strata": strata, "relaxed": shared.relaxed(options), "classic": shared.classic(options),
-        **shared.user_set_requests(options, methods),
+        "strata": strata, "relaxed": gallery_requests.relaxed(options),
+        "classic": gallery_requests.classic(options),
+        **gallery_requests.user_set_requests(options, methods),
     }  # fmt: skip
 
 
@@ -43,13 +47,13 @@ def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
     Drawing
         The figure, as wide as the page, with its caption.
     """
-    n = shared.size(options)
+    n = gallery_requests.size(options)
     columns = [
-        shared.generated_column(data["strata"], "jittered", n),
-        shared.generated_column(data["relaxed"], "lloyd", n),
-        *shared.user_columns(data, shared.methods_with_sets(options, PAPER), n),
-        shared.generated_column(data["classic"], "fpo", n),
-        shared.generated_column(data["classic"], "gbn", n),
+        generated_column(data["strata"], "jittered", n),
+        generated_column(data["relaxed"], "lloyd", n),
+        *user_columns(data, gallery_requests.methods_with_sets(options, PAPER), n),
+        generated_column(data["classic"], "fpo", n),
+        generated_column(data["classic"], "gbn", n),
     ]
     top = 0.5 + max(float(one.source.radial.power.max()) for one in columns)
     wide = (PAGE - 0.35) / len(columns) - 0.06
@@ -58,11 +62,11 @@ def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
         axes = panel.subplots(5, len(columns), height_ratios=[1, 1, 0.62, 1, 1], squeeze=False)
         for k, one in enumerate(columns):
             points, grey, power, plate, cells = axes[:, k]
-            shared.scatter(points, one.source, wide)
+            panels.scatter(points, one.source, wide)
             points.set_title(one.title, size=8, pad=3)
             spectrum.panel(grey, one.source, None, ticks=False)
-            shared.white(power)
-            shared.curve(power, one.source.radial, one.stroke)
+            radial_axes.white(power)
+            radial_axes.curve(power, one.source.radial, one.stroke)
             power.set(xlim=(0, 2), ylim=(0, top))
             power.xaxis.set_major_locator(FixedLocator([0, 1, 2]))
             power.yaxis.set_major_locator(MaxNLocator(4, integer=True))
@@ -86,7 +90,7 @@ def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
         )
 
     floors = ", ".join(
-        f"{shared.rounded(one.source.measures['noise_floor'])} ({one.title})" for one in columns
+        f"{wording.rounded(one.source.measures['noise_floor'])} ({one.title})" for one in columns
     )
     caption = (
         "The classic measures of blue noise. From top to bottom: a set; the mean spectrum in PSA's grey, "
@@ -94,9 +98,9 @@ def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
         "plate sampled at the points; and the Voronoi cells by number of neighbours, the valence of the "
         f"Delaunay triangulation. Highest radial power: {each('peak', form='.1f')}. Points with six "
         f"neighbours, in percent: {each('valence6', 100, '.0f')}. Noise floor, mean power up to a nu of "
-        f"0.25: {floors}. {shared.counted(columns)}, d = 2; GBN is at sigma = 1 with 320 gradients of "
+        f"0.25: {floors}. {wording.counted(columns)}, d = 2; GBN is at sigma = 1 with 320 gradients of "
         f"Nesterov's method, the work of the paper's 10,000 steps. "
-        + shared.missing_sets_note(options, PAPER, "of the state of the art")
+        + wording.missing_sets_note(options, PAPER, "of the state of the art")
     ).rstrip()
     height = 0.88 + 4.62 * wide
     return Drawing(PAGE, height, paint, caption)

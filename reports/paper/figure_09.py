@@ -15,7 +15,7 @@ from gbnbench.analysis.integration.integrands.registry import find
 from gbnbench.reports.integration import variance
 from gbnbench.reports.paper.data import DataRequest, IntegrationRequest, TableRequest
 from gbnbench.reports.paper.figure import PAGE, Drawing, FigureOptions, PaperFigure
-from gbnbench.reports.paper.shared import stroke, title_of
+from gbnbench.reports.paper.method_styles import stroke, title_of
 from gbnbench.runs.task_folder import Arrays
 from gbnbench.studies.integration.blocks import instances_of
 
@@ -70,7 +70,9 @@ def needs(options: FigureOptions) -> Mapping[str, DataRequest]:
             sources, SIZES[options.scale][d], (d,), sets, FAMILIES, instances
         )
     for name, path in options.sets.items():
-        requests[_user_study(name)] = IntegrationRequest((path,), (1,), (1,), 1, FAMILIES, instances)
+        requests[_user_study(name)] = IntegrationRequest(
+            (path,), (1,), (1,), 1, FAMILIES, instances, reading=options.reading
+        )
     return requests
 
 
@@ -169,7 +171,7 @@ def _caption(data: Mapping[str, Any], options: FigureOptions) -> str:
         "Variance of the integral estimated by the mean over n points: (a) toroidal sums of 64 Gaussians of "
         "width 512^(-1/d), (b) half spaces by a random point and direction; insets: one of each. "
         f"{int(data['d2'].variance['instances'].max())} integrands of each family, {', '.join(counts)}, "
-        "all estimated with all. Bands: 95%. Crosses: what the sets' power spectra foretell. Grey: 1/n; "
+        "all estimated with all. Bands: 95%. Crosses: what the sets' power spectra predict. Grey: 1/n; "
         "dashed upright: n = 512, the nominal grid that the Gaussians' width is of. jittered is made at "
         f"n = m^d alone. Slopes over all n in 2D: {'; '.join(slopes)}.{left}"
     )

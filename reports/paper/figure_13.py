@@ -18,9 +18,10 @@ from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.monitor import Monitor
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.reports import style
-from gbnbench.reports.paper import axes, shared
+from gbnbench.reports.paper import panels, radial_axes
 from gbnbench.reports.paper.data import DataRequest, TableRequest
 from gbnbench.reports.paper.figure import PAGE, Drawing, FigureOptions, PaperFigure
+from gbnbench.reports.paper.method_styles import stroke
 
 EDGE = 0.3  # nu up to which the energy is summed
 N, NU = 64, 2.0
@@ -88,10 +89,10 @@ def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
         grid = panel.subplots(1, 4, width_ratios=(1, 1, 1.32, 1.32))
         for ax, points, letter in zip(grid, blocks[0]["points"], "ab", strict=False):
             _beads(ax, points)
-            shared.heading(ax, letter, "a set")
+            panels.heading(ax, letter, "a set")
         for ax, letter, title in zip(grid[2:], "cd", ("mean power", "logarithmic"), strict=True):
             _power(ax, nu, power)
-            shared.heading(ax, letter, title)
+            panels.heading(ax, letter, title)
         grid[3].set_yscale("log")
         grid[3].set_ylim(float(power.min()) / 30, 100)
         grid[3].yaxis.set_major_locator(LogLocator(numticks=5))
@@ -127,9 +128,9 @@ def _beads(ax: Axes, x: FloatArray) -> None:
 
 
 def _power(ax: Axes, nu: FloatArray, power: FloatArray) -> None:
-    shared.white(ax)
-    ax.axvline(EDGE, **axes.DOTTED)
-    ax.plot(nu, power, color=shared.stroke("gbn").colour, linewidth=0.9)
+    radial_axes.white(ax)
+    ax.axvline(EDGE, **radial_axes.DOTTED)
+    ax.plot(nu, power, color=stroke("gbn").colour, linewidth=0.9)
     ax.set_xlim(0, NU)
     ax.set_xticks([0, 0.5, 1, 1.5, 2])
     ax.set_xlabel(r"$\nu = |f|/n$")

@@ -8,9 +8,10 @@ from typing import Any
 from matplotlib.figure import SubFigure
 
 from gbnbench.analysis.radial.radial_power import radial
-from gbnbench.reports.paper import shared
+from gbnbench.reports.paper import gallery_requests, panels, radial_axes, wording
 from gbnbench.reports.paper.data import ComparisonRequest, DataRequest
 from gbnbench.reports.paper.figure import PAGE, Drawing, FigureOptions, PaperFigure
+from gbnbench.reports.paper.method_columns import generated_column, user_columns
 
 WIDTH = 2.0  # cycles per unit length: PSA's default
 PAPER = ("bnot",)
@@ -18,8 +19,12 @@ PAPER = ("bnot",)
 
 def needs(options: FigureOptions) -> Mapping[str, DataRequest]:
     """Ask for many Owen-scrambled Sobol sets, and for GBN or the user's BNOT."""
-    many = ComparisonRequest(("sobol",), (shared.size(options),), (2,), options.pick(4, 160, 1000))
-    return {"sobol": many, "classic": shared.classic(options), **shared.user_set_requests(options, PAPER)}
+    many = ComparisonRequest(("sobol",), (gallery_requests.size(options),), (2,), options.pick(4, 160, 1000))
+    return {
+        "sobol": many,
+        "classic": gallery_requests.classic(options),
+        **gallery_requests.user_set_requests(options, PAPER),
+    }
 
 
 def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
@@ -37,34 +42,34 @@ def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
     Drawing
         The figure, as wide as the page, with its caption.
     """
-    n = shared.size(options)
+    n = gallery_requests.size(options)
     examples = [
-        *(shared.user_columns(data, PAPER, n) or [shared.generated_column(data["classic"], "gbn", n)]),
-        shared.generated_column(data["sobol"], "sobol", n),
+        *(user_columns(data, PAPER, n) or [generated_column(data["classic"], "gbn", n)]),
+        generated_column(data["sobol"], "sobol", n),
     ]
     exact = [one.source.radial for one in examples]
     rings = [radial(one.source.spectrum, by="annuli", width=WIDTH) for one in examples]
-    low = [shared.lowest([shells]) / 3 for shells in exact]
+    low = [radial_axes.lowest([shells]) / 3 for shells in exact]
 
     def paint(panel: SubFigure) -> None:
         axes = panel.subplots(2, 2, sharex=True)
         for row, (powers, name) in enumerate([(exact, "exact shells"), (rings, "annuli of width 2")]):
             for k, (power, one) in enumerate(zip(powers, examples, strict=True)):
                 ax = axes[row, k]
-                shared.white(ax)
-                shared.curve(ax, power, one.stroke, marker="o", markersize=1.6 if row == 0 else 2.6,
+                radial_axes.white(ax)
+                radial_axes.curve(ax, power, one.stroke, marker="o", markersize=1.6 if row == 0 else 2.6,
                              markeredgewidth=0, linewidth=0.45 if row == 0 else 0.9)  # fmt: skip
-                shared.log_nu(ax, 0.9 * n**-0.5)
-                shared.log_power(ax, low[k], 30)
-                shared.heading(ax, "abcd"[2 * row + k], f"{one.title}, {name}")
+                radial_axes.log_nu(ax, 0.9 * n**-0.5)
+                radial_axes.log_power(ax, low[k], 30)
+                panels.heading(ax, "abcd"[2 * row + k], f"{one.title}, {name}")
                 if row == 0:
                     ax.set_xlabel("")
                 if k == 0:
                     ax.set_ylabel("radial power")
 
     first = [
-        f"{shared.rounded(float(ring.power[0]))} at a mean |f| of {ring.frequency[0]:.2f} where the exact "
-        f"power at |f| = 1 is {shared.rounded(float(shells.power[0]))} ({one.title})"
+        f"{wording.rounded(float(ring.power[0]))} at a mean |f| of {ring.frequency[0]:.2f} where the exact "
+        f"power at |f| = 1 is {wording.rounded(float(shells.power[0]))} ({one.title})"
         for ring, shells, one in zip(rings, exact, examples, strict=True)
     ]
     caption = (
@@ -74,7 +79,7 @@ def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
         f"The innermost annulus has {' and '.join(first)}. The dips of Owen-Sobol, which the annuli hide, "
         "are the shells that lie on the axes alone, |f| = 1, 2, 3, 4, 6, 7, 8, 9, 11 and so on: its "
         "projections on either axis are stratified n-fold. "
-        f"{shared.counted(examples)}, d = 2."
+        f"{wording.counted(examples)}, d = 2."
     )
     if "bnot" not in options.sets:
         caption += " The first example here is GBN; sets given as --sets bnot=PATH take its place."

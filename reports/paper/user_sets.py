@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from gbnbench.core.errors import InputError
 from gbnbench.generators.registry import GENERATORS
 from gbnbench.reports.paper.figure import FigureOptions, PaperFigure
-from gbnbench.reports.paper.shared import NAMES
+from gbnbench.reports.paper.method_styles import NAMES
 from gbnbench.runs.sources import resolve
 
 CLOSE = 0.7  # likeness of names beyond which one is taken for a slip of the other
@@ -49,7 +49,7 @@ def check_sets(figures: Sequence[PaperFigure], options: FigureOptions) -> None:
             raise InputError(
                 f"--sets {name}: figure {asked} shows no sets of it; figures 1, 8 and 9 show any method"
             )
-        found = sorted({source.d for source in resolve([path], (1,), (1,), 1)[0]})
+        found = sorted({source.d for source in resolve([path], (1,), (1,), 1, options.reading)[0]})
         fits = (2, 3, 8) if set(shows) & set(ANY_DIMENSION) else (2,)
         if not set(found) & set(fits):
             raise InputError(

@@ -10,12 +10,21 @@ import mpmath
 import numpy as np
 import pytest
 
-from gbnbench.benchmarks.claims import complexity, convergence, equations, integrals, kernels, profile
+from gbnbench.benchmarks.claims import (
+    box,
+    complexity,
+    convergence,
+    half_space,
+    integration_errors,
+    long_descent,
+    periodic_kernel,
+    profile,
+)
 from gbnbench.benchmarks.claims.claim import BESIDE, COLUMNS, VERDICTS, verdict
 from gbnbench.benchmarks.claims.page import filled, number, page
 from gbnbench.benchmarks.claims.registry import CLAIMS, MEASURES
 from gbnbench.benchmarks.claims.run import fill, main, measure, named, read
-from gbnbench.benchmarks.claims.sets import MissingError, Sets
+from gbnbench.benchmarks.claims.sets import MissingError, SetCache
 from gbnbench.core.errors import InputError
 from gbnbench.generators.gbn.kernel_profile import theta
 from tests.oracles.theta import jacobi
@@ -55,7 +64,7 @@ def test_every_claim_is_measured_and_every_row_has_a_verdict():
 @pytest.mark.parametrize("name", EXACT)
 def test_what_is_exact_comes_out_as_in_the_table(name):
     kept = read(TABLE)[name]
-    again = measure(claim(name), Sets())
+    again = measure(claim(name), SetCache())
     assert [row["row"] for row in again] == [row["row"] for row in kept]
     for now, then in zip(again, kept, strict=True):
         assert now["holds"] == then["holds"]
@@ -64,7 +73,7 @@ def test_what_is_exact_comes_out_as_in_the_table(name):
 
 
 def test_the_weight_of_the_nominal_spacing_by_mpmath():
-    rows = {row.row: row.measured for row in profile.weight(Sets())}
+    rows = {row.row: row.measured for row in profile.weight(SetCache())}
     assert rows["number"] == pytest.approx(float(mpmath.exp(-((2 * mpmath.pi) ** 2))), rel=1e-12)
     assert rows["energy"] == pytest.approx(float(mpmath.exp(-2 * mpmath.pi**2)), rel=1e-6)
     assert rows["formula"] == pytest.approx(float(mpmath.exp(-2 * mpmath.pi**2)), rel=1e-12)
@@ -90,7 +99,7 @@ def test_the_hessian_by_differences_is_that_of_the_pairs():
                 block = (np.outer(r, r) - np.eye(2)) * math.exp(-(r @ r) / 2)
                 expected[i, :, i] += block
                 expected[i, :, j] -= block
-    found = convergence.hessian_of(x)
+    found = long_descent.hessian_of(x)
     np.testing.assert_allclose(found, expected.reshape(2 * n, 2 * n), atol=1e-6)
     np.testing.assert_allclose(found.reshape(2 * n, n, 2).sum(axis=1), 0, atol=1e-6)
 
@@ -99,11 +108,11 @@ def test_the_outermost_points_of_a_box():
     u = np.array([[0.5, 0.1], [0.3, 0.9], [1.5, 1.6], [1.8, 1.2]])  # a box of two spacings: two strips a face
     expected = [0.3, 0.2, 1.5, 0.5, 0.1, 1.2, 1.1, 0.4]  # the strips of x's faces, then of y's
     expected[1:4] = [1.5, 1.5, 0.2]
-    np.testing.assert_allclose(np.sort(equations.outermost(u, 2.0)), np.sort(expected))
+    np.testing.assert_allclose(np.sort(box.outermost(u, 2.0)), np.sort(expected))
 
 
 def test_the_domains_pull_and_the_points_push_in_closed_form():
-    rows = {row.row: row.measured for row in equations.balance(Sets())}
+    rows = {row.row: row.measured for row in box.balance(SetCache())}
     # Far from the other faces; 0.5 from a face along x, 3 along y, with 4 sigma^2 over 2 sigma^2, sigma = 1.
     along = math.sqrt(2) * (1 + math.erf(3 / 2)) / (1 + math.erf(3 / math.sqrt(2)))
     ratio = 2 * math.exp(0.25 / 2 - 0.25 / 4) * along
@@ -113,16 +122,16 @@ def test_the_domains_pull_and_the_points_push_in_closed_form():
 
 
 def test_the_images_left_out_are_known_far_below_rounding():
-    rows = {row.row: row.measured for row in kernels.images(Sets())}
+    rows = {row.row: row.measured for row in periodic_kernel.images(SetCache())}
     for side in (12, 18):  # half a side away the next image is the only one that counts
         assert rows[f"side-{side}"] == pytest.approx(math.exp(-((side / 2) ** 2) / 2), rel=1e-9)
 
 
 def test_further_draws_are_others():
-    first = [integrals.integrands(integrals.STEP, 2, k)[0].point[0] for k in range(3)]
-    assert first[0] == integrals.integrands(integrals.STEP, 2)[0].point[0]
+    first = [integration_errors.integrands(integration_errors.STEP, 2, k)[0].point[0] for k in range(3)]
+    assert first[0] == integration_errors.integrands(integration_errors.STEP, 2)[0].point[0]
     assert len(set(first)) == 3
-    exponents = integrals.redrawn(Sets(), "jittered", 2, further=2)
+    exponents = half_space.redrawn(SetCache(), "jittered", 2, further=2)
     assert len(exponents) == len(set(exponents)) == 2
     np.testing.assert_allclose(exponents, -1.5, atol=0.1)
 
@@ -135,8 +144,8 @@ def test_exponents_of_times():
 
 @pytest.mark.slow
 def test_claims_of_sets_at_a_small_share():
-    sets = Sets(share=0.02)
-    rows = {row.row: row for row in convergence.repeated(sets)}
+    sets = SetCache(share=0.02)
+    rows = {row.row: row for row in long_descent.repeated(sets)}
     assert rows["repeat"].measured == 0
     shaped = {row.row: row for row in convergence.longer(sets)}
     assert shaped["floor-10"].sets == 2
@@ -145,14 +154,14 @@ def test_claims_of_sets_at_a_small_share():
 
 def test_a_table_is_gone_on_with(tmp_path, capsys):
     path = tmp_path / "claims.csv"
-    fill(path, named(["freedom", "digits"]), Sets())
+    fill(path, named(["freedom", "digits"]), SetCache())
     first = path.read_text()
     path.write_text(first.replace("square-half", "kept"))
-    fill(path, named(["weight", "freedom", "floor-bnot"]), Sets())
+    fill(path, named(["weight", "freedom", "floor-bnot"]), SetCache())
     assert "kept" in path.read_text()
     assert list(read(path)) == ["weight", "freedom", "digits"]
     assert "floor-bnot: left out, no sets of bnot" in capsys.readouterr().out
-    fill(path, named(["freedom"]), Sets(), again=True)
+    fill(path, named(["freedom"]), SetCache(), again=True)
     assert "kept" not in path.read_text()
 
 
@@ -168,12 +177,12 @@ def test_the_command(tmp_path):
 def test_sets_by_others(tmp_path):
     for k in range(2):
         np.savetxt(tmp_path / f"{k}.txt", np.random.default_rng(k).random((9, 2)))
-    assert Sets({"bnot": tmp_path}).others("bnot").x.shape == (2, 9, 2)
+    assert SetCache({"bnot": tmp_path}).others("bnot").x.shape == (2, 9, 2)
     np.savetxt(tmp_path / "2.txt", np.random.default_rng(2).random((4, 2)))
     with pytest.raises(InputError, match="sets of one size; found 3 files"):
-        Sets({"bnot": tmp_path}).others("bnot")
+        SetCache({"bnot": tmp_path}).others("bnot")
     with pytest.raises(MissingError, match="--sets bnot=FOLDER"):
-        Sets().others("bnot")
+        SetCache().others("bnot")
 
 
 def test_verdicts():

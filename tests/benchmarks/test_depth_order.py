@@ -13,12 +13,12 @@ from gbnbench.analysis.integration.integrands.korobov import Korobov
 from gbnbench.analysis.radial.radial_power import radial
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.benchmarks.experiments import depth_integration as integration
-from gbnbench.benchmarks.experiments import depth_looks, depth_order, depth_order_row
+from gbnbench.benchmarks.experiments import depth_looks, depth_order, depth_order_row, depth_order_tasks
 from gbnbench.execution.progress import Progress
 from gbnbench.reports.benchmarks.depth_order import figure
 from gbnbench.runs.resumable import TaskRun
 
-TINY = depth_order.Map(144, 2, (4, 8), (0.5, 0.6), (20,), (20, 60), 2, 0.6)
+TINY = depth_order_tasks.Map(144, 2, (4, 8), (0.5, 0.6), (20,), (20, 60), 2, 0.6)
 
 
 @pytest.fixture(scope="module")
@@ -62,7 +62,9 @@ def test_it_goes_on_where_it_was_stopped(path):
 
 def test_a_set_off_its_target_is_told_and_not_measured():
     plan = replace(TINY, n=16, c=(8,), edges=(0.95,), gbn=(20,), seeds=1)
-    (_, off) = [done.value for done in TaskRun(depth_order.tasks_of(plan)).complete(None, Progress())][1:]
+    (_, off) = [done.value for done in TaskRun(depth_order_tasks.tasks_of(plan)).complete(None, Progress())][
+        1:
+    ]
     assert off["converged"] is False
     assert math.isnan(off["noise_floor"])
     assert off["chi"] == pytest.approx(math.pi * 0.95**2 / 4)
@@ -92,13 +94,13 @@ def test_a_lattice_has_waves_and_noise_has_none():
     assert new["anisotropy_edge_db"] == pytest.approx(-10 * math.log10(4), abs=1.2)
 
 
-def test_measured_variance_is_what_the_spectrum_foretells():
+def test_measured_variance_is_what_the_spectrum_predicts():
     rng = np.random.default_rng(5)
     x = rng.random((3, 40, 2))
     drawn = [Korobov().draw(2, rng) for _ in range(40)]
     variance, error = integration.measured(drawn, x, 40, rng)
-    foretold = integration.predicted(Korobov().mean_energy, x, 12)
-    assert variance == pytest.approx(foretold, abs=4 * error)
+    predicted = integration.predicted(Korobov().mean_energy, x, 12)
+    assert variance == pytest.approx(predicted, abs=4 * error)
     assert error < 0.1 * variance
 
 

@@ -16,25 +16,17 @@ import pandas as pd
 import pytest
 
 from gbnbench.benchmarks.gbn import floor_cases
+from gbnbench.benchmarks.gbn.benchmark import FloorTables, run
 from gbnbench.benchmarks.gbn.cutoffs import FORCES, exact_forces
 from gbnbench.benchmarks.gbn.floor_cases import Curve, FloorCase
-from gbnbench.benchmarks.gbn.floor_time import (
-    FLOOR_TIME,
-    SPEEDUP,
-    FloorTables,
-    crossings,
-    measured,
-    race,
-    run,
-    speedup,
-)
+from gbnbench.benchmarks.gbn.floor_time import FLOOR_TIME, measured, race
+from gbnbench.benchmarks.gbn.speedups import SPEEDUP
 from gbnbench.benchmarks.timing import machine
 from gbnbench.cli.bench_gbn import draw, report
 from gbnbench.core.errors import InputError
 from gbnbench.execution.progress import Progress
 from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
-from gbnbench.generators.gbn.published_quality import AUTHORS_FLOOR
 from gbnbench.generators.protocol import realization_rng
 from tests import smallest_sizes
 from tests.oracles.power import direct_power
@@ -146,41 +138,6 @@ def test_forces_grow_exact_with_the_cutoff(whole):
     assert kept.error_rms["double"] < 1e-14
     assert 1e-8 < kept.error_rms["float"] < 2e-6
     assert (rows.cpu_ms <= rows.cpu_ms_median).all()
-
-
-def test_seconds_to_a_floor_are_found_between_stops():
-    part = pd.DataFrame(
-        {
-            "set": [0, 0, 0, 1, 1],
-            "gradients": [10, 100, 1000, 10, 100],
-            "cpu_s": [0.1, 1.0, 10.0, 0.2, 2.0],
-            "noise_floor": [1e-2, 1e-4, 1e-8, 1e-6, 1e-7],
-        }
-    )
-    assert crossings(part, 1e-3) == pytest.approx(np.array([[math.sqrt(0.1), 10**1.5], [0.2, 10]]))
-    assert np.isnan(crossings(part, 1e-9)).all()
-
-
-def test_the_speedup_is_taken_at_a_floor_that_both_reach():
-    floors = pd.DataFrame(
-        [
-            {"case": "c", "precision": "double", "kernel": kernel, "method": method, "curve": method,
-             "set": k, "gradients": g, "cpu_s": pace * (1 + k) * g, "noise_floor": level / g**power}
-            for k in (0, 1)
-            for kernel, method, pace, power, level in (
-                ("whole", "nesterov", 0.003, 4, 1.0), ("whole", "descent", 0.002, 2, 1.0),
-                ("cut off", "nesterov", 0.001, 4, 1e-9),
-            )
-            for g in (10, 100, 1000)
-        ]
-    )  # fmt: skip
-    (row,) = speedup(floors).itertuples()
-    assert row.floor == pytest.approx(1e-6)  # where descent ends
-    assert row.gradients == pytest.approx(10**1.5)
-    assert row.their_gradients == pytest.approx(1000)
-    assert (row.ratio, row.ratio_min, row.ratio_max) == pytest.approx((2 / 3 * 10**1.5,) * 3)
-    deeper = floors.assign(noise_floor=floors.noise_floor * 1e-6)
-    assert speedup(deeper).floor.iloc[0] == AUTHORS_FLOOR
 
 
 def test_the_tables_are_whole_and_floors_fall(whole):

@@ -8,7 +8,8 @@ import pytest
 
 from gbnbench.analysis.spectrum.error_model import RESOLVED
 from gbnbench.analysis.spectrum.periodogram import periodogram
-from gbnbench.benchmarks.spectra.hard_cases import FAR, GRID, MOST, SHALLOW, hard_cases
+from gbnbench.benchmarks.spectra.hard_cases import FAR, GRID, MOST, hard_cases
+from gbnbench.benchmarks.spectra.hard_lattices import SHALLOW
 from gbnbench.benchmarks.spectra.hard_table import SLACK, TYPICAL, evaluate, judged, markdown, resolvable
 from gbnbench.benchmarks.spectra.reference import reference_roots
 

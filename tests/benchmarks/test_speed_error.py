@@ -17,7 +17,8 @@ import pytest
 
 from gbnbench.benchmarks.spectra import cases, cores
 from gbnbench.benchmarks.spectra.rivals import half_space, rivals
-from gbnbench.benchmarks.spectra.speed_error import SCALING, SPEED, slopes
+from gbnbench.benchmarks.spectra.scaling import SCALING, slopes
+from gbnbench.benchmarks.spectra.speed_error import SPEED
 from gbnbench.benchmarks.timing import machine
 from gbnbench.benchmarks.timing.interleaved import Timing, interleave, timed
 from gbnbench.benchmarks.timing.machine import Rows

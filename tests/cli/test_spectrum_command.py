@@ -18,8 +18,8 @@ from matplotlib.image import imread
 
 import gbnbench
 import gbnbench.cli.spectrum_run
-from gbnbench.analysis.measures import default_fmax
 from gbnbench.analysis.radial.anisotropy import anisotropy
+from gbnbench.analysis.spectrum.limits import default_fmax
 from gbnbench.cli import run
 from gbnbench.io.data_files import read_csv
 from gbnbench.io.points import save

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -63,12 +64,25 @@ def test_distance_ignores_whole_turns_and_is_symmetric(x, turns):
     assert (np.abs(displacement(a, b)) <= 0.5).all()
 
 
+@given(
+    st.lists(st.tuples(st.floats(0, 1e-12), st.integers(1, 10**6)), min_size=1, max_size=5),
+)
+def test_displacements_across_the_border_keep_all_their_digits(places):
+    """Points at u and 1 - k 2^-53 are u + k 2^-53 apart; u - (1 - k 2^-53) has lost the digits of u."""
+    for u, k in places:
+        exact = float(Fraction(u) + Fraction(k, 2**53))
+        a, b = np.array([u]), np.array([1 - k * 2.0**-53])
+        assert displacement(a, b)[0] == pytest.approx(exact, rel=2.0**-52, abs=0)
+        assert displacement(b, a)[0] == -displacement(a, b)[0]
+        assert toroidal_distance(a, b) == pytest.approx(exact, rel=2.0**-51, abs=0)
+
+
 def test_densest_spacings_are_those_of_the_known_lattices():
     # Minimum distance of Z, A2, D3, D4, E8 scaled to one point a unit volume (Conway & Sloane, Table 1.2).
     known = {1: 1.0, 2: (4 / 3) ** 0.25, 3: 2 ** (1 / 6), 4: 2**0.25, 8: math.sqrt(2)}
     for d, distance in known.items():
-        assert densest_spacing(1, d) == pytest.approx(distance, rel=1e-15)
-    assert densest_spacing(1024, 2) == pytest.approx(math.sqrt(2 / (math.sqrt(3) * 1024)), rel=1e-15)
+        assert densest_spacing(1, d) == pytest.approx(distance, rel=1e-15, abs=0)
+    assert densest_spacing(1024, 2) == pytest.approx(math.sqrt(2 / (math.sqrt(3) * 1024)), rel=1e-15, abs=0)
     assert math.isnan(densest_spacing(10, 9))
     assert spacing(4096, 3) == pytest.approx(1 / 16)
 

@@ -11,7 +11,7 @@ import pytest
 
 from gbnbench.core.errors import DeviceError
 from gbnbench.opencl import choose, devices, runtime
-from gbnbench.opencl.runtime import OPTIONS
+from gbnbench.opencl.runtime import OPTIONS, Runtime
 from gbnbench.opencl.width_probe import VectorWidths, vector_widths
 from tests.processes import python
 
@@ -104,13 +104,34 @@ def test_proven_widths_are_remembered_and_a_dead_child_leaves_the_proven_ones(mo
     assert vector_widths(device) == widths
 
     class Dying:
-        stdout = b"1\n4\n"
+        stdout, stderr, returncode = b"1\n4\n", b"", -11
 
     monkeypatch.undo()
     monkeypatch.setattr(cache_folder, "cache_folder", lambda: tmp_path / "other")
     (tmp_path / "other").mkdir()
     monkeypatch.setattr(width_probe.subprocess, "run", lambda *_, **__: Dying)
     assert vector_widths(device) == VectorWidths(4, 4 if device.has_double else 0)
+
+
+def test_a_probe_that_dies_before_it_proves_anything_says_of_what(monkeypatch, tmp_path):
+    from gbnbench.core import cache_folder
+    from gbnbench.opencl import width_probe
+
+    device = choose()
+    killed = "import os, sys; print('bad binary', file=sys.stderr, flush=True); os.kill(os.getpid(), 11)"
+    child = tmp_path / "dying"
+    child.write_text(f"#!{sys.executable}\n{killed}\n")
+    child.chmod(0o755)
+    monkeypatch.setattr(cache_folder, "cache_folder", lambda: tmp_path)
+    monkeypatch.setattr(width_probe.sys, "executable", str(child))
+    widths = vector_widths(device)
+    assert (widths.float32, widths.float64) == (0, 0)
+    assert "its process was killed by SIGSEGV: bad binary" in widths.fault
+    assert not list(tmp_path.glob("widths-*"))  # what died may be mended: it is asked again
+    opened = Runtime(device)
+    opened.__dict__["widths"] = widths
+    with pytest.raises(DeviceError, match=r"does not compute in float .*killed by SIGSEGV: bad binary"):
+        opened.lanes("float")
 
 
 def test_programs_are_built_once_and_a_compiler_error_is_told():

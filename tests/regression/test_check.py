@@ -13,8 +13,8 @@ from scipy import stats
 
 from gbnbench.cli import run
 from gbnbench.core.errors import FormatError, GbnbenchError, InputError
-from gbnbench.regression.case_file import default_path, read_cases, select, write_cases
-from gbnbench.regression.cases import Case, Expectation, Spread
+from gbnbench.regression.case_file import default_path, read_cases, write_cases
+from gbnbench.regression.cases import Case, Expectation, Spread, select
 from gbnbench.regression.measurement import fixed_points, observe
 from gbnbench.regression.runner import check, expect, update
 from gbnbench.regression.verdict import judge

@@ -11,7 +11,9 @@ import numpy as np
 import pandas as pd
 
 from gbnbench.analysis.measure_definitions import DEFINITIONS
-from gbnbench.core.results import Measures, RadialPower, Spectrum
+from gbnbench.core.results.measures import Measures
+from gbnbench.core.results.radial import RadialPower
+from gbnbench.core.results.spectrum import Spectrum
 from gbnbench.runs.comparison_result import Run, SourceResult
 from tests.oracles.power import lattice_of, mean_power
 

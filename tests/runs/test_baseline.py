@@ -7,7 +7,9 @@ import pandas as pd
 import pytest
 
 from gbnbench.analysis.measure_definitions import DEFINITIONS
-from gbnbench.core.results import Measures, RadialPower, Spectrum
+from gbnbench.core.results.measures import Measures
+from gbnbench.core.results.radial import RadialPower
+from gbnbench.core.results.spectrum import Spectrum
 from gbnbench.runs.baseline import judge, verdict
 from gbnbench.runs.comparison_result import Run, SourceResult
 

@@ -14,7 +14,9 @@ import pytest
 from gbnbench.analysis.measure_definitions import DEFINITIONS
 from gbnbench.core import atomic_write
 from gbnbench.core.errors import FormatError, InputError
-from gbnbench.core.results import Measures, RadialPower, Spectrum
+from gbnbench.core.results.measures import Measures
+from gbnbench.core.results.radial import RadialPower
+from gbnbench.core.results.spectrum import Spectrum
 from gbnbench.io import data_files
 from gbnbench.runs import comparison_folder
 from gbnbench.runs.comparison_result import Run, SourceResult

@@ -7,9 +7,8 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.analysis.precision import Precision, padded, precision_of
+from gbnbench.analysis.precision import Precision, double_device, padded
 from gbnbench.core.torus import FloatArray
-from gbnbench.opencl import devices_present, runtime
 
 DEVICE_POINTS = 1 << 20  # of a launch
 NUMPY_POINTS = 1 << 12  # of a chunk that stays in cache
@@ -65,13 +64,6 @@ def evaluate(integrand: KernelIntegrand, x: FloatArray) -> FloatArray:
             integrand.by_numpy(part) if device is None else integrand.on_device(part, device)
         )
     return values.reshape(x.shape[:-1])
-
-
-def double_device() -> Precision | None:
-    """Return double precision on the chosen device, None where there is no device or it has none."""
-    if not devices_present() or not runtime().device.has_double:
-        return None
-    return precision_of("double")
 
 
 def coordinate_rows(points: FloatArray, device: Precision, turns: bool) -> NDArray[Any]:

@@ -9,16 +9,18 @@ any line ends, with or without a byte-order mark or a last newline. Its sets are
 3. By lines that start with ``#`` (UTK). Under 1 and 2 such lines are comments.
 4. Not at all: every row is a point of one set.
 
-A line of column names is taken as such in .csv files and where commas part the names. A first line of bare
-whole numbers is a header where one of them exceeds 1, since no coordinate does. Where it might be a header,
-a line of column numbers or a point (``0`` or ``1`` before single numbers, ``0 1``, ``1 1``), the file is
-refused and the error says how to write it: a point as ``0.0 1.0``, a header as ``1024 2``. Blank lines count
-for nothing, except that between rows that nothing else frames they are refused, because some programs part
-sets by them; so is a comment that holds just the numbers of a point.
+A first line of words names the columns: x, y, z, w in turn, or one letter with numbers from 0 or 1 on.
+Double quotes around a cell are dropped, and so is a column in front without a name that counts the rows or
+quotes their names. Where the first line has a semicolon, semicolons part cells and commas are decimal; so
+are commas in rows that tabs part. A first line of bare whole numbers is a header where one of them exceeds
+1, since no coordinate does. Where it might be a header, a line of column numbers or a point (``0`` or ``1``
+before single numbers, ``0 1``, ``1 1``), the file is refused and the error says how to write it: a point as
+``0.0 1.0``, a header as ``1024 2``. Blank lines count for nothing, except that between rows that nothing
+else frames they are refused, because some programs part sets by them; so is a comment that holds just the
+numbers of a point.
 
-Binary: .npy of (n, d) or (realizations, n, d) floats; .npz (``points``, else ``x``, else its only array, else
-each array as a set); PSA's .rps, 2D pairs of little-endian float32, by its name, or from 16 points on by its
-content; and PSA's .eps. Coordinates lie in [0, 1]; exactly 1 becomes 0; nothing else is altered or left out.
+Coordinates lie in [0, 1], or in the box that the file or the reading options tell, by whose sides they are
+divided; its upper end is its lower; nothing else is altered or left out.
 """
 
 from __future__ import annotations
@@ -32,22 +34,51 @@ from numpy.typing import ArrayLike
 
 from gbnbench.core.errors import FormatError
 from gbnbench.core.torus import FloatArray
-from gbnbench.io.points.binary import read_npy, read_npz, read_rps
-from gbnbench.io.points.eps import read_eps
-from gbnbench.io.points.file_format import kind, look, reason, size_limit
-from gbnbench.io.points.text import read_text
+from gbnbench.io.points.file_format import size_limit
+from gbnbench.io.points.formats.raw import read_raw
+from gbnbench.io.points.formats.registry import format_of
+from gbnbench.io.points.fractions_of_box import fractions_of_box
+from gbnbench.io.points.point_file import PointFile, open_point_file
+from gbnbench.io.points.point_sets import FileContent, PointSets
+from gbnbench.io.points.reading_options import ReadingOptions, reading_options
 from gbnbench.io.points.writer import encode, write_atomically
 
-__all__ = ["load", "read", "save"]
+__all__ = ["PointSets", "ReadingOptions", "load", "read", "read_sets", "reading_options", "save"]
+
+_DEFAULT = ReadingOptions()
 
 
-def load(path: str | os.PathLike[str], *, max_bytes: int | None = None) -> FloatArray | list[FloatArray]:
-    """Load the point set or sets of a file.
+def load(
+    path: str | os.PathLike[str],
+    *,
+    columns: str | Sequence[str] | None = None,
+    raw: str | None = None,
+    array: str | None = None,
+    period: float | str | Sequence[float] | None = None,
+    bounds: str | Sequence[float] | Sequence[Sequence[float]] | None = None,
+    wrap: bool = False,
+    max_bytes: int | None = None,
+) -> FloatArray | list[FloatArray]:
+    r"""Load the point set or sets of a file.
 
     Parameters
     ----------
     path : path-like
         A file in any of the formats that ``gbnbench.io.points`` tells of.
+    columns : str or sequence of str, optional
+        Columns that are coordinates, in their order: ``"x,y"``, or numbers counted from 1 where the file has
+        no names.
+    raw : str, optional
+        Layout of a binary file without a header: ``"float32,3"``, or ``">float32,3"`` with the highest byte
+        first.
+    array : str, optional
+        Which array of an .npz holds the points, or which key of a JSON file.
+    period : float or sequence of float, optional
+        Sides of the torus in the file's unit, such as ``(512, 512)`` for pixels; one number for all axes.
+    bounds : sequence of float, optional
+        Ends of each axis, ``(0, 512, 0, 256)`` or ``((0, 512), (0, 256))``; one pair for all axes.
+    wrap : bool
+        Bring points outside into the box by whole sides.
     max_bytes : int, optional
         Files this large or larger are refused unread; by default the environment variable
         GBNBENCH_MAX_FILE_BYTES, else 2 GB.
@@ -55,31 +86,34 @@ def load(path: str | os.PathLike[str], *, max_bytes: int | None = None) -> Float
     Returns
     -------
     (n, d) float64, (realizations, n, d) float64, or list of (n_i, d) float64
-        One set; several of one size; several of different sizes. All in [0, 1).
+        One set; several of one size; several of different sizes. All in [0, 1): fractions of the box.
 
     Raises
     ------
     FormatError
         If the file cannot be read as points; the text names the file and, in text formats, the line.
+    InputError
+        If an option cannot be meant so.
 
     Examples
     --------
     >>> import tempfile
     >>> from pathlib import Path
     >>> with tempfile.TemporaryDirectory() as folder:
-    ...     save(Path(folder) / "two.csv", [[0.25, 0.5], [0.1, 0.75]])
-    ...     load(Path(folder) / "two.csv")
+    ...     _ = (Path(folder) / "pixels.csv").write_text("x,y\n128,256\n51.2,384\n")
+    ...     load(Path(folder) / "pixels.csv", period=(512, 512))
     array([[0.25, 0.5 ],
            [0.1 , 0.75]])
     """
-    sets = read(path, max_bytes=max_bytes)
+    options = reading_options(columns, raw, array, period, bounds, wrap)
+    sets = read_sets(path, options, max_bytes=max_bytes).sets
     if len(sets) == 1:
         return sets[0]
     return np.stack(sets) if len({len(x) for x in sets}) == 1 else sets
 
 
 def read(path: str | os.PathLike[str], *, max_bytes: int | None = None) -> list[FloatArray]:
-    """Read every set of a file.
+    """Read every set of a file of points of the unit torus, or of a box that the file itself tells.
 
     Parameters
     ----------
@@ -98,38 +132,67 @@ def read(path: str | os.PathLike[str], *, max_bytes: int | None = None) -> list[
     FormatError
         If the file cannot be read as points.
     """
+    return read_sets(path, max_bytes=max_bytes).sets
+
+
+def read_sets(
+    path: str | os.PathLike[str], options: ReadingOptions = _DEFAULT, *, max_bytes: int | None = None
+) -> PointSets:
+    """Read every set of a file, with the box that holds them.
+
+    Parameters
+    ----------
+    path : path-like
+        As for ``load``.
+    options : ReadingOptions
+        What the file does not say itself.
+    max_bytes : int, optional
+        As for ``load``.
+
+    Returns
+    -------
+    PointSets
+        Fractions of the box, its sides and lower corner in the file's unit, and whether it is a torus.
+
+    Raises
+    ------
+    FormatError
+        If the file cannot be read as points.
+    """
     path = Path(path)
-    limit = size_limit(max_bytes)
-    size, head = look(path, limit)
-    form = kind(path, size, head)
-    if form == "npz":
-        return read_npz(path, limit)
-    try:
-        if form == "npy":
-            return read_npy(path, size)
-        data = path.read_bytes()
-    except OSError as error:
-        raise FormatError(path, f"cannot be read: {reason(error)}") from None
-    if form == "rps":
-        return read_rps(path, data, named=path.suffix.lower() == ".rps")
-    return read_eps(path, data) if form == "eps" else read_text(path, data)
+    file = open_point_file(path, size_limit(max_bytes), options)
+    return fractions_of_box(path, _content(file), options)
 
 
-def save(path: str | os.PathLike[str], x: ArrayLike | Sequence[ArrayLike]) -> None:
+def _content(file: PointFile) -> FileContent:
+    options = file.options
+    if options.raw is not None:
+        return read_raw(file)
+    format_ = format_of(file)
+    for name in ("columns", "array"):
+        if getattr(options, name) is not None and name not in format_.takes:
+            raise FormatError(file.path, f"--{name} means nothing to a file of this format ({format_.name})")
+    return format_.read(file)
+
+
+def save(path: str | os.PathLike[str], x: ArrayLike | Sequence[ArrayLike] | PointSets) -> None:
     """Save one point set or several; the extension names the format, and every bit is kept.
 
     Parameters
     ----------
     path : path-like
-        Ends in .txt (PSA's count and rows; the count and d where d is not 2), .dat (UTK), .csv, .npy or .npz.
-        A file already there is replaced, once the new one is whole.
-    x : (n, d) or (realizations, n, d) array_like, or a list of (n_i, d)
-        Points in [0, 1).
+        Ends in .txt (PSA's count and rows; the count and d where d is not 2), .dat or .edat (UTK), .csv,
+        .tsv, .npy, .npz, .json, .ply, .xyz or .lammpstrj, and .gz, .bz2 or .xz after these. A file already
+        there is replaced, once the new one is whole.
+    x : (n, d) or (realizations, n, d) array_like, a list of (n_i, d), or PointSets
+        Points in [0, 1). PointSets that have a box are written in its unit where the format holds the box,
+        and then to the last bits of a coordinate.
 
     Raises
     ------
     InputError
-        If the extension is none of these, x is not points, or the place cannot be written.
+        If the extension is none of these, x is not points, the format cannot hold them, or the place cannot
+        be written.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The format of a file, decided by its first bytes, and by its name only where bytes cannot tell."""
+"""First looks at a file: whether it can be read at all, how large it is, and how it begins."""
 
 from __future__ import annotations
 
@@ -12,12 +12,8 @@ LIMIT_VARIABLE = "GBNBENCH_MAX_FILE_BYTES"
 DEFAULT_LIMIT = 2_000_000_000
 
 NUMERIC = b"0123456789+-.eE"
-# A headerless binary file without the .rps name is believed from this many points on: a byte string drawn at
-# random passes for floats of [0, 1] with odds of 4**-2 a point.
-SURE_POINTS = 16
-
-_HEAD = 4096
-_LEGIBLE = bytes(range(32, 127)) + b"\t\n\r\f\v" + bytes(range(128, 256))
+HEAD = 4096
+LEGIBLE = bytes(range(32, 127)) + b"\t\n\r\f\v" + bytes(range(128, 256))
 
 
 def size_limit(max_bytes: int | None = None) -> int:
@@ -103,7 +99,7 @@ def look(path: Path, limit: int) -> tuple[int, bytes]:
             raise FormatError(path, "is not a regular file; write the points to a file first")
         refuse_large(path, status.st_size, limit)
         with path.open("rb") as file:
-            head = file.read(_HEAD)
+            head = file.read(HEAD)
     except FormatError:
         raise
     except (OSError, ValueError) as error:  # ValueError: a NUL in the name
@@ -111,54 +107,3 @@ def look(path: Path, limit: int) -> tuple[int, bytes]:
     if not head:
         raise FormatError(path, "the file is empty")
     return status.st_size, head
-
-
-def kind(path: Path, size: int, head: bytes) -> str:
-    """Name the format of a file.
-
-    Parameters
-    ----------
-    path : Path
-        The file.
-    size : int
-        Its bytes.
-    head : bytes
-        The first of them.
-
-    Returns
-    -------
-    {"npy", "npz", "eps", "rps", "text"}
-
-    Raises
-    ------
-    FormatError
-        If the bytes belong to something that is not a point set.
-    """
-    name = path.suffix.lower()
-    if head.startswith(b"\x93NUMPY"):
-        return "npy"
-    if head.startswith((b"PK\x03\x04", b"PK\x05\x06")):
-        return "npz"
-    if head.startswith((b"%!", b"\xef\xbb\xbf%!")):
-        return "eps"
-    if name == ".rps":  # bytes of floats can look like anything, so only what is all numbers is text
-        return "text" if not head.translate(None, NUMERIC + b" \t\r\n,#") else "rps"
-    if name == ".eps" and not head.translate(None, _LEGIBLE):
-        return "eps"
-    if head.startswith((b"\xff\xfe", b"\xfe\xff")) and b"\0" in head[2:4]:
-        raise FormatError(path, "is UTF-16 text; save it as UTF-8 or ASCII")
-    if head.startswith((b"\x1f\x8b", b"BZh", b"\xfd7zXZ", b"\x28\xb5\x2f\xfd")):
-        raise FormatError(path, "is compressed; unpack it first")
-    if name in (".npy", ".npz"):
-        if not head.translate(None, _LEGIBLE):
-            return "text"
-        raise FormatError(path, f"is not a {name} file: it starts with {head[:6]!r}")
-    if 20 * len(head.translate(None, _LEGIBLE)) < len(head):  # a stray byte is better named by its line
-        return "text"
-    if size % 8 == 0 and size >= 8 * SURE_POINTS:
-        return "rps"
-    raise FormatError(
-        path,
-        "is binary, in no format known here (.npy, .npz, .rps); "
-        "little-endian float32 pairs are read where the name ends in .rps",
-    )

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from fractions import Fraction
 
+import mpmath
 import numpy as np
 import pytest
 
-from gbnbench.analysis.integration.variance import slope_of, variance_of
+from gbnbench.analysis.integration.variance import crossed_mean, slope_of, variance_of
 from gbnbench.core.errors import InputError
 
 
@@ -23,10 +25,36 @@ def crossed(rng, integrands=12, sets=9, scale=1.0, hardness=0.8, luck=0.5):
 def test_variance_and_bias_are_the_plain_means():
     errors = crossed(np.random.default_rng(0)) + 0.3
     found = variance_of(errors)
-    assert found.value == pytest.approx(np.mean(errors**2), rel=1e-14)
-    assert found.bias == pytest.approx(errors.mean(), rel=1e-14)
+    assert found.value == pytest.approx(np.mean(errors**2), rel=1e-14, abs=0)
+    assert found.bias == pytest.approx(errors.mean(), rel=1e-14, abs=0)
     assert found.low < found.value < found.high
     assert found.low * found.high == pytest.approx(found.value**2)
+
+
+@pytest.mark.parametrize("offset", [0, 2**20])
+def test_small_differences_beside_a_large_common_part_against_fractions(offset):
+    """Steps of 2^-30 beside 2^20, which use all digits of double: means of such values round steps away."""
+    steps = np.random.default_rng(5).integers(0, 8, (5, 4))
+    found = crossed_mean(offset + np.ldexp(steps.astype(float), -30))
+    e = [[Fraction(int(v), 2**30) for v in row] for row in steps]
+    rows, columns = [sum(r) / 4 for r in e], [sum(c) / 5 for c in zip(*e, strict=True)]
+    mean = sum(rows) / 5
+    residual = sum((e[i][k] - rows[i] - columns[k] + mean) ** 2 for i in range(5) for k in range(4)) / 12
+    least = residual / 20
+    parts = [sum((r - mean) ** 2 for r in rows) / 4 / 5, sum((c - mean) ** 2 for c in columns) / 3 / 4]
+    assert found.standard_error == pytest.approx(math.sqrt(max(sum(parts) - least, least)), rel=1e-13, abs=0)
+    assert found.value == pytest.approx(float(offset + mean), rel=4e-16, abs=0)
+
+
+def test_a_slope_between_close_sizes_keeps_its_digits():
+    n = (10**9, 10**9 + 1)
+    squares = (Fraction(1), 1 - Fraction(3, 2**32))
+    found = slope_of(n, [np.array([[1.0]]), np.array([[math.sqrt(squares[1])]])])
+    with mpmath.workdps(40):
+        # The error itself is a rounded root, which moves its square by 2^-53.
+        square = mpmath.mpf(math.sqrt(squares[1])) ** 2
+        exact = float(mpmath.log(square) / mpmath.log1p(mpmath.mpf(1) / 10**9))
+    assert found.value == pytest.approx(exact, rel=1e-6, abs=0)
 
 
 def test_standard_error_is_the_spread_over_repetitions():
@@ -78,12 +106,12 @@ def test_a_power_law_is_found_with_the_error_that_repetitions_have():
 def test_an_exact_power_law_has_no_scatter_and_a_bent_one_has():
     n = (4, 16, 64)
     exact = slope_of(n, [np.full((3, 2), m**-1.0) for m in n])
-    assert exact.value == pytest.approx(-2, rel=1e-12)
+    assert exact.value == pytest.approx(-2, rel=1e-12, abs=0)
     assert exact.standard_error == pytest.approx(0, abs=1e-12)
     assert exact.scatter == pytest.approx(0, abs=1e-12)
     bent = slope_of(n, [np.full((3, 2), v) for v in (1.0, 1.0, 0.1)])  # variances 1, 1, 0.01
     # Least squares through 0, 0, -2 decades: residuals 1/3, -2/3, 1/3.
-    assert bent.scatter == pytest.approx(math.sqrt((1 + 4 + 1) / 9 / 3), rel=1e-12)
+    assert bent.scatter == pytest.approx(math.sqrt((1 + 4 + 1) / 9 / 3), rel=1e-12, abs=0)
 
 
 def test_a_variance_of_zero_has_no_slope():

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import math
+from fractions import Fraction
+
 import numpy as np
 import pytest
 
 from gbnbench.analysis.radial.anisotropy import anisotropy, anisotropy_db
 from gbnbench.analysis.spectrum.shells import exact_shells
 from gbnbench.core.errors import InputError, RefusalError
-from gbnbench.core.results import Spectrum
+from gbnbench.core.results.spectrum import Spectrum
 
 FMAX, N = 24, 24**2
 
@@ -55,6 +58,22 @@ def test_psas_form_takes_a_slope_within_a_ring_for_anisotropy_and_ours_does_not(
     at = rings["nu"].between(0.5, 0.9)
     assert rings["psa_db"][at].min() > -25
     assert rings["anisotropy_db"][at].max() < -100
+
+
+def test_powers_that_differ_in_their_last_digits_have_their_exact_variance():
+    """Departures of 1e-12 about 1e6: the mean square less the square of the mean would be rounding alone."""
+    rng = np.random.default_rng(3)
+    size = 2 * FMAX + 1
+    half = 1e6 * (1 + 1e-12 * rng.integers(0, 1000, size * size // 2))
+    power = np.concatenate([half, [N], half[::-1]]).reshape(size, size)
+    rings = anisotropy(Spectrum(power, n=N, d=2, realizations=1, fmax=FMAX)).set_index("frequency")
+    square = np.sum((np.indices((size, size)) - FMAX) ** 2, axis=0).ravel()[: size * size // 2]
+    inside = square <= FMAX**2
+    for k in (3, 10, 20):
+        ring = [Fraction(float(p)) for p in half[inside & (np.rint(np.sqrt(square)) == k)]]
+        mean = sum(ring) / len(ring)
+        variance = sum((p - mean) ** 2 for p in ring) / (len(ring) - 1) / mean**2
+        assert rings["psa_db"][k] == pytest.approx(10 * math.log10(variance), abs=1e-6)
 
 
 def test_rounding_off_a_lattices_harmonics_is_no_direction():

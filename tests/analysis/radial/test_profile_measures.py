@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+import mpmath
 import numpy as np
 import pytest
 
@@ -39,6 +40,46 @@ def test_a_power_law_gives_its_own_exponent():
 def test_the_residual_is_root_mean_square_decibels():
     wavy = made_of(lambda nu: np.where(np.rint(400 * nu**2) % 2 == 0, 10**0.1, 10**-0.1))
     assert profile_measures.exponential_fit(wavy).residual_db == pytest.approx(1, rel=0.05)
+
+
+def test_fits_of_steep_profiles_against_forty_digits():
+    """Powers over 24 decades, whose logarithms are large, against exact normal equations."""
+    radial = made_of(lambda nu: 1e-24 * np.exp(150 * np.minimum(nu, 1) ** 2 + np.sin(40 * nu)))
+    band = in_band(radial.nu, 0.05, 0.6)
+    with mpmath.workdps(40):
+        target = [mpmath.log(mpmath.mpf(float(p))) for p in radial.power[band]]
+        fits = {
+            profile_measures.exponential_fit: [mpmath.mpf(float(nu)) ** 2 for nu in radial.nu[band]],
+            profile_measures.powerlaw_fit: [mpmath.log(mpmath.mpf(float(nu))) for nu in radial.nu[band]],
+        }
+        for fit, abscissa in fits.items():
+            count = len(target)
+            x, y = mpmath.fsum(abscissa) / count, mpmath.fsum(target) / count
+            slope = mpmath.fsum((a - x) * (t - y) for a, t in zip(abscissa, target, strict=True))
+            slope /= mpmath.fsum((a - x) ** 2 for a in abscissa)
+            rest = [t - y - slope * (a - x) for a, t in zip(abscissa, target, strict=True)]
+            decibels = 10 / mpmath.log(10) * mpmath.sqrt(mpmath.fsum(r * r for r in rest) / count)
+            found = fit(radial)
+            assert found.slope == pytest.approx(float(slope), rel=1e-13)
+            assert found.intercept == pytest.approx(float(y - slope * x), rel=1e-13)
+            assert found.residual_db == pytest.approx(float(decibels), rel=1e-12)
+
+
+def test_evacuated_energy_against_forty_digits():
+    """Powers that fall short of 1 by 1e-9 beside some of 1e-20."""
+    rng = np.random.default_rng(2)
+    side, n = 2 * FMAX + 1, N
+    half = np.where(rng.random(side * side // 2) < 0.5, 1 - 1e-9 * rng.random(side * side // 2), 1e-20)
+    power = np.concatenate([half, [n], half[::-1]]).reshape(side, side)
+    square = np.sum((np.indices((side, side)) - FMAX) ** 2, axis=0).ravel()
+    with mpmath.workdps(40):
+        logarithms = [
+            mpmath.log(mpmath.mpf(float(p)))
+            for p, s in zip(power.ravel(), square, strict=True)
+            if 0 < s < n and p < 1
+        ]
+        expected = float(-mpmath.fsum(logarithms) / n)
+    assert profile_measures.evacuated_energy(power, n, 2, FMAX) == pytest.approx(expected, rel=1e-14)
 
 
 def test_floor_and_power_at_1_are_plain_means_over_frequencies():

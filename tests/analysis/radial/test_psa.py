@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import math
 
+import mpmath
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -13,6 +14,43 @@ from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import wrap
 from tests.oracles.lattices import grid
 from tests.published_sets import published
+
+
+@pytest.mark.parametrize("m", [8, 10])
+def test_the_power_of_a_grid_against_forty_digits(m: int) -> None:
+    """Its pairs are known in integers; 1 and the integral of g - 1, ten times as large, cancel to 1e-13."""
+    n, total = m * m, 100 * m
+    pairs = [0] * (total // 2 + 1)
+    half = range(-(m // 2) + 1, m // 2 + 1)
+    for i in half:
+        for j in half:
+            bin_ = math.isqrt(40_000 * (i * i + j * j))
+            if 0 < bin_ < len(pairs):
+                pairs[bin_] += 1
+    chosen = [1, 17, 200, 411, 1500 * m // 20]
+    found = spectral_statistics(grid(m, 2)).power[0, chosen]
+    with mpmath.workdps(40):
+        dr = mpmath.mpf(1) / (2 * total)
+        for k, power in zip(chosen, found, strict=True):
+            v = k * mpmath.mpf(n) / (2 * total)
+            edge = min(max(4 * v / m, mpmath.mpf(1) / 5), mpmath.mpf(1) / 2) / 2
+            integral = mpmath.mpf(0)
+            for b, count in enumerate(pairs):
+                r = b * dr
+                if r > edge:
+                    break
+                g = (
+                    mpmath.mpf(count)
+                    * n
+                    / 2
+                    / (n * (n - 1) / mpmath.mpf(2) * mpmath.pi * dr**2 * (2 * b + 1))
+                )
+                turns = mpmath.pi * r / edge
+                window = (
+                    mpmath.mpf("0.43") + mpmath.cos(turns) / 2 + mpmath.mpf("0.08") * mpmath.cos(2 * turns)
+                )
+                integral += (g - 1) * mpmath.besselj(0, 2 * mpmath.pi * v * r) * r * window * dr
+            assert power == pytest.approx(float(abs(1 + 2 * mpmath.pi * n * integral)), rel=0, abs=1e-12), k
 
 
 def slow(sets: np.ndarray) -> tuple[float, float, np.ndarray]:

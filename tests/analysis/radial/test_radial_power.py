@@ -9,7 +9,7 @@ from gbnbench.analysis.radial.radial_power import radial
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.shell_spectrum import shells
 from gbnbench.core.errors import InputError
-from gbnbench.core.results import Spectrum
+from gbnbench.core.results.spectrum import Spectrum
 
 
 def test_radial_power_is_the_mean_over_each_shell():
@@ -52,7 +52,7 @@ def test_by_digits_and_annuli_hold_the_same_total():
 
 @pytest.mark.parametrize(
     ("arguments", "says"),
-    [({"by": "rings"}, "shells, digits, annuli"), ({"by": "annuli", "width": 0}, "positive")],
+    [({"by": "rings"}, "shells, pooled, digits, annuli"), ({"by": "annuli", "width": 0}, "positive")],
 )
 def test_bad_requests_are_refused(arguments, says):
     with pytest.raises(InputError, match=says):

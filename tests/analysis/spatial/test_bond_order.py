@@ -2,7 +2,9 @@ from __future__ import annotations
 
 import cmath
 import itertools
+from fractions import Fraction
 
+import mpmath
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -60,6 +62,35 @@ def test_hexagonal_lattice() -> None:
 def test_square_lattice_has_no_sixfold_order() -> None:
     assert psi6(grid(8, 2))[0] == pytest.approx(0, abs=1e-12)
     assert bond_order(grid(8, 2))[0] == pytest.approx(0, abs=1e-12)
+
+
+@pytest.mark.parametrize("gap", [1e-6, 1e-12])
+def test_near_neighbours_across_the_border_have_their_direction(gap: float) -> None:
+    """A pair askew across the corner: its bond has the direction that its exact coordinates have."""
+    far, near = 1 - gap, 1.25e-5 * gap
+    others = np.array([[0.3, 0.2], [0.7, 0.3], [0.4, 0.6], [0.8, 0.75], [0.1, 0.45], [0.5, 0.9]])
+    x = np.concatenate([[[far, far], [near, 0.3 * near]], others])
+    (made,) = neighbours(x)
+    rows = np.arange(made.indptr[0], made.indptr[1])
+    (row,) = rows[(made.index[rows] == 1) & (np.abs(made.vector[rows]).max(axis=1) < 0.1)]
+    exact = [float(1 - Fraction(far) + Fraction(v)) for v in (near, 0.3 * near)]
+    np.testing.assert_allclose(made.vector[row], exact, rtol=1e-15)
+
+
+def test_against_forty_digits() -> None:
+    x = np.random.default_rng(20).random((60, 2))
+    (made,) = neighbours(x)
+    with mpmath.workdps(40):
+        z = [mpmath.mpc(*v) for v in made.vector.tolist()]
+        sixfold = [(v / abs(v)) ** 6 for v in z]
+        psi, edges = mpmath.mpf(0), mpmath.mpf(0)
+        for a, b in itertools.pairwise(made.indptr.tolist()):
+            psi += abs(mpmath.fsum(sixfold[a:b])) / (b - a)
+            around = [z[a + (k + 1) % (b - a)] - z[a + k] for k in range(b - a)]
+            edges += abs(mpmath.fsum((v / abs(v)) ** 6 for v in around))
+        expected = float(psi / 60), float(edges / len(z))
+    assert psi6(x)[0] == pytest.approx(expected[0], rel=1e-14)
+    assert bond_order(x)[0] == pytest.approx(expected[1], rel=1e-13)
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,8 @@
 from __future__ import annotations
 
 import itertools
+import math
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -34,8 +36,8 @@ def test_against_loops(n: int, d: int) -> None:
             for i, p in enumerate(points)
         ]
         unit = hermite**0.5 * n ** (-1 / d)
-        assert min_distance(x)[k] == pytest.approx(min(nearest) / unit, rel=1e-12)
-        assert mean_distance(x)[k] == pytest.approx(np.mean(nearest) / unit, rel=1e-12)
+        assert min_distance(x)[k] == pytest.approx(min(nearest) / unit, rel=1e-12, abs=0)
+        assert mean_distance(x)[k] == pytest.approx(np.mean(nearest) / unit, rel=1e-12, abs=0)
 
 
 @pytest.mark.parametrize(
@@ -52,6 +54,43 @@ def test_against_loops(n: int, d: int) -> None:
 def test_densest_lattices_measure_one(lattice: np.ndarray) -> None:
     x = wrap(lattice + 0.01)
     np.testing.assert_allclose(nearest_distances(x), 1, rtol=1e-12)
+
+
+def test_points_that_nearly_meet_across_the_border_keep_their_distance() -> None:
+    """1 - 3 u and 1e-17 are 3.4e-16 apart, of which the difference of the two has 3 quarters left."""
+    rng = np.random.default_rng(5)
+    last = 1 - 3 * 2.0**-53
+    x = np.concatenate([[[last, 0.5], [1e-17, 0.5]], 0.1 + 0.3 * rng.random((30, 2))])
+    exact = float(Fraction(1) - Fraction(last) + Fraction(1e-17))
+    unit = math.sqrt(2 / math.sqrt(3) / 32)
+    np.testing.assert_allclose(nearest_distances(x)[0, :2] * unit, exact, rtol=1e-14)
+    assert min_distance(x)[0] * unit == pytest.approx(exact, rel=1e-14, abs=0)
+
+
+def test_the_nearest_of_several_across_the_border_is_found() -> None:
+    """The tree holds the last three of these at equal distance from the first."""
+    x = np.array([[0.0], [1 - 2.0**-53], [1e-17], [3e-18], [2e-17], [0.5]])
+    nearest = nearest_distances(x)[0] / 6
+    assert nearest[0] == pytest.approx(3e-18, rel=1e-12, abs=0)
+    assert nearest[1] == pytest.approx(2.0**-53, rel=1e-12, abs=0)
+    assert nearest[2] == pytest.approx(7e-18, rel=1e-12, abs=0)
+
+
+def test_coincident_points_are_at_distance_zero() -> None:
+    x = np.array([[0.25, 0.5]] * 20 + [[0.75, 0.5]])
+    assert nearest_distances(x)[0, :20].max() == 0
+    assert nearest_distances(x)[0, 20] * math.sqrt(2 / math.sqrt(3) / 21) == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize("n", [10_007, 100_003])
+def test_a_large_lattice_has_the_distance_of_its_shortest_vector(n: int) -> None:
+    g = round(n * (math.sqrt(5) - 1) / 2)
+    x = np.stack([np.arange(n), np.arange(n) * g % n], axis=1) / n
+    steps = np.arange(1, n, dtype=np.int64)
+    other = steps * g % n
+    shortest = int((np.minimum(steps, n - steps) ** 2 + np.minimum(other, n - other) ** 2).min())
+    expected = math.sqrt(shortest) / n / math.sqrt(2 / math.sqrt(3) / n)
+    np.testing.assert_allclose(nearest_distances(x), expected, rtol=1e-12)
 
 
 def test_hexagonal_lattice_measures_nearly_one() -> None:

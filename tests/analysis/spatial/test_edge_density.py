@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
+from fractions import Fraction
+
 import numpy as np
 import pytest
 
@@ -34,6 +37,18 @@ def test_a_grid_counts_whole_rows():
     assert profile.extreme == pytest.approx(0.5)
     assert np.isnan(profile.extreme_error)
     assert list(profile.to_frame().columns) == ["low", "high", "density", "standard_error", "cumulative"]
+
+
+@pytest.mark.parametrize(("n", "d"), [(100_000, 1), (40_000, 2), (5_000, 3)])
+def test_thin_shells_of_many_points_have_exact_volumes(n, d):
+    x = np.random.default_rng(n).random((n, d))
+    profile = edge_density(x, width=1e-3, depth=4e-3)
+    side = n ** (1 / d)
+    cuts = [1 - Fraction(2 * edge / side) for edge in profile.edges.tolist()]
+    volumes = [float(a**d - b**d) for a, b in itertools.pairwise(cuts)]
+    depth = np.minimum(x, 1 - x).min(axis=1) * side
+    counts = np.histogram(depth, profile.edges)[0]
+    assert profile.density == pytest.approx(counts / n / volumes, rel=1e-11)
 
 
 @pytest.mark.parametrize(("width", "depth"), [(0, 1), (2, 1), (1, np.inf), (-1, 2)])

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
-from gbnbench.analysis.spatial.rdf import pair_counts, rdf
+from gbnbench.analysis.spatial.rdf import pair_counts, pair_density, rdf
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import wrap
 from tests.oracles.lattices import grid
@@ -105,6 +105,24 @@ def test_counts_do_not_know_the_origin_or_the_order(seed: int, n: int, d: int, r
     one, two = pair_counts(x, 9, reach / 9), pair_counts(y, 9, reach / 9)
     assert np.abs(np.cumsum(one) - np.cumsum(two)).max() <= 1  # a distance may round across an edge
     assert abs(one.sum() - np.sum(all_distances(x) < reach)) <= 1
+
+
+@pytest.mark.parametrize("m", [30, 64, 100])
+def test_a_grid_s_distances_are_edges_whatever_its_coordinates_round_to(m: int) -> None:
+    """PSA's bins are 1 / (200 m) wide: a grid's distances along the axes are edges."""
+    for x in (grid(m, 2), wrap(grid(m, 2) + 0.123)):
+        counts = pair_counts(x, 800, 1 / (200 * m))
+        assert counts[[199, 200, 399, 400, 599, 600]].tolist() == [0, 2 * m * m] * 3
+
+
+@pytest.mark.parametrize("d", [1, 2, 3, 8])
+def test_expected_pairs_against_exact_integers(d: int) -> None:
+    n, bins, width = 3000, 2000, 2.0**-13
+    x = np.random.default_rng(d).random((n, d))
+    counts = pair_counts(x, bins, width)
+    ball = math.pi ** (d / 2) / math.gamma(d / 2 + 1) * width**d
+    expected = [n * (n - 1) / 2 * ball * ((i + 1) ** d - i**d) for i in range(bins)]
+    np.testing.assert_allclose(pair_density(x[None], bins, width)[0], counts / expected, rtol=1e-14)
 
 
 def test_a_distance_that_is_exactly_an_edge_begins_its_bin():

@@ -18,7 +18,7 @@ from gbnbench.analysis.spectrum.error_model import (
 from gbnbench.analysis.spectrum.evaluators.cube_product import cube_powers
 from gbnbench.analysis.spectrum.evaluators.direct_sum import listed_power
 from gbnbench.analysis.spectrum.periodogram import periodogram
-from gbnbench.core.results import resolvable_power
+from gbnbench.core.results.resolution import resolvable_power
 from tests.devices import gpu_form
 from tests.oracles.power import mean_power, on_grid, root_distance
 

@@ -15,7 +15,7 @@ from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.plan import plan
 from gbnbench.analysis.spectrum.shell_spectrum import shells
 from gbnbench.core.errors import InputError
-from gbnbench.core.results import resolvable_power
+from gbnbench.core.results.resolution import resolvable_power
 from gbnbench.opencl import runtime
 from tests.oracles.power import mean_power, on_grid, root_distance
 from tests.processes import NO_DEVICE, python

@@ -8,8 +8,9 @@ import pytest
 from matplotlib.figure import Figure
 from matplotlib.image import imread
 
-from gbnbench.core.results import Measures, Spectrum
-from gbnbench.reports import style
+from gbnbench.core.results.measures import Measures
+from gbnbench.core.results.spectrum import Spectrum
+from gbnbench.reports import captions, style
 from gbnbench.reports.comparison import loglog, radial, spectrum, sweep, valence
 from gbnbench.reports.comparison.figure_files import FIGURES, pdf, planned, png, write_figures
 from gbnbench.runs.comparison_result import Run
@@ -223,6 +224,6 @@ def test_large_sets_show_a_corner() -> None:
 @pytest.mark.parametrize("draw", [kind.draw for kind in FIGURES.values()])
 def test_caption_has_the_settings(draw: Callable[[Run, None], Figure]) -> None:
     figure = draw(samples.small_run(), None)
-    caption = " ".join(text.get_text() for text in figure.texts).replace(style.NBSP, " ")
+    caption = " ".join(text.get_text() for text in figure.texts).replace(captions.NBSP, " ")
     for part in ("n = 64", "d = 2", "4 realizations", "seed 0", "cpu-haswell", "gbnbench 0.1.0"):
         assert part in " ".join(caption.split())

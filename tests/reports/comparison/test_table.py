@@ -7,7 +7,7 @@ from rich.console import Console
 
 from gbnbench.analysis.measure_definitions import DEFINITIONS
 from gbnbench.core.number_text import NOTHING, error_number, number
-from gbnbench.reports.comparison import table
+from gbnbench.reports.comparison import markdown, table, terminal
 from gbnbench.runs.comparison_result import Run
 from tests.reports import samples
 
@@ -107,7 +107,7 @@ def test_standard_error_in_the_digits_of_its_value(value: float, error: float, f
 
 @pytest.mark.parametrize("width", [40, 60, 80, 120, 200, 400])
 def test_terminal_table_fits_and_is_not_cut(run: Run, width: int) -> None:
-    text = table.terminal_text(run, width)
+    text = terminal.terminal_text(run, width)
     lines = text.split("\n")
     assert max(map(len, lines)) <= width
     rows = [line for line in lines if line[:2] in ("a ", "b ", "c ")]
@@ -126,7 +126,7 @@ def test_terminal_table_fits_and_is_not_cut(run: Run, width: int) -> None:
 def test_terminal_table_is_a_rich_table_that_takes_labels_literally(run: Run) -> None:
     odd = samples.source("gbn[iterations=10][/red]\n\x1b[31m" + "x" * 90, samples.random(16, 2, 3), 3)
     console = Console(width=100, record=True, file=io.StringIO())
-    console.print(table.terminal_table(replace(run, sources=(odd,)), 100))
+    console.print(terminal.terminal_table(replace(run, sources=(odd,)), 100))
     text = console.export_text()
     assert "gbn[iterations=10]" in text
     assert "\x1b" not in text
@@ -134,7 +134,7 @@ def test_terminal_table_is_a_rich_table_that_takes_labels_literally(run: Run) ->
 
 def test_markdown_has_equal_cells_and_escapes(run: Run) -> None:
     odd = samples.source("a|b <script> *x*", samples.random(16, 2, 3), 3)
-    text = table.markdown_table(replace(run, sources=(*run.sources, odd)), ["noise_floor", "cpu_seconds"])
+    text = markdown.markdown_table(replace(run, sources=(*run.sources, odd)), ["noise_floor", "cpu_seconds"])
     lines = text.strip().split("\n")
     assert {line.replace("\\|", "").count("|") for line in lines} == {4}
     assert "a\\|b \\<script\\> \\*x\\*" in lines[-1]

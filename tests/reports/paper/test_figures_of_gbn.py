@@ -17,7 +17,7 @@ from gbnbench.cli import gbnbench
 from gbnbench.execution.progress import Progress
 from gbnbench.generators.monitor import Monitor, Trace
 from gbnbench.reports import style
-from gbnbench.reports.paper import axes, figure_07
+from gbnbench.reports.paper import figure_07, radial_axes
 from gbnbench.reports.paper.data import folder_name, obtain
 from gbnbench.reports.paper.figure import FigureOptions, compose
 from gbnbench.reports.paper.registry import find
@@ -101,7 +101,7 @@ def test_widths_and_dimensions_are_the_library_s(made: tuple[Path, FigureOptions
 
 def test_ideal_profile_is_equation_19() -> None:
     ax = Figure().subplots()
-    axes.profile(ax, 1e-9, 4 * math.pi**2, [0.1, 2.0])
+    radial_axes.profile(ax, 1e-9, 4 * math.pi**2, [0.1, 2.0])
     (line,) = ax.get_lines()
     nu, power = np.asarray(line.get_xdata()), np.asarray(line.get_ydata())
     assert nu[0] == pytest.approx(0.1)

@@ -20,9 +20,12 @@ from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.cli import gbnbench
 from gbnbench.execution.progress import Progress
 from gbnbench.reports import style
-from gbnbench.reports.paper import figure_12, shared
+from gbnbench.reports.paper import figure_12, gallery_requests, radial_axes, wording
 from gbnbench.reports.paper.data import folder_name, obtain
 from gbnbench.reports.paper.figure import Drawing, FigureOptions
+from gbnbench.reports.paper.method_columns import user_columns
+from gbnbench.reports.paper.method_styles import NAMES as METHOD_NAMES
+from gbnbench.reports.paper.method_styles import STROKES, stroke
 from gbnbench.reports.paper.registry import find
 from tests.smallest_sizes import smallest_sizes
 
@@ -119,7 +122,7 @@ def test_figure_1_lays_every_method_s_exact_shells_over_one_another(made):
     caption = made.caption("1")
     assert "KDM, VnC and BlueNets of the paper are left out" in caption
     floor = data["bnot"].sources[0].measures["noise_floor"]
-    assert f"{shared.rounded(floor)} (BNOT)" in caption
+    assert f"{wording.rounded(floor)} (BNOT)" in caption
 
 
 def test_figure_1_s_guides_are_the_ideal_profiles(made):
@@ -153,7 +156,7 @@ def test_figure_2_draws_both_settings_and_names_their_floors(made):
     assert drawn(plot, narrow.radial)
     assert drawn(plot, wide.radial)
     for source in run.sources:
-        assert shared.rounded(source.measures["noise_floor"]) in made.caption("2")
+        assert wording.rounded(source.measures["noise_floor"]) in made.caption("2")
     assert narrow.label == "gbn[sigma=0.5,iterations=30]"
     assert wide.measures["noise_floor"] < narrow.measures["noise_floor"] / 100
 
@@ -196,7 +199,7 @@ def test_figure_12_s_bands_are_as_low_as_the_caption_says(made):
     sources = [*data["sets"].sources, *data["step"].sources]
     assert all(drawn(plot, source.radial) for plot, source in zip(plots, sources, strict=True))
     low = figure_12.band(data["step"].sources[0].radial, 0.5)
-    assert f"the highest below 0.5 is {shared.rounded(low)}" in made.caption("12")
+    assert f"the highest below 0.5 is {wording.rounded(low)}" in made.caption("12")
 
 
 def test_figure_14_s_annuli_are_the_means_of_its_exact_shells(made):
@@ -209,16 +212,16 @@ def test_figure_14_s_annuli_are_the_means_of_its_exact_shells(made):
         mine = ring == k
         assert value == pytest.approx(np.average(power[mine], weights=count[mine]))
         assert 2 * k <= nu * 10 < 2 * k + 2
-    assert f"{shared.rounded(float(rings[1][0]))} at a mean |f| of" in made.caption("14")
+    assert f"{wording.rounded(float(rings[1][0]))} at a mean |f| of" in made.caption("14")
 
 
 def test_one_method_has_one_colour_and_no_two_share_colour_and_dash():
-    strokes = list(shared.STROKES.values())
+    strokes = list(STROKES.values())
     assert len({(s.colour, str(s.dash)) for s in strokes}) == len(strokes)
-    for name in shared.STROKES:
-        assert shared.stroke(name) == shared.STROKES[name]
-        assert shared.stroke(f"{name}[a=1]").colour == shared.STROKES[name].colour
-    assert shared.STROKES.keys() <= shared.NAMES.keys() | {"latin", "grid", "hexagonal"}
+    for name in STROKES:
+        assert stroke(name) == STROKES[name]
+        assert stroke(f"{name}[a=1]").colour == STROKES[name].colour
+    assert STROKES.keys() <= METHOD_NAMES.keys() | {"latin", "grid", "hexagonal"}
 
 
 def test_sets_of_another_size_are_taken_where_there_are_none_of_this_one(tmp_path):
@@ -226,13 +229,13 @@ def test_sets_of_another_size_are_taken_where_there_are_none_of_this_one(tmp_pat
         save(tmp_path / f"{n}.npy", np.random.default_rng(n).random((n, 2)))
     save(tmp_path / "solid.npy", np.random.default_rng(1).random((20, 3)))
     options = FigureOptions("tiny", {"kdm": str(tmp_path)})
-    request = shared.user_set_requests(options, ("bnot", "kdm"))["kdm"]
+    request = gallery_requests.user_set_requests(options, ("bnot", "kdm"))["kdm"]
     run = obtain(request, tmp_path / "run", 0, 1, Progress())
     assert sorted((s.n, s.d) for s in run.sources) == [(20, 3), (30, 2), (50, 2)]
-    assert [c.source.n for c in shared.user_columns({"kdm": run}, ("bnot", "kdm"), 30)] == [30]
-    assert [c.source.n for c in shared.user_columns({"kdm": run}, ("kdm",), 100)] == [50]
+    assert [c.source.n for c in user_columns({"kdm": run}, ("bnot", "kdm"), 30)] == [30]
+    assert [c.source.n for c in user_columns({"kdm": run}, ("kdm",), 100)] == [50]
     only_solid = type(run)({}, tuple(s for s in run.sources if s.d == 3))
-    assert shared.user_columns({"kdm": only_solid}, ("kdm",), 20) == []
+    assert user_columns({"kdm": only_solid}, ("kdm",), 20) == []
 
 
 @pytest.mark.parametrize(
@@ -241,6 +244,6 @@ def test_sets_of_another_size_are_taken_where_there_are_none_of_this_one(tmp_pat
 )
 def test_log_axes_have_few_ticks_and_always_that_of_white_noise(low, high, ticks, marks):
     ax = Figure().subplots()
-    shared.log_power(ax, low, high, ticks)
+    radial_axes.log_power(ax, low, high, ticks)
     assert ax.get_yticks() == pytest.approx([10.0**k for k in marks])
     assert 1.0 in ax.get_yticks()

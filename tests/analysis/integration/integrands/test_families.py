@@ -70,7 +70,7 @@ def test_values_are_bitwise_the_same_however_points_are_batched(
     text: str, d: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     if text.endswith(" by numpy"):
-        monkeypatch.setattr(kernel_values, "devices_present", lambda: False)
+        monkeypatch.setattr(kernel_values, "double_device", lambda: None)
         text = text.removesuffix(" by numpy")
     family = find(text)
     one = family.draw(d, np.random.default_rng(3))

@@ -9,7 +9,7 @@ from gbnbench.analysis.integration.integrands import kernel_values
 from gbnbench.analysis.integration.integrands.gaussians import GaussianSum
 from gbnbench.analysis.integration.integrands.registry import find
 from gbnbench.analysis.integration.integrands.waves import WaveSum
-from gbnbench.analysis.precision import Precision
+from gbnbench.analysis.precision import Precision, double_device
 from gbnbench.opencl import Runtime
 
 TEXTS = ("gaussians[count=4]", "gaussians[count=4,points=1000000]", "waves[count=9]")
@@ -20,7 +20,7 @@ TEXTS = ("gaussians[count=4]", "gaussians[count=4,points=1000000]", "waves[count
 def test_one_lane_in_groups_of_64_has_the_values_of_vectors_and_numpy(
     text: str, d: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    here = kernel_values.double_device()
+    here = double_device()
     if here is None:
         pytest.skip("no OpenCL device of double precision")
     rng = np.random.default_rng(d)

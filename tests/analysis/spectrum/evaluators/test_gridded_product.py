@@ -10,7 +10,7 @@ from gbnbench.analysis.spectrum.evaluators.cube_product import cube_powers
 from gbnbench.analysis.spectrum.evaluators.gridded import grid
 from gbnbench.analysis.spectrum.evaluators.gridded import product as gridded_product
 from gbnbench.analysis.spectrum.evaluators.gridded.cells import sorted_by_cell
-from gbnbench.analysis.spectrum.evaluators.gridded.grid import node_turns
+from gbnbench.analysis.spectrum.evaluators.gridded.node_tables import node_turns
 from gbnbench.analysis.spectrum.evaluators.gridded.product import griddable, gridded_powers
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.core.errors import InputError

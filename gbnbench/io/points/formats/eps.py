@@ -11,35 +11,26 @@ from pathlib import Path
 import numpy as np
 
 from gbnbench.core.errors import FormatError
-from gbnbench.core.torus import FloatArray
+from gbnbench.io.points.file_format import LEGIBLE
+from gbnbench.io.points.formats.format import Format
 from gbnbench.io.points.number_parser import NUMBER, shown
-from gbnbench.io.points.text import outside_text
+from gbnbench.io.points.point_file import PointFile
+from gbnbench.io.points.point_sets import Coordinates, FileContent
 
 _SETUP = frozenset(b"def bind gsave save scale translate newpath setgray setrgbcolor setlinewidth".split())
 _ENDING = frozenset(b"grestore restore showpage stroke fill end \x04".split())
 
 
-def read_eps(path: Path, data: bytes) -> list[FloatArray]:
-    """Read the one 2D set of a PSA .eps file.
+def _recognises(file: PointFile) -> bool:
+    named = file.suffix == ".eps" and not file.head.translate(None, LEGIBLE)
+    return named or file.head.startswith((b"%!", b"\xef\xbb\xbf%!"))
 
-    Parameters
-    ----------
-    path : Path
-        Named in errors.
-    data : bytes
-        The whole file.
 
-    Returns
-    -------
-    list of one (n, 2) float64
-        In [0, 1).
-
-    Raises
-    ------
-    FormatError
-        If a line is neither preamble, point nor ending, or the gsave is never undone (a truncated file).
-    """
+def _read(file: PointFile) -> FileContent:
+    """Read the one 2D set; a line that is no preamble, point or ending is refused, and a gsave left open."""
+    path, data = file.path, file.read()
     points: list[tuple[float, float]] = []
+    lines: list[int] = []
     opened = ended = False
     number = 0
     for number, line in enumerate(data.removeprefix(b"\xef\xbb\xbf").splitlines(), start=1):
@@ -48,6 +39,7 @@ def read_eps(path: Path, data: bytes) -> list[FloatArray]:
             continue
         if tokens[-1] == b"p" and not ended:
             points.append(_point(path, tokens, number))
+            lines.append(number)
         elif not points and not ended and (tokens[0].startswith(b"/") or tokens[-1] in _SETUP):
             opened |= b"gsave" in tokens
         elif points and all(token in _ENDING for token in tokens):
@@ -59,9 +51,7 @@ def read_eps(path: Path, data: bytes) -> list[FloatArray]:
         raise FormatError(path, "no lines 'x y p': of EPS files only those that PSA writes hold points")
     if opened and not ended:
         raise FormatError(path, "the file is truncated: no grestore closes the points", number)
-    found = np.array(points)
-    found[found == 1] = 0
-    return [found]
+    return FileContent([Coordinates(np.array(points), np.array(lines))])
 
 
 def _point(path: Path, tokens: list[bytes], number: int) -> tuple[float, float]:
@@ -70,6 +60,7 @@ def _point(path: Path, tokens: list[bytes], number: int) -> tuple[float, float]:
     for token in tokens[:2]:
         if not NUMBER.fullmatch(token):
             raise FormatError(path, f"{shown(token)} is not a number", number)
-        if not 0 <= float(token) <= 1:
-            raise FormatError(path, outside_text(float(token)), number)
     return float(tokens[0]), float(tokens[1])
+
+
+EPS = Format("PSA's .eps", (".eps",), _recognises, _read)

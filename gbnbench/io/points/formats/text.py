@@ -9,63 +9,59 @@ from typing import NoReturn
 import numpy as np
 
 from gbnbench.core.errors import FormatError
-from gbnbench.core.torus import FloatArray
-from gbnbench.io.points.number_parser import SET_NAMES, IntArray, Lexed, lex
+from gbnbench.io.points.columns import SET_NAMES
+from gbnbench.io.points.file_format import LEGIBLE
+from gbnbench.io.points.formats.format import Format
+from gbnbench.io.points.formats.text_writing import WRITERS
+from gbnbench.io.points.number_parser import Lexed, lex
+from gbnbench.io.points.point_file import PointFile
+from gbnbench.io.points.point_sets import Coordinates, FileContent, IntArray
+from gbnbench.io.points.text_columns import plain_rows
 
 # (first line, lines) of one set, as indices into Lexed.line
 Span = tuple[int, int]
 
 
-def read_text(path: Path, data: bytes) -> list[FloatArray]:
+def _recognises(file: PointFile) -> bool:
+    """Tell text by its bytes; a stray one among them is better named by its line."""
+    return 20 * len(file.head.translate(None, LEGIBLE)) < len(file.head)
+
+
+def read_text(file: PointFile) -> FileContent:
     """Read the sets of a text file; the grammar stands in ``gbnbench.io.points``.
 
     Parameters
     ----------
-    path : Path
-        Named in errors; a name ending in .csv may have a single column with a name.
-    data : bytes
-        The whole file.
+    file : PointFile
+        Any text.
 
     Returns
     -------
-    list of (n, d) float64
-        All sets, in file order, in [0, 1).
+    FileContent
+        All sets, in file order.
 
     Raises
     ------
     FormatError
         At the first line that breaks the grammar.
     """
-    return frame(path, lex(path, data))
-
-
-def frame(path: Path, text: Lexed) -> list[FloatArray]:
-    """Cut the numbers of a text into point sets.
-
-    Parameters
-    ----------
-    path : Path
-        Named in errors.
-    text : Lexed
-        The numbers.
-
-    Returns
-    -------
-    list of (n_i, d) float64
-    """
+    path, options = file.path, file.options
+    names, rows = plain_rows(path, file.read(), options.columns)
+    text = lex(path, rows)
     if len(text.line) == 0:
         raise FormatError(path, "the file holds no points")
     begin = np.concatenate([[0], np.cumsum(text.width)])
     _refuse_hidden(path, text)
-    form = 0 if text.names else _header_form(path, text)
+    unit_torus = options.period is None and options.bounds is None and not options.wrap
+    form = 0 if names else _header_form(path, text, unit_torus)
     if form:
         spans = _counted(path, text, begin, form)
     else:
-        _same_width(path, text)
-        if any(name in SET_NAMES for name in text.names):
-            return _by_column(path, text)
+        _same_width(path, text, names)
+        if any(name in SET_NAMES for name in names):
+            return FileContent(_by_column(path, text, names))
         spans = _parted(path, text)
-    return [_coordinates(path, text, begin, span) for span in spans]
+    return FileContent([_coordinates(text, begin, span) for span in spans])
 
 
 def _refuse_hidden(path: Path, text: Lexed) -> None:
@@ -75,24 +71,34 @@ def _refuse_hidden(path: Path, text: Lexed) -> None:
         raise FormatError(path, "a point behind a '#': remove one or the other", int(text.comment[lost[0]]))
 
 
-def _header_form(path: Path, text: Lexed) -> int:
+def _header_form(path: Path, text: Lexed, unit_torus: bool) -> int:
     """Numbers in each header line (1: a count; 2: a count and a dimension), or 0 where all lines are points.
 
-    A first line of one or two bare whole numbers is a header where one of them exceeds 1, which no coordinate
-    does. The few that a point could also be written as are headers only where nothing but a header fits.
+    On the unit torus a first line of one or two bare whole numbers is a header where one of them exceeds 1,
+    which no coordinate does. The few that a point could also be written as are headers only where nothing but
+    a header fits. In other units any such line can be a point: it is one where it says another dimension than
+    the rows have, a header where no point is as wide, and refused where it could be either.
     """
     width = int(text.width[0])
     if width > 2 or not text.bare[:width].all():
         return 0
     first = text.value[:width]
     following = int(text.width[1]) if len(text.width) > 1 else 0
-    if np.any(first > 1):
+    whole = bool(text.bare.all()) and bool((text.width == width).all())
+    if width == following == 2 != first[1]:
+        if not unit_torus:
+            return 0
+        if whole and np.any(text.value > 1):
+            _refuse_pixels(path, text)
+    if unit_torus and np.any(first > 1):
         return width
     if width == 1 and following > 1:
         return 1
     if width == 2 and first[0] == 1 == first[1] and following == 1:
         return 2
-    if width == 1 or first[1] == 1:
+    if not unit_torus and first[0] >= 1 and (following != width or not whole):
+        return width
+    if width == 1 or first[1] == 1 or not unit_torus:
         literal = " ".join(str(int(v)) for v in first)
         point = " ".join(f"{v:.1f}" for v in first)
         raise FormatError(
@@ -102,6 +108,17 @@ def _header_form(path: Path, text: Lexed) -> int:
             int(text.line[0]),
         )
     return 0
+
+
+def _refuse_pixels(path: Path, text: Lexed) -> NoReturn:
+    at = int(np.argmax(text.value > 1))
+    line = int(text.line[np.searchsorted(np.cumsum(text.width), at, side="right")])
+    raise FormatError(
+        path,
+        f"coordinate {text.value[at]:g} is not in [0, 1]: all numbers are whole, as those of pixels are; "
+        "give the image's size, such as --period 512,512 (period= in Python)",
+        line,
+    )
 
 
 def _counted(path: Path, text: Lexed, begin: IntArray, form: int) -> list[Span]:
@@ -149,11 +166,11 @@ def _points(n: int) -> str:
     return f"{n} point{'s' * (n != 1)}"
 
 
-def _same_width(path: Path, text: Lexed) -> None:
-    d = len(text.names) or int(text.width[0])
+def _same_width(path: Path, text: Lexed, names: tuple[str, ...]) -> None:
+    d = len(names) or int(text.width[0])
     wrong = np.flatnonzero(text.width != d)
     if len(wrong):
-        what = "the header names" if text.names else "the lines before have"
+        what = "the header names" if names else "the lines before have"
         _refuse_width(path, text, int(wrong[0]), d, f"{what} {d}")
 
 
@@ -178,12 +195,12 @@ def _parted(path: Path, text: Lexed) -> list[Span]:
     return [(a, b - a) for a, b in pairwise(bounds)]
 
 
-def _by_column(path: Path, text: Lexed) -> list[FloatArray]:
+def _by_column(path: Path, text: Lexed, names: tuple[str, ...]) -> list[Coordinates]:
     """Find the sets by the column named set, whose numbers start at 0 or 1 and count up by one."""
-    columns = [i for i, name in enumerate(text.names) if name in SET_NAMES]
-    if len(columns) > 1 or len(text.names) < 2:
+    columns = [i for i, name in enumerate(names) if name in SET_NAMES]
+    if len(columns) > 1 or len(names) < 2:
         raise FormatError(path, "the header needs one set column and at least one coordinate")
-    table = text.value.reshape(len(text.line), len(text.names))
+    table = text.value.reshape(len(text.line), len(names))
     index = np.clip(table[:, columns[0]], -1, 2.0**53)  # the difference of two inf is none
     step = np.diff(index, prepend=index[0])
     good = ((step == 0) | (step == 1)) & ((index[0] == 0) | (index[0] == 1))
@@ -193,25 +210,15 @@ def _by_column(path: Path, text: Lexed) -> list[FloatArray]:
         raise FormatError(path, said, int(text.line[at]))
     bounds = [0, *np.flatnonzero(step).tolist(), len(index)]
     points = np.delete(table, columns[0], axis=1)
-    _inside(path, points, text.line)
-    return [points[a:b].copy() for a, b in pairwise(bounds)]
+    return [Coordinates(points[a:b].copy(), text.line[a:b]) for a, b in pairwise(bounds)]
 
 
-def _coordinates(path: Path, text: Lexed, begin: IntArray, span: Span) -> FloatArray:
+def _coordinates(text: Lexed, begin: IntArray, span: Span) -> Coordinates:
     first, n = span
     points = text.value[begin[first] : begin[first + n]].reshape(n, -1)
-    _inside(path, points, text.line[first : first + n])
-    return points
+    return Coordinates(points, text.line[first : first + n])
 
 
-def _inside(path: Path, points: FloatArray, line: IntArray) -> None:
-    """Wrap 1.0 to 0 in place; refuse whatever else lies outside [0, 1)."""
-    if not (points.min() >= 0 and points.max() <= 1):
-        row, column = np.argwhere(~((points >= 0) & (points <= 1)))[0]
-        raise FormatError(path, outside_text(float(points[row, column])), int(line[row]))
-    points[points == 1] = 0
-
-
-def outside_text(value: float) -> str:
-    """Say what is wrong with a coordinate that is not on the torus."""
-    return f"coordinate {value!r} is not in [0, 1]; scale the points to the unit torus first"
+TEXT = Format(
+    "text", (".txt", ".dat", ".csv", ".tsv"), _recognises, read_text, WRITERS, frozenset({"columns"})
+)

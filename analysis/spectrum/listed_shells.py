@@ -1,0 +1,122 @@
+"""Exact shells |f|^2 = 1, 2, 3, ... listed frequency by frequency: what high dimensions can afford.
+
+A cube of d axes holds 3^d frequencies at the least. The shell |f|^2 = 1 holds 2 d, and the first shells about
+as many as there are ways to choose |f|^2 axes, times 2^|f|^2: 9,120 on |f|^2 = 3 in d = 20.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gbnbench.analysis.spectrum.limits import LARGEST_NU, MOST_KEPT
+from gbnbench.analysis.spectrum.shells import EDGE
+
+MOST_COORDINATES = 1 << 23  # of the frequencies of one half space: 64 MB as they are listed
+MOST_TERMS = 4e9  # of one set: half the frequencies times points times dimension, seconds on one core
+
+
+def shell_sizes(d: int, most: int) -> list[int]:
+    """Count the integer frequencies on every shell |f|^2 = 0 ... most, exactly.
+
+    Parameters
+    ----------
+    d, most : int
+        Dimension, and largest |f|^2.
+
+    Returns
+    -------
+    list of int
+        ``most + 1`` numbers: the first coefficients of (1 + 2 q + 2 q^4 + 2 q^9 + ...)^d.
+
+    Examples
+    --------
+    >>> shell_sizes(2, 5), shell_sizes(20, 3)
+    ([1, 4, 4, 0, 4, 8], [1, 40, 760, 9120])
+    """
+    sizes = [1, *[0] * most]
+    squares = [digit * digit for digit in range(1, math.isqrt(most) + 1)]
+    for _ in range(d):
+        sizes = [
+            sizes[k] + 2 * sum(sizes[k - square] for square in squares if square <= k)
+            for k in range(most + 1)
+        ]
+    return sizes
+
+
+def half_ball(d: int, high: int, low: int = 1) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """List one half space of the frequencies with low <= |f|^2 <= high, shell by shell.
+
+    Parameters
+    ----------
+    d, high, low : int
+        Dimension, and largest and smallest |f|^2, at least 1.
+
+    Returns
+    -------
+    square : (m,) int64
+        |f|^2, ascending.
+    frequencies : (m, d) int64
+        Of each pair f and -f the one whose first coordinate that is not 0 is positive.
+    """
+    digits = np.arange(-math.isqrt(high), math.isqrt(high) + 1)
+    listed, square = np.zeros((1, 0), np.int16), np.zeros(1, np.int64)
+    for _ in range(d):
+        total = square[:, None] + digits**2
+        keep = (total <= high) & ((square > 0)[:, None] | (digits >= 0))
+        row, digit = np.nonzero(keep)
+        listed = np.column_stack([listed[row], digits[digit].astype(np.int16)])
+        square = total[keep]
+    wanted = square >= low
+    listed, square = listed[wanted], square[wanted]
+    order = np.argsort(square, kind="stable")
+    return square[order], listed[order].astype(np.int64)
+
+
+def affordable_square(n: int, d: int, realizations: int = 1) -> int:
+    """Choose the largest |f|^2 whose shells are listed by default: just beyond nu = 2, or as affordable.
+
+    Parameters
+    ----------
+    n, d : int
+        Points of a set, and dimension.
+    realizations : int
+        Number of sets whose powers are kept.
+
+    Returns
+    -------
+    int
+        At least 1: 2 d frequencies are always affordable.
+    """
+    wanted = (math.floor(LARGEST_NU * math.pow(n, 1 / d) * (1 + EDGE)) + 1) ** 2
+    most = 2 * min(MOST_COORDINATES / d, MOST_TERMS / (n * d), MOST_KEPT / realizations)
+    return max(1, largest_square(d, int(most), wanted))
+
+
+def largest_square(d: int, most: int, wanted: int) -> int:
+    """Find the largest |f|^2, up to what is wanted, within which there are at most so many frequencies.
+
+    Parameters
+    ----------
+    d, most, wanted : int
+        Dimension, frequencies allowed, and |f|^2 beyond which none are wanted.
+
+    Returns
+    -------
+    int
+        0 where even |f|^2 = 1 is too much.
+    """
+    counted = 16  # in high dimensions the first few shells are all there is
+    while True:
+        sizes = shell_sizes(d, min(counted, wanted))
+        within = reached = 0
+        for square, size in enumerate(sizes[1:], start=1):
+            within += size
+            if within > most:
+                return reached
+            reached = square
+        if counted >= wanted:
+            return reached
+        counted *= 4

@@ -1,0 +1,1 @@
+"""Results of the analysis, frozen, each with the settings that made it."""

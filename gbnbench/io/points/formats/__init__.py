@@ -1,0 +1,1 @@
+"""One module a format of point files, and their registry."""

@@ -1,0 +1,151 @@
+"""Coordinates in the unit of a file become fractions of their box, or an error that names the line."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from gbnbench.core.errors import FormatError
+from gbnbench.core.torus import FloatArray
+from gbnbench.io.points.point_sets import Box, Coordinates, FileContent, PointSets
+from gbnbench.io.points.reading_options import ReadingOptions, listed
+
+ROUNDING = 1e-6  # in sides: float32 and six written digits leave the box by less
+FAR = 1.0  # sides beyond the unit torus up to which wrap is believed without a box
+FEW, MANY = 4, 16  # points and dimensions of an array that is more likely transposed
+
+
+def fractions_of_box(path: Path, content: FileContent, options: ReadingOptions) -> PointSets:
+    """Divide the coordinates of a file by the sides of their box.
+
+    Parameters
+    ----------
+    path : Path
+        Named in errors.
+    content : FileContent
+        What the file holds.
+    options : ReadingOptions
+        The box, where the file tells none, and whether to wrap.
+
+    Returns
+    -------
+    PointSets
+        The upper end of a periodic box becomes 0; of one that is not told to be periodic but has bounds, the
+        largest number below 1, so that a window keeps the points on its edge.
+
+    Raises
+    ------
+    FormatError
+        If the box has another number of axes, contradicts that of the file, or a point lies outside it.
+    """
+    d = content.sets[0].points.shape[1]
+    if any(one.points.shape[1] != d for one in content.sets):
+        dimensions = sorted({one.points.shape[1] for one in content.sets})
+        raise FormatError(path, f"its sets have different dimensions: {dimensions}")
+    for one in content.sets:
+        _refuse_transposed(path, one, options)
+    box = _box(path, content.box, options, d)
+    toroidal = None if box is None or box.periodic is None else all(box.periodic)
+    edge = 0.0 if box is None or toroidal else float(np.nextafter(1, 0))
+    sets = [_inside(path, one, box, options, edge) for one in content.sets]
+    return PointSets(sets, None if box is None else box.sides, None if box is None else box.low, toroidal)
+
+
+def _refuse_transposed(path: Path, one: Coordinates, options: ReadingOptions) -> None:
+    n, d = one.points.shape
+    if n <= FEW and d >= MANY and options.columns is None:
+        raise FormatError(
+            path,
+            f"{one.where}{n} point{'s' * (n != 1)} of {d} dimensions: is it transposed? Rows are points and "
+            f"columns coordinates; save its transpose, or take columns by name or number, such as 1,2, "
+            f"with --columns",
+        )
+
+
+def _box(path: Path, own: Box | None, options: ReadingOptions, d: int) -> Box | None:
+    given = _given_box(path, options, d)
+    if given is None or own is None:
+        return own if given is None else given
+    far = max(
+        abs(a - b)
+        for pair in ((given.low, own.low), (given.sides, own.sides))
+        for a, b in zip(*pair, strict=True)
+    )
+    if far > ROUNDING * max(own.sides):
+        name = "--period" if options.period is not None else "--bounds"
+        raise FormatError(
+            path, f"tells its own box, {_described(own)}, which {name} contradicts; leave it out"
+        )
+    return own
+
+
+def _given_box(path: Path, options: ReadingOptions, d: int) -> Box | None:
+    if options.period is not None:
+        sides = options.period * d if len(options.period) == 1 else options.period
+        if len(sides) != d:
+            raise FormatError(
+                path, f"--period {listed(sides)} has {len(sides)} sides, and its points have d={d}"
+            )
+        return Box((0.0,) * d, sides, (True,) * d)
+    if options.bounds is None:
+        return None
+    low, high = options.bounds[::2], options.bounds[1::2]
+    if len(low) == 1:
+        low, high = low * d, high * d
+    if len(low) != d:
+        said = f"--bounds {listed(options.bounds)} is of {len(low)} axes, and its points have d={d}"
+        raise FormatError(path, said)
+    return Box(low, tuple(b - a for a, b in zip(low, high, strict=True)))
+
+
+def _described(box: Box) -> str:
+    return " x ".join(f"[{a:g}, {a + s:g}]" for a, s in zip(box.low, box.sides, strict=True))
+
+
+def _inside(
+    path: Path, one: Coordinates, box: Box | None, options: ReadingOptions, edge: float
+) -> FloatArray:
+    x = one.points
+    if box is not None and not one.scaled:
+        with np.errstate(invalid="ignore", over="ignore"):
+            x = (x - np.array(box.low)) / np.array(box.sides)
+    x = np.require(x, np.float64, ["C", "W"])
+    if not (x.min() >= 0 and x.max() <= 1):  # nan is neither
+        if not (options.wrap or one.unwrapped):
+            _refuse(path, one, x, ~((x >= 0) & (x <= 1)), box)
+        within = np.isfinite(x) if box is not None else (x >= -FAR) & (x <= 1 + FAR)
+        if not within.all():
+            _refuse(path, one, x, ~within, box)
+        x = np.mod(x, 1.0)
+        x[x >= 1] = 0
+        return x
+    x[x == 1] = edge
+    return x
+
+
+def _refuse(path: Path, one: Coordinates, x: FloatArray, outside: np.ndarray, box: Box | None) -> None:
+    """Refuse the first coordinate outside, with the way out that fits how far it lies."""
+    row, column = (int(i) for i in np.argwhere(outside)[0])
+    value = float(one.points[row, column])
+    line = None if one.lines is None else int(one.lines[row])
+    where = "" if line is not None else f" (point {row}, axis {column})"
+    raise FormatError(path, f"{one.where}{_said(value, x, column, None if one.scaled else box)}{where}", line)
+
+
+def _said(value: float, x: FloatArray, axis: int, box: Box | None) -> str:
+    if not np.isfinite(value):
+        return f"coordinate {value!r} is not finite: remove the point"
+    low, high = (0.0, 1.0) if box is None else (box.low[axis], box.low[axis] + box.sides[axis])
+    said = f"coordinate {value!r} is not in [{low:g}, {high:g}]"
+    finite = x[np.isfinite(x)]
+    if finite.min() >= -ROUNDING and finite.max() <= 1 + ROUNDING:
+        return f"{said}, but no further outside than rounding takes it: --wrap (wrap=True) brings it in"
+    if box is None:
+        return (
+            f"{said}; scale the points to the unit torus first: give the box that they were measured in, "
+            "such as --period 512,512 (its sides) or --bounds 0,512,0,512 (period=, bounds= in Python)"
+        )
+    if box.periodic is not None and box.periodic[axis]:
+        return f"{said}, the box; where it left through a side, --wrap (wrap=True) brings it back"
+    return f"{said}, the box; give the box that holds all points"

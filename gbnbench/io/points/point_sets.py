@@ -1,0 +1,135 @@
+"""Point sets as a file holds them, in its own unit, and as fractions of their box."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gbnbench.core.torus import FloatArray
+
+IntArray = NDArray[np.int64]
+
+EQUAL = 1e-9  # of the largest side: sides that differ by no more are equal
+
+
+@dataclass(frozen=True)
+class PointSets:
+    """The sets of a file, ready to be measured.
+
+    Attributes
+    ----------
+    sets : list of (n_i, d) float64
+        Fractions of the box, in [0, 1).
+    sides : tuple of float or None
+        Lengths of the box's sides in the unit of the file; None where the file and the options tell none and
+        the unit torus is meant.
+    low : tuple of float or None
+        Its lower corner, likewise.
+    toroidal : bool or None
+        Whether opposite sides of the box are one; None where nothing says so.
+    """
+
+    sets: list[FloatArray]
+    sides: tuple[float, ...] | None = None
+    low: tuple[float, ...] | None = None
+    toroidal: bool | None = None
+
+
+@dataclass(frozen=True)
+class Box:
+    """The box of a file, whose axes are those of its points.
+
+    Attributes
+    ----------
+    low, sides : tuple of float
+        Lower corner and lengths, in the unit of the file.
+    periodic : tuple of bool or None
+        For each axis, whether its ends are one; None where the file does not say.
+    """
+
+    low: tuple[float, ...]
+    sides: tuple[float, ...]
+    periodic: tuple[bool, ...] | None = None
+
+
+@dataclass(frozen=True)
+class Coordinates:
+    """One set as its file holds it.
+
+    Attributes
+    ----------
+    points : (n, d) float64
+        In the unit of the file.
+    lines : (n,) int64 or None
+        1-based line of each point, where the format has lines.
+    where : str
+        What an error says of its place in the file before anything else, such as ``array 'points': ``.
+    scaled : bool
+        Whether they are fractions of the box already, as LAMMPS's xs are.
+    unwrapped : bool
+        Whether the format defines that whole sides are to be taken off, as LAMMPS's xu does.
+    """
+
+    points: FloatArray
+    lines: IntArray | None = None
+    where: str = ""
+    scaled: bool = False
+    unwrapped: bool = False
+
+
+@dataclass(frozen=True)
+class FileContent:
+    """What a file holds: its sets in its own unit, and its box where it tells one.
+
+    Attributes
+    ----------
+    sets : list of Coordinates
+        In the order of the file, of one dimension, at least one.
+    box : Box or None
+        Of all sets.
+    """
+
+    sets: list[Coordinates]
+    box: Box | None = None
+
+
+def in_own_unit(x: PointSets) -> list[FloatArray]:
+    """Return the sets in the unit of their box: its lower corner plus each fraction times the side.
+
+    Parameters
+    ----------
+    x : PointSets
+        Fractions.
+
+    Returns
+    -------
+    list of (n_i, d) float64
+        The fractions themselves where no box is told.
+    """
+    if x.sides is None or x.low is None:
+        return x.sets
+    return [np.array(x.low) + s * np.array(x.sides) for s in x.sets]
+
+
+def unequal_sides(sides: tuple[float, ...] | None) -> str | None:
+    """Say that lengths cannot be measured in a box of unequal sides, or return None for a cube.
+
+    Parameters
+    ----------
+    sides : tuple of float or None
+        Of the box; None for the unit torus.
+
+    Returns
+    -------
+    str or None
+        A sentence for an error.
+    """
+    if sides is None or max(sides) - min(sides) <= EQUAL * max(sides):
+        return None
+    shown = " x ".join(f"{side:g}" for side in sides)
+    return (
+        f"its box has unequal sides, {shown}: as fractions of it lengths would come out wrong along some "
+        "axes; only boxes of equal sides are measured"
+    )
