@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gbnbench.analysis.window.bin_covariance import interpolated
 from gbnbench.analysis.window.box import Window, check_window
 from gbnbench.analysis.window.hyperuniformity import Value, hyperuniformity
 from gbnbench.analysis.window.nearest_neighbours import NearestDistances, nearest_distances
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
     import pandas as pd
 
 MODES = {1: 4096, 2: 128, 3: 24}  # half steps of pi / L over which the variance of n is summed
+
+LOWEST = 0.05  # of the first bin's wave number, below which S is taken there
 
 TITLES: Mapping[str, str] = {
     "intensity": "points per unit of volume",
@@ -52,7 +55,7 @@ class WindowEstimates:
     tapers : tuple of int
         Sine tapers of each axis.
     structure_factor : pandas.DataFrame
-        Columns k, nu, S, standard_error, low, high, count, degrees, fit_degrees, leakage, resolved: see
+        Columns k, nu, S, standard_error, low, high, count, degrees, leakage, resolved: see
         ``gbnbench.analysis.window.radial_structure_factor``.
     pair_correlation : pandas.DataFrame
         Columns r, spacings, g, standard_error, pairs.
@@ -139,19 +142,19 @@ def in_window(
     rate = (n / window.volume) ** (1 / d)
     seen = tapered(x, window, tapers)
     rng = np.random.default_rng(np.random.SeedSequence(seed))
-    spectrum = radial_structure_factor(seen, 2 * math.pi * nu_max * rate, rng, told)
+    spectrum, covariance = radial_structure_factor(seen, 2 * math.pi * nu_max * rate, rng, told)
     told.start(2, 0, "pair correlation")
     pairs = pair_correlation(x, window, spectrum)
     told.advance("nearest neighbours")
     nearest = nearest_distances(x, window)
     told.advance("nearest neighbours")
-    low_band = hyperuniformity(spectrum)
+    low_band = hyperuniformity(spectrum, covariance)
     intensity = n / window.volume
-    no_neighbour = (
-        "" if len(nearest.distance) else "no point has its nearest neighbour nearer than the border"
-    )
+    no_neighbour = "" if len(nearest.distance) else "no point has its nearest neighbour nearer than the border"
+    alpha = low_band.exponent
+    relative = count_variance(spectrum, window, 0.0 if alpha.reason else alpha.value - alpha.error)
     found = {
-        "intensity": Value(intensity, intensity * math.sqrt(count_variance(spectrum, window) / n)),
+        "intensity": Value(intensity, intensity * math.sqrt(relative / n)),
         "s_zero": low_band.s_zero,
         "s_peak": low_band.s_peak,
         "nu_peak": Value(low_band.nu_peak, math.nan, low_band.s_peak.reason),
@@ -169,7 +172,7 @@ def in_window(
     return WindowEstimates(n, d, window, seen.tapers.counts, spectrum, pairs, nearest, scalars)
 
 
-def count_variance(spectrum: pd.DataFrame, window: Window) -> float:
+def count_variance(spectrum: pd.DataFrame, window: Window, exponent: float) -> float:
     """Estimate the variance of n over its mean: the mean of S under the window's own transform.
 
     Parameters
@@ -178,12 +181,14 @@ def count_variance(spectrum: pd.DataFrame, window: Window) -> float:
         Columns k and S.
     window : Window
         The window.
+    exponent : float
+        Of the power law that S follows below its first bin; taken as 0 if it is less.
 
     Returns
     -------
     float
-        1 + sum over multiples m of pi / L_a of (S - 1) prod_a sinc(m_a / 2)^2 / 2, S being that of the first bin
-        below it, and 1 beyond the last. In more than three dimensions that of the first bin.
+        1 + sum over multiples m of pi / L_a of (S - 1) prod_a sinc(m_a / 2)^2 / 2, S being a power law
+        below the first bin, and 1 beyond the last. In more than three dimensions that of the first bin.
     """
     k, s = spectrum["k"].to_numpy(), spectrum["S"].to_numpy()
     if window.d not in MODES:
@@ -193,5 +198,6 @@ def count_variance(spectrum: pd.DataFrame, window: Window) -> float:
     for side in window.sides.tolist():
         squares = (squares[:, None] + (math.pi / side * steps) ** 2).ravel()
         weight = (weight[:, None] * np.sinc(steps / 2) ** 2 / 2).ravel()
-    excess: FloatArray = np.interp(np.sqrt(squares), k, s - 1, right=0.0)
+    at = np.sqrt(squares)
+    excess: FloatArray = np.where(at > k[-1], 0.0, interpolated(np.maximum(at, LOWEST * k[0]), k, s, exponent) - 1)
     return max(1 + float(weight @ excess), 0.0)

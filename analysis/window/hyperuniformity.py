@@ -13,13 +13,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gbnbench.core.torus import FloatArray
 
 if TYPE_CHECKING:
     import pandas as pd
 
-BAND = 0.4  # nu up to which both are fitted
+BAND = 0.5  # nu up to which both are fitted
 PEAK = (0.5, 2.0)  # nu between which the peak is sought
 STEPS = 100
 
@@ -40,14 +41,14 @@ class Hyperuniformity:
     Attributes
     ----------
     s_zero : Value
-        S extrapolated to k = 0, by s + t k^2 + u k^4 up to nu = 0.4. It may come out below 0 by its error.
+        S extrapolated to k = 0, by s + t k^2 + u k^4 up to nu = 0.5. It may come out below 0 by its error.
     s_peak, nu_peak : Value and float
         Largest mean of three neighbouring bins with 0.5 <= nu <= 2, and where it is. The largest of several
         estimates lies above the true peak by about its error.
     ratio : Value
         H = s_zero / s_peak.
     exponent : Value
-        alpha in S = c k^alpha exp(b k^2) up to nu = 0.4, the factor b standing for what follows the power law.
+        alpha in S = c k^alpha exp(b k^2) up to nu = 0.5, the factor b standing for what follows the power law.
     """
 
     s_zero: Value
@@ -57,13 +58,15 @@ class Hyperuniformity:
     exponent: Value
 
 
-def hyperuniformity(spectrum: pd.DataFrame) -> Hyperuniformity:
+def hyperuniformity(spectrum: pd.DataFrame, covariance: FloatArray) -> Hyperuniformity:
     """Fit the lowest bins of a structure factor.
 
     Parameters
     ----------
     spectrum : pandas.DataFrame
         As ``radial_structure_factor`` returns it. Bins that are not resolved do not count.
+    covariance : (bins, bins) float64
+        Relative covariance of its S.
 
     Returns
     -------
@@ -74,10 +77,9 @@ def hyperuniformity(spectrum: pd.DataFrame) -> Hyperuniformity:
     An exponent's 95% confidence interval is 1.96 standard errors to either side. Errors are those of Gaussian
     amplitudes; what a formula misses of the true S in the band comes on top.
     """
-    known = spectrum[spectrum["resolved"]]
-    low = known[known["nu"] <= BAND]
-    s_zero, exponent = _fits(low)
-    s_peak, nu_peak = _peak(known[known["nu"].between(*PEAK)])
+    nu, resolved = spectrum["nu"].to_numpy(), spectrum["resolved"].to_numpy()
+    s_zero, exponent = _fits(*_chosen(spectrum, covariance, resolved & (nu <= BAND)))
+    s_peak, nu_peak = _peak(*_chosen(spectrum, covariance, resolved & (nu >= PEAK[0]) & (nu <= PEAK[1])))
     ratio = Value(math.nan, math.nan, s_zero.reason or s_peak.reason)
     if not ratio.reason:
         h = s_zero.value / s_peak.value
@@ -85,28 +87,36 @@ def hyperuniformity(spectrum: pd.DataFrame) -> Hyperuniformity:
     return Hyperuniformity(s_zero, s_peak, nu_peak, ratio, exponent)
 
 
-def _fits(low: pd.DataFrame) -> tuple[Value, Value]:
+def _chosen(
+    spectrum: pd.DataFrame, covariance: FloatArray, which: NDArray[np.bool_]
+) -> tuple[pd.DataFrame, FloatArray]:
+    return spectrum[which], covariance[np.ix_(which, which)]
+
+
+def _fits(low: pd.DataFrame, covariance: FloatArray) -> tuple[Value, Value]:
     """Fit S at 0 and the exponent to the bins of the low band."""
     bins = len(low)
-    if bins < 3 or low["fit_degrees"].sum() < 12:
-        reason = f"the window resolves {bins} bins of S up to nu = {BAND:g}, too few for a fit: more points are needed"
+    if bins < 3:
+        reason = (
+            f"the window resolves {bins} bins of S up to nu = {BAND:g}, where a fit needs 3: more points are needed"
+        )
         return Value(math.nan, math.nan, reason), Value(math.nan, math.nan, reason)
-    k, s, degrees = (low[name].to_numpy() for name in ("k", "S", "fit_degrees"))
+    k, s = low["k"].to_numpy(), low["S"].to_numpy()
     u = (k / k[-1]) ** 2
-    powers = np.stack([np.ones(bins), u, u**2][: min(3, bins - 1)], axis=1)
+    powers = np.stack([np.ones(bins), u, u**2]], axis=1)
     start = np.zeros(powers.shape[1])
-    start[0] = np.average(s, weights=degrees)
-    fitted, covariance = gamma_regression(powers, s, degrees, start, log=False)
-    s_zero = Value(float(fitted[0]), math.sqrt(float(covariance[0, 0])))
-    logs = np.stack([np.ones(bins), np.log(k / k[-1]), u][: min(3, bins - 1)], axis=1)
+    start[0] = np.average(s, weights=1 / np.diag(covariance))
+    fitted, errors = gamma_regression(powers, s, covariance, start, log=False)
+    s_zero = Value(float(fitted[0]), math.sqrt(float(errors[0, 0])))
+    logs = np.stack([np.ones(bins), np.log(k / k[-1]), u]], axis=1)
     start = np.zeros(logs.shape[1])
-    start[0] = math.log(float(np.average(s, weights=degrees)))
-    fitted, covariance = gamma_regression(logs, s, degrees, start, log=True)
-    return s_zero, Value(float(fitted[1]), math.sqrt(float(covariance[1, 1])))
+    start[0] = math.log(float(np.average(s, weights=1 / np.diag(covariance))))
+    fitted, errors = gamma_regression(logs, s, covariance, start, log=True)
+    return s_zero, Value(float(fitted[1]), math.sqrt(float(errors[1, 1])))
 
 
 def gamma_regression(
-    design: FloatArray, s: FloatArray, degrees: FloatArray, start: FloatArray, *, log: bool
+    design: FloatArray, s: FloatArray, covariance: FloatArray, start: FloatArray, *, log: bool
 ) -> tuple[FloatArray, FloatArray]:
     """Fit means of exponential variables by maximum likelihood.
 
@@ -114,8 +124,10 @@ def gamma_regression(
     ----------
     design : (bins, q) float64
         Columns of the model.
-    s, degrees : (bins,) float64
-        Means, above 0, and of how many independent variables each.
+    s : (bins,) float64
+        Means, above 0.
+    covariance : (bins, bins) float64
+        Of the means, over the product of their expectations: each is worth 1 / its diagonal variables.
     start : (q,) float64
         Coefficients to begin with, whose means are above 0.
     log : bool
@@ -124,13 +136,15 @@ def gamma_regression(
     Returns
     -------
     coefficients : (q,) float64
-    covariance : (q, q) float64
-        Inverse of the Fisher information.
+    errors : (q, q) float64
+        Covariance of the coefficients, in which that between bins is counted (the sandwich formula).
 
     Notes
     -----
-    Fisher's scoring of sum over bins of degrees (log mean + s / mean), a step halved until it does not rise.
+    Fisher's scoring of sum over bins of (log mean + s / mean) / variance, a step halved until it does not rise.
     """
+
+    degrees = 1 / np.diag(covariance)
 
     def means(coefficients: FloatArray) -> FloatArray:
         linear: FloatArray = design @ coefficients
@@ -158,19 +172,20 @@ def gamma_regression(
         if gained <= 1e-12 * float(degrees.sum()):
             break
     slopes = design if log else design / mean[:, None]
-    return at, np.linalg.pinv(slopes.T @ (slopes * degrees[:, None]), hermitian=True)
+    scores = slopes * degrees[:, None]
+    inverse = np.linalg.pinv(slopes.T @ scores, hermitian=True)
+    return at, inverse @ scores.T @ covariance @ scores @ inverse
 
 
-def _peak(band: pd.DataFrame) -> tuple[Value, float]:
+def _peak(band: pd.DataFrame, covariance: FloatArray) -> tuple[Value, float]:
     """Find the largest weighted mean of three neighbouring bins."""
     if len(band) < 3:
-        return Value(
-            math.nan, math.nan, f"S has {len(band)} bins with {PEAK[0]:g} <= nu <= {PEAK[1]:g}"
-        ), math.nan
-    s, nu, degrees = (band[name].to_numpy() for name in ("S", "nu", "fit_degrees"))
+        reason = f"S is known in {len(band)} bins with {PEAK[0]:g} <= nu <= {PEAK[1]:g}, where a peak needs 3"
+        return Value(math.nan, math.nan, reason), math.nan
+    s, nu, degrees = band["S"].to_numpy(), band["nu"].to_numpy(), 1 / np.diag(covariance)
     three = np.ones(3)
-    weight = np.convolve(degrees, three, "valid")
-    mean = np.convolve(degrees * s, three, "valid") / weight
-    top = int(mean.argmax())
-    value = Value(float(mean[top]), float(mean[top] / math.sqrt(weight[top])))
-    return value, float(np.average(nu[top : top + 3], weights=degrees[top : top + 3]))
+    mean = np.convolve(degrees * s, three, "valid") / np.convolve(degrees, three, "valid")
+    top = slice(int(mean.argmax()), int(mean.argmax()) + 3)
+    weight = degrees[top] / degrees[top].sum()
+    part = weight * s[top]
+    return Value(float(part.sum()), math.sqrt(float(part @ covariance[top, top] @ part))), float(weight @ nu[top])

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy import stats
 
+from gbnbench.analysis.window.bin_covariance import relative_covariance
 from gbnbench.analysis.window.structure_factor import TaperedPoints
 from gbnbench.analysis.window.tapered_sums import GriddedSums, direct_sums, griddable
 from gbnbench.analysis.window.tapers import ComplexArray, IntArray, SineTapers
@@ -31,13 +32,12 @@ GRID_DIMENSIONS = 3  # beyond, a point reaches too many nodes
 PHASES = 1e8  # sines and cosines that sampled wave vectors may take
 LEAST_SAMPLE = 32  # wave vectors of a sampled bin
 CONFIDENCE = 0.95
-COUNTED = 512  # wave vectors of a bin whose neighbours are counted
 RISE = 0.5  # S from which power leaks to a lower band
 
 
 def radial_structure_factor(
     seen: TaperedPoints, kmax: float, rng: np.random.Generator, progress: Progress
-) -> pd.DataFrame:
+) -> tuple[pd.DataFrame, FloatArray]:
     """Average the tapered powers over the allowed wave vectors in bins of the wave number.
 
     Parameters
@@ -53,20 +53,21 @@ def radial_structure_factor(
 
     Returns
     -------
-    pandas.DataFrame
+    table : pandas.DataFrame
         A row a bin: ``k``, effective wave number, at which S is unbiased where it is linear in k^2 over the
         bin and the bandwidth; ``nu``, k / (2 pi) over intensity^(1/d); ``S``; ``standard_error``; ``low`` and
         ``high``, a 95% confidence interval; ``count``, wave vectors of half the space; ``degrees``, how many
-        independent exponential powers the mean is worth; ``fit_degrees``, the same in a fit over many bins, whose
-        neighbours have power in common; ``leakage``, power that side lobes of the tapers
+        independent exponential powers the mean is worth; ``leakage``, power that side lobes of the tapers
         bring from where S >= 1/2; ``resolved``, whether k is at least the bandwidth and S above twice the
         leakage.
+    covariance : (bins, bins) float64
+        Of the estimates of S, over the product of their expectations.
 
     Notes
     -----
-    For a Gaussian amplitude the relative variance is the mean over pairs of wave vectors k, k' and of tapers
-    p, q of |integral of h_p h_q exp(-i (k - k').x)|^2, summed here over the neighbours that lie in the bin.
-    ``degrees`` is its inverse, and 2 degrees S_estimate / S is taken to be chi-squared with 2 degrees.
+    S = sum of \|J_p(k)\|^2 over the bin and the tapers, over ``weight`` times the sum of the integrals of
+    \|g\|^2. ``degrees`` is 1 over the relative variance of ``relative_covariance``, and 2 degrees S_estimate / S
+    is taken to be chi-squared with 2 degrees.
     """
     import pandas as pd
 
@@ -90,13 +91,14 @@ def radial_structure_factor(
                 totals[place, column] += np.bincount(label, part.sum(axis=0), len(group))
     with np.errstate(invalid="ignore", divide="ignore"):
         s, k = totals[:, 0] / (seen.weight * totals[:, 1]), np.sqrt(totals[:, 2] / totals[:, 1])
-    degrees = np.array([degrees_of_freedom(b, tapers) for b in bins])
-    low, high = (
-        2 * degrees / stats.chi2.ppf(q, 2 * degrees) for q in ((1 + CONFIDENCE) / 2, (1 - CONFIDENCE) / 2)
-    )
+    covariance = relative_covariance(bins, k, s, tapers)
+    degrees = 1 / np.diag(covariance)
+    low, high = (2 * degrees / stats.chi2.ppf(q, 2 * degrees) for q in (
+        (1 + CONFIDENCE) / 2, (1 - CONFIDENCE) / 2
+    ))
     middle = np.array([(b.low + b.high) / 2 for b in bins])
     leaked = leakage(middle, s, tapers)
-    return pd.DataFrame(
+    table = pd.DataFrame(
         {
             "k": k,
             "nu": k / (2 * math.pi) * (seen.window.volume / n) ** (1 / seen.window.d),
@@ -106,14 +108,11 @@ def radial_structure_factor(
             "high": s * high,
             "count": [len(b.multiples) for b in bins],
             "degrees": degrees,
-            "fit_degrees": [
-                len(b.multiples) / tapers.correlation if b.share == 1 else own
-                for b, own in zip(bins, degrees, strict=True)
-            ],
             "leakage": leaked,
             "resolved": (middle >= tapers.bandwidth) & (s > 2 * leaked),
         }
     )
+    return table, covariance
 
 
 def _bins(edges: FloatArray, sides: FloatArray, n: int, rng: np.random.Generator) -> list[Bin]:
@@ -144,9 +143,7 @@ def _drawn(low: float, high: float, sides: FloatArray, most: int, rng: np.random
     if enumerable(high, sides):
         every = every_wave_vector(high, sides)
         inside = every[np.linalg.norm(2 * math.pi / sides * every, axis=1) >= low]
-        return (
-            inside if len(inside) <= most else inside[np.sort(rng.choice(len(inside), most, replace=False))]
-        )
+        return inside if len(inside) <= most else inside[np.sort(rng.choice(len(inside), most, replace=False))]
     return some_wave_vectors(low, high, sides, most, rng)
 
 
@@ -164,39 +161,9 @@ def _direct(
     seen: TaperedPoints, multiples: IntArray, progress: Progress
 ) -> Iterator[tuple[slice, ComplexArray]]:
     """Sum all tapers at once, wave vector by wave vector."""
-    yield slice(None), direct_sums(seen.u, seen.values, multiples.astype(np.float64), progress, "float")
-
-
-def degrees_of_freedom(shell: Bin, tapers: SineTapers) -> float:
-    """Count the independent powers that a bin's mean is worth.
-
-    Parameters
-    ----------
-    shell : Bin
-        Wave vectors.
-    tapers : SineTapers
-        Tapers.
-
-    Returns
-    -------
-    float
-        At most ``count`` times the number of tapers.
-    """
-    d = len(tapers.sides)
-    steps = [np.arange(-r, r + 1) for r in (1 if count == 1 else count + 2 for count in tapers.counts)]
-    size = math.prod(len(step) for step in steps)
-    counted = min(len(shell.multiples), max(16, min(COUNTED, (1 << 22) // (size * d))))
-    own = shell.multiples[np.linspace(0, len(shell.multiples) - 1, counted).astype(np.intp)]
-    squares = np.zeros((counted, 1))
-    overlap = np.ones(1)
-    for axis, step in enumerate(steps):
-        moved = (2 * math.pi / tapers.sides[axis] * (own[:, axis, None] + step)) ** 2
-        squares = (squares[:, :, None] + moved[:, None, :]).reshape(counted, -1)
-        overlap = (overlap[:, None] * tapers.squared_overlaps(axis, step)).ravel()
-    inside = (squares >= shell.low**2) & (squares < shell.high**2)
-    number = len(tapers.orders)
-    neighbours = float((inside @ overlap).mean()) - number
-    return len(shell.multiples) * number**2 / (number + shell.share * neighbours)
+    yield slice(None), direct_sums(
+        seen.u, seen.values, multiples.astype(np.float64), progress, "float"
+    )
 
 
 def leakage(k: FloatArray, s: FloatArray, tapers: SineTapers) -> FloatArray:

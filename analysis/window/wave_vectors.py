@@ -14,7 +14,7 @@ import numpy as np
 from gbnbench.analysis.window.tapers import IntArray
 from gbnbench.core.torus import FloatArray
 
-LEAST_IN_BIN = {1: 24.0}  # wave vectors expected in a bin, of one half space
+LEAST_IN_BIN = {1: 12.0}  # wave vectors expected in a bin, of one half space
 LEAST_BEYOND = 6.0  # the same in more dimensions
 WIDTH = 0.06  # of a bin, over its wave number
 LISTED = 1 << 21  # wave vectors of a box that are enumerated to pick a bin's
@@ -73,7 +73,7 @@ def bin_edges(kmax: float, sides: FloatArray) -> FloatArray:
     Returns
     -------
     (bins + 1,) float64
-        From half a step on; a bin expects at least six wave vectors, 24 in 1D.
+        From half a step on; a bin expects at least six wave vectors, 12 in 1D.
     """
     d, step = len(sides), 2 * math.pi / float(sides.min())
     edges = [0.5 * step]
