@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.settings import specification
+from gbnbench.core.sides import as_sides
 from gbnbench.core.torus import FloatArray, as_realizations
 from gbnbench.generators.protocol import Generator
 from gbnbench.generators.registry import GENERATORS, find, of_instance
@@ -49,7 +50,7 @@ class Source:
     reading : mapping
         What the user said of how the files are read, as ``ReadingOptions.record`` writes it.
     sides : tuple of float or None
-        Sides of the box in the files' unit; None where they tell none.
+        Sides of the box, in the files' unit or in that of the caller; None where nobody told any.
     toroidal : bool or None
         Whether the box is a torus, where the files or the user say so.
     """
@@ -74,7 +75,8 @@ class Source:
         }  # fmt: skip
         if self.generator is None:
             read = {"reading": dict(self.reading)} if self.reading else {}
-            return {**same, "kind": self.kind, "sha256": self.digest, **read}
+            box = {} if as_sides(self.sides, self.d) is None else {"sides": list(self.sides or ())}
+            return {**same, "kind": self.kind, "sha256": self.digest, **read, **box}
         kind = type(self.generator)
         own = {} if GENERATORS.get(kind.name) is kind else {"class": f"{kind.__module__}.{kind.__qualname__}"}
         return {
@@ -86,7 +88,7 @@ class Source:
         }
 
 
-def array_source(x: ArrayLike, label: str = "array") -> Source:
+def array_source(x: ArrayLike, label: str = "array", sides: ArrayLike | None = None) -> Source:
     """Return points that are in memory as a source, known by a checksum of their values.
 
     Parameters
@@ -95,6 +97,8 @@ def array_source(x: ArrayLike, label: str = "array") -> Source:
         Points on the unit torus.
     label : str
         What the user reads.
+    sides : (d,) array_like, optional
+        Lengths of the torus's sides, whose ratios count; a cube if not given.
 
     Returns
     -------
@@ -104,13 +108,15 @@ def array_source(x: ArrayLike, label: str = "array") -> Source:
     Raises
     ------
     InputError
-        If x is no array of points in [0, 1)^d, or the label is empty.
+        If x is no array of points in [0, 1)^d, the label is empty, or sides are not d lengths.
     """
     if not label:
         raise InputError("a source needs a name; got an empty one")
     sets = as_realizations(x)
     digest = hashlib.sha256(repr(sets.shape).encode() + sets.tobytes()).hexdigest()
-    return Source("", label, sets.shape[1], sets.shape[2], len(sets), sets=sets, digest=digest, kind="array")
+    realizations, n, d = sets.shape
+    told = None if as_sides(sides, d) is None else tuple(np.asarray(sides, dtype=np.float64).tolist())
+    return Source("", label, n, d, realizations, sets=sets, digest=digest, kind="array", sides=told)
 
 
 def resolve(
