@@ -138,7 +138,8 @@ def _explain(files: tuple[Path, ...], reading: ReadingOptions) -> None:
             for n, d in dict.fromkeys(shapes):
                 times = shapes.count((n, d))
                 with naming(path, shapes.index((n, d))):
-                    plan = SpectrumSettings().plan(n, d, 1, as_sides(read.sides, d))
+                    box = as_sides(read.sides, d)
+                    plan = SpectrumSettings().affordable(n, d, box).plan(n, d, 1, box)
                 click.echo(f"{path}{f', {times} sets, each' * (times > 1)}:\n{plan}")
         except GbnbenchError as error:
             failed = True

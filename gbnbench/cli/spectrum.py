@@ -151,6 +151,11 @@ def spectrum(
     settings = SpectrumSettings(
         fmax, half, shells or corners or band is not None, band, corners, listed, precision, floor, sigma
     )
+    largest = max((one.x.shape[1:] for one in sets), key=lambda shape: shape[1], default=(n or 1024, d or 2))
+    affordable = settings.affordable(*largest)
+    if affordable != settings and not quiet:
+        click.echo(f"gbnbench: no cube of frequencies fits in memory in d={largest[1]}: its shells", err=True)
+    settings = affordable
     if not explain:
         work.compute(settings, sets, weights, out, each=each, as_json=as_json, quiet=quiet)
     elif sets:
