@@ -13,7 +13,8 @@ FOLDER = ROOT / "tests" / "data"
 
 def published_files(pattern: str) -> list[Path]:
     """Files whose path below the folder fits the pattern, in order; at least one."""
-    files = sorted(path for path in FOLDER.glob(pattern) if path.parent != FOLDER)
+    others = (FOLDER, FOLDER / "field")  # what these hold was made by nobody else's program
+    files = sorted(path for path in FOLDER.glob(pattern) if path.parent not in others)
     assert files, f"no file of {FOLDER} fits {pattern}"
     return files
 

@@ -13,12 +13,21 @@ from numpy.typing import ArrayLike
 from gbnbench.analysis.spatial.discrepancy_kernels import KERNELS, Discrepancy
 from gbnbench.analysis.spatial.discrepancy_line import line_squares
 from gbnbench.analysis.spatial.discrepancy_pairs import pair_squares
+from gbnbench.analysis.spatial.discrepancy_plane import distance_products, plane_squares
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray, as_realizations
 
-MOST_TERMS = 4 * 10**10  # n^2 d of one set: seconds on two cores
+MOST_TERMS = 4 * 10**10  # n^2 d of one set where d > 2: seconds on two cores
 SECONDS_PER_TERM = 1.3e-10  # of one core with AVX-512
+PLANE_FROM = 10_000  # points of the plane from which divide and conquer is the cheaper
+MOST_PLANE_POINTS = 1 << 22  # some 40 seconds of one core, and a gigabyte
 WORST_ERROR = 0.01  # of the value; beyond it the value is nan
+METHODS = {
+    "line": "sum of squares over sorted points",
+    "plane": "divide and conquer",
+    "pairs": "centred pair sum in double precision",
+}
+_Found = tuple[float, float, str]  # value, error, reason
 
 
 @dataclass(frozen=True)
@@ -29,20 +38,20 @@ class DiscrepancyResult:
     ----------
     kind : Discrepancy
         Which.
+    method : str
+        How it was evaluated.
     value : (realizations,) float64
         nan where a reason stands.
     error : (realizations,) float64
         Bound of the value's error, which holds for every set: of the points as the doubles that they are.
-    method : str
-        How it was evaluated.
     reasons : tuple of str
         Why a set's value is nan, one a set; empty where there is a value.
     """
 
     kind: Discrepancy
+    method: str
     value: FloatArray
     error: FloatArray
-    method: str
     reasons: tuple[str, ...]
 
 
@@ -102,7 +111,7 @@ def measure_discrepancies(
     Raises
     ------
     RefusalError
-        If d > 1 and n^2 d exceeds 4e10: the sums run over all pairs.
+        If d > 2 and n^2 d exceeds 4e10, as the sums run over all pairs, or d = 2 and n exceeds 2^22.
     InputError
         If a kind is none of these.
 
@@ -127,9 +136,10 @@ def measure_discrepancies(
     and WD is the sum of the squares of L2-periodic over all projections on some of the axes.
 
     Written like this the three terms of nearly uniform sets agree in all digits. On the line the value is a
-    sum of squares over the sorted points instead (``line_squares``), in more dimensions the centred kernel
-    is summed in blocks in double precision (``pair_squares``), which suffices: the error is a few times
-    1e-15 of K's mean, and no set's square falls far below 1/n^2. A value whose error exceeds 1% of it is nan.
+    sum of squares over the sorted points instead (``line_squares``). In more dimensions the centred kernel
+    is summed in blocks in double precision (``pair_squares``), which suffices: the error is some 1e-14 of K's
+    mean, and the square of the best sets some 1/n^2. In the plane divide and conquer (``plane_squares``) is
+    the cheaper from 10,000 points on. A value whose error exceeds 1% of it is nan.
 
     References
     ----------
@@ -156,37 +166,48 @@ def measure_discrepancies(
     unknown = [kind for kind in kinds if kind not in KERNELS]
     if unknown:
         raise InputError(f"discrepancies are {', '.join(KERNELS)}; got {unknown[0]!r}")
-    if d > 1 and n * n * d > MOST_TERMS:
+    if d == 2 and n > MOST_PLANE_POINTS:
+        raise RefusalError(
+            f"a discrepancy in the plane needs n of at most {MOST_PLANE_POINTS}; got n={n}: "
+            f"some {n * 1e-5:.0f} seconds of one core and {n / 4e6:.0f} GB"
+        )
+    if d > 2 and n * n * d > MOST_TERMS:
         raise RefusalError(
             f"a discrepancy sums over n^2 d terms; in d={d} n must be at most "
             f"{math.isqrt(MOST_TERMS // d)}, got n={n}: "
             f"some {n * n * d * SECONDS_PER_TERM:.0f} seconds of one core"
         )
-    return {kind: _measured(sets, kind) for kind in kinds}
+    method = "line" if d == 1 else "plane" if d == 2 and n >= PLANE_FROM else "pairs"
+    each = [_of_set(points, kinds, method) for points in sets]
+    results = {}
+    for kind in kinds:
+        value, error, reasons = zip(*(found[kind] for found in each), strict=True)
+        results[kind] = DiscrepancyResult(kind, METHODS[method], np.array(value), np.array(error), reasons)
+    return results
 
 
-def _measured(sets: FloatArray, kind: Discrepancy) -> DiscrepancyResult:
-    d = sets.shape[2]
-    fault = KERNELS[kind].fault(d)
-    found = [(math.nan, math.nan, fault)] * len(sets) if fault else [_of_set(points, kind) for points in sets]
-    value, error, reasons = zip(*found, strict=True)
-    method = "sum of squares over sorted points" if d == 1 else "centred pair sum, double"
-    return DiscrepancyResult(
-        kind,
-        np.array(value),
-        np.array(error),
-        method,
-        tuple(f"{kind}: {why}" if why else "" for why in reasons),
-    )
+def _of_set(points: FloatArray, kinds: Sequence[Discrepancy], method: str) -> dict[Discrepancy, _Found]:
+    products = distance_products(points) if method == "plane" else None
+    found: dict[Discrepancy, _Found] = {}
+    for kind in kinds:
+        kernel = KERNELS[kind]
+        fault = kernel.fault(points.shape[1])
+        if fault:
+            found[kind] = math.nan, math.nan, f"{kind}: {fault}"
+        elif products is not None:
+            found[kind] = _judged(kind, *plane_squares(points, kernel, products))
+        elif method == "line":
+            found[kind] = _judged(kind, *line_squares(points, kind))
+        else:
+            found[kind] = _judged(kind, *pair_squares(points, kernel))
+    return found
 
 
-def _of_set(points: FloatArray, kind: Discrepancy) -> tuple[float, float, str]:
-    """Value, error and reason of one set."""
-    kernel = KERNELS[kind]
-    square, error = line_squares(points, kind) if points.shape[1] == 1 else pair_squares(points, kernel)
+def _judged(kind: Discrepancy, square: float, error: float) -> _Found:
+    """Turn a square and its error into a value, or into the reason why there is none."""
     if not error <= WORST_ERROR * square:
-        return math.nan, math.nan, f"its square, {square:.2g}, is known to {error:.1g} only"
-    if not kernel.rooted:
+        return math.nan, math.nan, f"{kind}: its square, {square:.2g}, is known to {error:.1g} only"
+    if not KERNELS[kind].rooted:
         return square, error, ""
     root = math.sqrt(square)
     return root, error / (1.99 * root) + 2.0**-53 * root, ""

@@ -16,11 +16,11 @@ MOST_EXPONENT = 290  # decades; products of d factors stay far within the range 
 
 
 class Form(IntEnum):
-    """Shape of a factor f(u, v) with t = |u - v|."""
+    """How a factor f(u, v) = p(u) + p(v) - t (slope - curve t), t = |u - v|, is evaluated."""
 
-    CORNER = 0  # 1 - max(u, v)
-    TORUS = 1  # 2 level - slope t (1 - t)
-    BOX = 2  # p(u) + p(v) - t (slope - curve t), p(u) = level + tilt |u - 1/2|
+    CORNER = 0  # 1 - max(u, v); p(u) = level + tilt u
+    TORUS = 1  # 2 level - slope t (1 - t); curve = slope, p is constant
+    BOX = 2  # as it stands; p(u) = level + tilt |u - 1/2|
 
 
 @dataclass(frozen=True)
@@ -70,11 +70,17 @@ class ProductKernel:
         constants = [DoubleDouble.of(c) for c in self.mean]
         product = DoubleDouble.of(Fraction(1))
         for axis in range(x.shape[1]):
-            w = DoubleDouble.of(x[:, axis])
-            if self.form is not Form.CORNER:
-                w = abs(w + DoubleDouble.of(Fraction(-1, 2)))
+            w = self._place(DoubleDouble.of(x[:, axis]))
             product = product * (constants[0] + w * (constants[1] + w * constants[2]))
         return product
+
+    def offsets(self, u: DoubleDouble) -> DoubleDouble:
+        """Give p at coordinates u."""
+        return DoubleDouble.of(Fraction(self.level)) + DoubleDouble.of(Fraction(self.tilt)) * self._place(u)
+
+    def _place(self, u: DoubleDouble) -> DoubleDouble:
+        """Give u for a corner's factor, |u - 1/2| otherwise."""
+        return u if self.form is Form.CORNER else abs(u + DoubleDouble.of(Fraction(-1, 2)))
 
     def fault(self, d: int) -> str | None:
         """Say why d axes cannot be evaluated in double; None if they can."""
@@ -95,7 +101,7 @@ KERNELS: dict[Discrepancy, ProductKernel] = {
         Form.BOX, 0.5, 0.5, 0.5, 0.0, (Fraction(1), _HALF, -_HALF), Fraction(13, 12), 1.5, 16
     ),
     "WD": ProductKernel(
-        Form.TORUS, 0.75, 0.0, 1.0, 0.0, (Fraction(4, 3), _ZERO, _ZERO), Fraction(4, 3), 1.5, 16
+        Form.TORUS, 0.75, 0.0, 1.0, 1.0, (Fraction(4, 3), _ZERO, _ZERO), Fraction(4, 3), 1.5, 16
     ),
     "MD": ProductKernel(
         Form.BOX,
@@ -109,10 +115,10 @@ KERNELS: dict[Discrepancy, ProductKernel] = {
         16,
     ),
     "L2-star": ProductKernel(
-        Form.CORNER, 0.0, 0.0, 0.0, 0.0, (_HALF, _ZERO, -_HALF), Fraction(1, 3), 1.0, 1, rooted=True
+        Form.CORNER, 0.5, -0.5, 0.5, 0.0, (_HALF, _ZERO, -_HALF), Fraction(1, 3), 1.0, 1, rooted=True
     ),
     "L2-periodic": ProductKernel(
-        Form.TORUS, 0.25, 0.0, 1.0, 0.0, (Fraction(1, 3), _ZERO, _ZERO), Fraction(1, 3), 0.5, 16, rooted=True
+        Form.TORUS, 0.25, 0.0, 1.0, 1.0, (Fraction(1, 3), _ZERO, _ZERO), Fraction(1, 3), 0.5, 16, rooted=True
     ),
     # Its mean is exactly that of the rounded constants, whose rounding then meets no small difference.
     "diaphony": ProductKernel(
@@ -120,7 +126,7 @@ KERNELS: dict[Discrepancy, ProductKernel] = {
         _DIAPHONY_TOP / 2,
         0.0,
         _DIAPHONY_SLOPE,
-        0.0,
+        _DIAPHONY_SLOPE,
         (Fraction(_DIAPHONY_TOP) - Fraction(_DIAPHONY_SLOPE) / 6, _ZERO, _ZERO),
         Fraction(_DIAPHONY_TOP) - Fraction(_DIAPHONY_SLOPE) / 6,
         _DIAPHONY_TOP,

@@ -14,7 +14,8 @@ from gbnbench.core.torus import wrap
 from gbnbench.generators.gbn import kernel
 from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.kernel_profile import energy_profile
-from gbnbench.generators.gbn.optimiser import Descent, step_size
+from gbnbench.generators.gbn.optimiser import Descent
+from gbnbench.generators.gbn.step_sizes import step_size
 from gbnbench.generators.protocol import realization_rng
 
 

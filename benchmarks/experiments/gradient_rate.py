@@ -25,7 +25,7 @@ from gbnbench.benchmarks.timing.machine import Rows, describe
 from gbnbench.core.atomic_write import write_whole
 from gbnbench.execution.worker_pool import ONE_THREAD
 from gbnbench.generators.gbn.energy import energy_evaluation
-from gbnbench.generators.gbn.operation_counts import EnergyCost
+from gbnbench.generators.gbn.energy_cost import EnergyCost
 from gbnbench.generators.gbn.plan import plan_energy
 from gbnbench.opencl.peak_rate import fma_peak
 

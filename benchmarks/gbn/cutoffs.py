@@ -15,7 +15,8 @@ from gbnbench.benchmarks.timing.interleaved import interleave
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.operation_counts import CUTOFF
-from gbnbench.generators.gbn.optimiser import Nesterov, step_size
+from gbnbench.generators.gbn.optimiser import Nesterov
+from gbnbench.generators.gbn.step_sizes import step_size
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.opencl import runtime
 

@@ -19,7 +19,8 @@ from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.operation_counts import CUTOFF
-from gbnbench.generators.gbn.optimiser import Descent, Nesterov, authors_step, step_size
+from gbnbench.generators.gbn.optimiser import Descent, Nesterov
+from gbnbench.generators.gbn.step_sizes import authors_step, step_size
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.opencl import runtime
 

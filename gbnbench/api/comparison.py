@@ -14,8 +14,9 @@ from gbnbench.reports.comparison import markdown, table, terminal
 from gbnbench.reports.comparison.figure_files import planned, png, write_figures
 from gbnbench.reports.html.page import write_report
 from gbnbench.runs.baseline import Change
-from gbnbench.runs.comparison_folder import long_table, read_run, wide_table
+from gbnbench.runs.comparison_folder import read_run
 from gbnbench.runs.comparison_result import Run, SourceResult
+from gbnbench.runs.comparison_tables import long_table, wide_table
 
 if TYPE_CHECKING:
     import pandas as pd

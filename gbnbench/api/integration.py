@@ -21,10 +21,9 @@ from gbnbench.studies.integration.study import (
     DEFAULT_INTEGRANDS,
     DEFAULT_N,
     DEFAULT_SOURCES,
-    IntegrationStudy,
-    read_integration,
     run_integration_study,
 )
+from gbnbench.studies.integration.study_folder import IntegrationStudy, read_integration
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -13,6 +13,7 @@ from gbnbench.cli.analyze import analyze
 from gbnbench.cli.bench import bench
 from gbnbench.cli.check import check
 from gbnbench.cli.compare import compare
+from gbnbench.cli.convert import convert
 from gbnbench.cli.devices import devices, doctor
 from gbnbench.cli.figures import figures
 from gbnbench.cli.generate import generate
@@ -25,7 +26,7 @@ from gbnbench.core.errors import GbnbenchError
 BAD, STOPPED, PIPE = 2, 130, 141  # exit codes; 0 is done, 1 is worse than a baseline or a failed check
 
 TASKS: dict[str, tuple[click.Command, ...]] = {
-    "Start here": (compare, spectrum, analyze, generate),
+    "Start here": (compare, spectrum, analyze, generate, convert),
     "Studies": (integrate, figures, report),
     "This machine": (check, bench, devices, doctor),
 }

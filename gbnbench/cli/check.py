@@ -61,7 +61,8 @@ def check(
     energy's field at fixed points and the spectra of lattices, in double and float.
     """
     from gbnbench.execution import progress
-    from gbnbench.regression.case_file import default_path, read_cases, select
+    from gbnbench.regression.case_file import default_path, read_cases
+    from gbnbench.regression.cases import select
 
     if spread is not None and not update:
         raise click.UsageError("--spread goes with --update")

@@ -20,9 +20,10 @@ if TYPE_CHECKING:
 
     from gbnbench.analysis.integration.integrands.protocol import Family
     from gbnbench.io.points import ReadingOptions
-    from gbnbench.studies.integration.study import IntegrationStudy
+    from gbnbench.studies.integration.study_folder import IntegrationStudy
 
-UNTOLD = " (nothing foretold: not periodic, or its spectrum not known or too long here)"
+PREDICTED = ", [what the points' spectrum predicts]"
+UNPREDICTED = " (nothing predicted: not periodic, or its spectrum not known or too long here)"
 EPILOG = """\b
 Examples:
   gbnbench integrate                                    random, jittered, sobol, gbn in 2D
@@ -106,7 +107,7 @@ def integrate(
 
     Integrals are estimated by the means over the points of SOURCES, which are generators with settings, files
     and folders, any mix. Every integrand of a family is estimated with every set. Beside each variance stands
-    what the power spectrum of the points foretells, where the family is periodic. Stopped in any way, the
+    what the power spectrum of the points predicts, where the family is periodic. Stopped in any way, the
     same command goes on where it was.
     """
     from gbnbench.api.integration import integrate as make
@@ -145,8 +146,8 @@ def report(study: IntegrationStudy) -> Iterator[str]:
     for _, part in study.variance.groupby(["integrand", "d"], sort=False):
         family, d = str(part["integrand"].iloc[0]), int(part["d"].iloc[0])
         sizes = sorted(part["n"].unique())
-        told = ", [what the points' spectrum foretells]" if part["foretold"].notna().any() else UNTOLD
-        yield f"\n{family}, d={d}: variance, its standard error{told}"
+        predicted = PREDICTED if part["foretold"].notna().any() else UNPREDICTED
+        yield f"\n{family}, d={d}: variance, its standard error{predicted}"
         yield from aligned(
             ("source", *(f"n={n}" for n in sizes), "slope"),
             [
@@ -165,15 +166,16 @@ def _cell(rows: pd.DataFrame, n: int) -> str:
     if there.empty:
         return "-"
     row = there.iloc[0]
-    told = "" if row["foretold"] != row["foretold"] else f" [{_told(row['foretold'], row['beyond'])}]"
+    known = row["foretold"] == row["foretold"]
+    predicted = f" [{_predicted(row['foretold'], row['beyond'])}]" if known else ""
     spread = "" if row["standard_error"] != row["standard_error"] else f" ± {number(row['standard_error'])}"
-    return f"{number(row['variance'])}{spread}{told}"
+    return f"{number(row['variance'])}{spread}{predicted}"
 
 
-def _told(foretold: float, beyond: float) -> str:
-    """Write what is foretold, as a range where the frequencies left out may matter."""
-    most = f" to {number(foretold + beyond)}" if beyond > 0.02 * foretold else ""
-    return number(foretold) + most
+def _predicted(least: float, beyond: float) -> str:
+    """Write what is predicted, as a range where the frequencies left out may matter."""
+    most = f" to {number(least + beyond)}" if beyond > 0.02 * least else ""
+    return number(least) + most
 
 
 def _slope(slopes: pd.DataFrame, label: str, d: int, family: str) -> str:

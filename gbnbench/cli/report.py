@@ -17,7 +17,7 @@ def report(run: Path) -> None:
     RUN is the folder of a comparison or of a study of integration.
     """
     from gbnbench.api import comparison, integration
-    from gbnbench.studies.integration.study import is_study
+    from gbnbench.studies.integration.study_folder import is_study
 
     if is_study(run):
         integration.draw(integration.Integration.read(run).study, run)

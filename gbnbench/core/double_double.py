@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gbnbench.core.torus import FloatArray
 
@@ -56,6 +57,53 @@ def _halves(a: FloatArray | float) -> tuple[FloatArray, FloatArray]:
     return high, a - high
 
 
+def running_sum(values: FloatArray) -> FloatArray:
+    """Add up along the last axis, each running sum good to 2^-52 of the sum of sizes so far.
+
+    Parameters
+    ----------
+    values : (..., m) float64
+        What is added up.
+
+    Returns
+    -------
+    (..., m) float64
+    """
+    coarse, fine = _running_parts(values)
+    return coarse + fine
+
+
+def exact_sum(values: DoubleDouble) -> Fraction:
+    """Sum of all numbers, good to some 2^-80 of the sum of their sizes.
+
+    Parameters
+    ----------
+    values : DoubleDouble
+        Any shape.
+
+    Returns
+    -------
+    Fraction
+    """
+    coarse = _coarse(values.high)
+    fine = (values.high - coarse) + values.low
+    return Fraction(float(np.sum(coarse))) + Fraction(float(np.sum(fine)))
+
+
+def _coarse(values: FloatArray) -> FloatArray:
+    """Round values to so few digits that any sum of them is exact in double."""
+    digits = 51 - values.shape[-1].bit_length()
+    exponent = int(np.frexp(np.max(np.abs(values), initial=0.0))[1]) - digits
+    rounded: FloatArray = np.ldexp(np.rint(np.ldexp(values, -exponent)), exponent)
+    return rounded
+
+
+def _running_parts(values: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Add up the leading digits, which is exact, and the rest, whose rounding is negligible."""
+    coarse = _coarse(values)
+    return np.cumsum(coarse, axis=-1), np.cumsum(values - coarse, axis=-1)
+
+
 @dataclass(frozen=True)
 class DoubleDouble:
     """Numbers of some 106 bits, each the sum of two doubles.
@@ -87,6 +135,18 @@ class DoubleDouble:
         product, rest = two_product(self.high, other.high)
         rest = rest + (self.high * other.low + self.low * other.high)
         return DoubleDouble(*two_sum(product, rest))
+
+    def __getitem__(self, index: NDArray[np.intp]) -> DoubleDouble:
+        return DoubleDouble(self.high[index], self.low[index])
+
+    def __neg__(self) -> DoubleDouble:
+        return DoubleDouble(-self.high, -self.low)
+
+    def below_less_above(self) -> DoubleDouble:
+        """Sum up to each entry, itself included, less the sum of those after it, of (m,) numbers."""
+        coarse, fine = _running_parts(self.high)
+        fine = fine + np.cumsum(self.low)
+        return DoubleDouble(*two_sum(2 * coarse - coarse[-1], 2 * fine - fine[-1]))
 
     def __abs__(self) -> DoubleDouble:
         sign = np.where(self.high < 0, -1.0, 1.0)

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Literal
+
+from gbnbench.core.errors import InputError
+from gbnbench.core.settings import nearest
 
 Better = Literal["lower", "higher", "neither"]
 Scale = Literal["ratio", "difference", "relative"]
@@ -103,3 +106,33 @@ class Case:
     def exact(self) -> bool:
         """Whether all that is expected is known from elsewhere."""
         return all(expectation.reference for expectation in self.measures.values())
+
+
+def select(cases: Sequence[Case], only: Sequence[str], full: bool) -> tuple[Case, ...]:
+    """Choose cases: those named, or those of the default run, or with ``full`` all.
+
+    Parameters
+    ----------
+    cases : sequence of Case
+        To choose from.
+    only : sequence of str
+        Names; none leaves the choice to ``full``.
+    full : bool
+        Choose all, not only those of the default run.
+
+    Returns
+    -------
+    tuple of Case
+
+    Raises
+    ------
+    InputError
+        If a name is none of theirs.
+    """
+    names = [case.name for case in cases]
+    for name in only:
+        if name not in names:
+            raise InputError(f"no case is named {name!r}{nearest(name, names)}; there are {', '.join(names)}")
+    if only:
+        return tuple(case for case in cases if case.name in only)
+    return tuple(case for case in cases if full or not case.full)

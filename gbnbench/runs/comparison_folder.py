@@ -13,13 +13,13 @@ from typing import Any
 
 import numpy as np
 
-from gbnbench.analysis.measure_definitions import BY_NAME, DEFINITIONS
 from gbnbench.core import atomic_write
 from gbnbench.core.errors import FormatError, InputError
 from gbnbench.core.torus import FloatArray
 from gbnbench.io import data_files
 from gbnbench.runs import source_files
 from gbnbench.runs.comparison_result import Run, SourceResult
+from gbnbench.runs.comparison_tables import long_table, wide_table
 from gbnbench.runs.resumable_folder import FORMAT, MANIFEST, SETTINGS, ResumableFolder
 
 
@@ -124,8 +124,10 @@ class ComparisonFolder(ResumableFolder):
 
     def write_tables(self, run: Run) -> None:
         """Write ``measures.csv`` (a row a source and measure) and ``table.csv`` (a row a source)."""
+        import pandas as pd
+
         for name, rows in (("measures.csv", long_table(run)), ("table.csv", wide_table(run))):
-            atomic_write.write_whole(self.path / name, _csv(rows))
+            atomic_write.write_whole(self.path / name, data_files.to_csv(pd.DataFrame(rows)))
 
     def finish(self, manifest: Mapping[str, Any]) -> None:
         """Declare it whole: checksums of the data, and the manifest as the very last file."""
@@ -215,48 +217,6 @@ def read_run(folder: str | Path) -> Run:
         if _sha256(path / name) != expected:
             raise FormatError(path / name, "was changed after the run was written")
     return Run(manifest, tuple(source_files.decode(path / "sources" / key) for key in keys), verdicts)
-
-
-def long_table(run: Run) -> list[dict[str, object]]:
-    """One row a source and measure, with its standard error, direction and reason."""
-    return [
-        {
-            "source": source.label,
-            "n": source.n,
-            "d": source.d,
-            "realizations": source.realizations,
-            "measure": name,
-            "value": value,
-            "standard_error": source.measures.standard_error.get(name, float("nan")),
-            "better": BY_NAME[name].better,
-            "unit": BY_NAME[name].unit,
-            "verdict": run.verdicts.get((source.key, name), ""),
-            "reason": source.measures.reasons.get(name, ""),
-        }
-        for source in run.sources
-        for name, value in source.measures.items()
-    ]
-
-
-def wide_table(run: Run) -> list[dict[str, object]]:
-    """One row a source, a column a measure."""
-    return [
-        {
-            "source": source.label,
-            "n": source.n,
-            "d": source.d,
-            "realizations": source.realizations,
-            **{definition.name: source.measures[definition.name] for definition in DEFINITIONS},
-            "cpu_seconds": source.cpu_seconds,
-        }
-        for source in run.sources
-    ]
-
-
-def _csv(rows: list[dict[str, object]]) -> bytes:
-    import pandas as pd
-
-    return data_files.to_csv(pd.DataFrame(rows))
 
 
 def _sha256(path: Path) -> str:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 from gbnbench.core.errors import GbnbenchError, UnfinishedError
 from gbnbench.execution.progress import Progress
 from gbnbench.execution.worker_pool import Finished, Pool
 from gbnbench.runs.device_proof import prove_device_if_any
+from gbnbench.runs.result_store import ResultStore
 
 
 @dataclass(frozen=True)
@@ -43,29 +43,6 @@ class Task:
     requires: tuple[str, ...] = ()
     assemble: Callable[[Any, list[Any]], Any] | None = None
     done: str = ""
-
-
-class ResultStore(Protocol):
-    """A place that keeps the results of tasks by their keys."""
-
-    @property
-    def path(self) -> Path:
-        """Where it is, for messages."""
-        ...
-
-    def read(self, key: str) -> Any | None:
-        """Return the result of a task; None where it is absent, or was spoilt and has to be made again."""
-
-    def write(self, key: str, result: Any) -> None:
-        """Keep the result of a task.
-
-        Parameters
-        ----------
-        key : str
-            The task's.
-        result : object
-            What it made.
-        """
 
 
 class TaskRun:

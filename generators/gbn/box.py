@@ -19,8 +19,8 @@ from scipy.special import erf
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn import operation_counts
 from gbnbench.generators.gbn.images import Images
-from gbnbench.generators.gbn.optimiser import largest_curvature
 from gbnbench.generators.gbn.protocol import EnergyGradient
+from gbnbench.generators.gbn.step_sizes import largest_curvature
 from gbnbench.generators.gbn.strips import Strips
 from gbnbench.opencl import runtime
 

@@ -6,12 +6,9 @@ periods, and u = x n^(1/d) counted in spacings.
 
 from __future__ import annotations
 
-from gbnbench.generators.gbn.harmonics import Harmonics
-from gbnbench.generators.gbn.images import Images
+from gbnbench.generators.gbn.methods import METHODS
 from gbnbench.generators.gbn.plan import plan_energy
 from gbnbench.generators.gbn.protocol import EnergyEvaluation
-from gbnbench.generators.gbn.strips import Strips
-from gbnbench.generators.gbn.theta import Theta
 from gbnbench.opencl import runtime
 
 
@@ -53,8 +50,5 @@ def energy_evaluation(
     chosen = runtime()
     name = precision or default_precision()
     found = plan_energy(n, d, sigma, name, method=method, cutoff=cutoff, edge=edge)
-    if found.method == "strips":
-        return Strips(chosen, n, d, sigma, name, cutoff)
-    if found.method == "harmonics":
-        return Harmonics(chosen, n, d, sigma, name, edge)
-    return (Images if found.method == "images" else Theta)(chosen, n, d, sigma, name)
+    truncation = [value for value in (cutoff, edge) if value is not None]
+    return METHODS[found.method].evaluation(chosen, n, d, sigma, name, *truncation)

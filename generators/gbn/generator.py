@@ -15,19 +15,16 @@ from gbnbench.core.settings import specification
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.gauss_newton.modes import bound_coordinates
 from gbnbench.generators.gbn.batches import optimise_in_batches
-from gbnbench.generators.gbn.box import BoxEnergy, box_curvature, fold
-from gbnbench.generators.gbn.energy import default_precision, energy_evaluation
+from gbnbench.generators.gbn.box import fold
+from gbnbench.generators.gbn.energy_settings import EnergySettings
 from gbnbench.generators.gbn.kernel import energy_error, uniform_energy
 from gbnbench.generators.gbn.operation_counts import theta_at_0
-from gbnbench.generators.gbn.optimiser import Descent, Nesterov, authors_step, stable_step, step_size
-from gbnbench.generators.gbn.plan import plan_energy
+from gbnbench.generators.gbn.optimiser import Descent, Nesterov
 from gbnbench.generators.gbn.polish import empty_band
-from gbnbench.generators.gbn.projective import ProjectiveEnergy, subsets
-from gbnbench.generators.gbn.protocol import EnergyEvaluation
+from gbnbench.generators.gbn.step_sizes import authors_step
 from gbnbench.generators.monitor import Monitor
 
 PAPER_ITERATIONS = 10_000  # what the paper recommends
-LEAST_CUTOFF = 0.5  # sigmas
 MOST_BOUND = 0.9  # share of the coordinates that polish may bind
 NUMBERS = 30  # doubles a coordinate that a run keeps at once
 
@@ -94,12 +91,10 @@ class GaussianBlueNoise:
     polish: float = 0.0
 
     def __post_init__(self) -> None:
-        if not (math.isfinite(self.sigma) and 0.3 <= self.sigma <= 3):
-            raise InputError(f"sigma must be between 0.3 and 3 spacings; got {self.sigma}")
         for name in ("gradients", "iterations"):
             if getattr(self, name) < 0:
                 raise InputError(f"{name} must be 0 or more; got {getattr(self, name)}")
-        for name in ("excess", "cutoff", "edge", "projection_edge", "polish"):
+        for name in ("excess", "polish"):
             if not (math.isfinite(getattr(self, name)) and getattr(self, name) >= 0):
                 raise InputError(f"{name} must be 0 or more; got {getattr(self, name)}")
         if self.method == "nesterov" and self.iterations:
@@ -113,33 +108,9 @@ class GaussianBlueNoise:
                 "gradients count evaluations of Nesterov's method; for the paper's descent say iterations, "
                 f"got gradients={self.gradients}"
             )
-        if self.projection_edge and self.projections == "none":
-            raise InputError(
-                f"projection_edge={self.projection_edge:g} goes with projections, such as projections=1; "
-                "got none"
-            )
-        if self.cutoff and self.cutoff < LEAST_CUTOFF:
-            raise InputError(
-                f"cutoff must be 0, for the whole kernel, or at least {LEAST_CUTOFF}; got {self.cutoff}: "
-                "nothing would move"
-            )
-        if self.cutoff and self.edge:
-            raise InputError(
-                "a kernel is cut off in space or in frequency; got both "
-                f"cutoff={self.cutoff} and edge={self.edge}"
-            )
-        if self.domain == "box" and (self.cutoff or self.edge or self.projections != "none"):
-            raise InputError(
-                "domain=box has the whole energy alone; leave out cutoff, edge and projections beside it"
-            )
-        if self.projections != "none" and (self.cutoff or self.edge):
-            raise InputError(
-                "projections go with the whole energy; got cutoff or edge beside them: leave these out, or "
-                "truncate the projections by projection_edge"
-            )
         if self.polish and self.domain == "box":
             raise InputError("polish empties a band of the torus; leave it out beside domain=box")
-        self._step(2, 2)
+        self._step(self.energy, 2, 2)  # each refuses settings that are wrong
 
     def refusal(self, n: int, d: int) -> str | None:
         """Say why this energy cannot be had for n points in d dimensions; the whole kernel always can.
@@ -156,31 +127,12 @@ class GaussianBlueNoise:
         """
         if reason := too_large(NUMBERS * 8 * n * d):
             return f"n={n} points in d={d} {reason}; take fewer points"
-        side = n ** (1 / d)
         if self.polish and (bound := bound_coordinates(n, d, self.polish)) > MOST_BOUND * n * d:
             return (
                 f"polish={self.polish:g} binds {bound:.6g} of the {n * d} coordinates of "
                 f"n={n} points in d={d}; take 0.25 or so"
             )
-        if self.projections != "none":
-            try:
-                subsets(self.projections, d)
-            except InputError as error:
-                return f"{error}; d={d}"
-        if self.cutoff and d > 3:
-            return f"d must be at most 3 where the kernel is cut off; got d={d}"
-        if 2 * self.cutoff * self.sigma > side:
-            least = math.ceil((2 * self.cutoff * self.sigma) ** d)
-            return (
-                f"n must be at least {least} in d={d} for cutoff={self.cutoff:g}, sigma={self.sigma:g}: "
-                f"the box must be twice the cut-off wide; got n={n}"
-            )
-        if self.edge and self.edge * side < 1:
-            return (
-                f"edge must be at least {1 / side:.3g} for n={n}, d={d}, or no frequency is left; "
-                f"got {self.edge}"
-            )
-        return None
+        return self.energy.refusal(n, d)
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization; see ``Generator``."""
@@ -221,6 +173,19 @@ class GaussianBlueNoise:
         return np.stack([empty_band(points, self.polish) for points in x]) if self.polish else x
 
     @property
+    def energy(self) -> EnergySettings:
+        """The settings that say which energy is minimised."""
+        return EnergySettings(
+            self.sigma,
+            self.cutoff,
+            self.edge,
+            self.precision,
+            self.domain,
+            self.projections,
+            self.projection_edge,
+        )
+
+    @property
     def steps(self) -> int:
         """Most evaluations of the energy."""
         return self.iterations or (PAPER_ITERATIONS if self.method == "descent" else self.gradients)
@@ -239,20 +204,17 @@ class GaussianBlueNoise:
         -------
         str
         """
-        if self.domain == "box" or self.projections != "none":
-            energy = self._energy(n, d)
+        found = self.energy.plan(n, d, sets)
+        if found is None:
+            energy = self.energy.open(n, d)
             return f"{self.name}: {energy.method}, error {energy.error:.1e}"
-        found = plan_energy(
-            n, d, self.sigma, self._precision(), sets=sets, cutoff=self.cutoff or None, edge=self.edge or None
-        )
         whose = "a set" if sets == 1 else f"{sets} sets"
         return f"{found}\n  milliseconds are CPU time of one gradient of {whose}"
 
     def _optimiser(self, starts: FloatArray) -> Descent:
         _, n, d = starts.shape
-        energy = self._energy(n, d)
-        step = self._step(n, d)
-        plain = self.domain == "torus" and not (self.edge or self.cutoff) and self.projections == "none"
+        settings = self.energy
+        energy, step = settings.open(n, d), self._step(settings, n, d)
         # The transform of a kernel cut off in space is negative in places: its energy falls below that of
         # uniform points, which is no end.
         enough = -math.inf if self.cutoff and not self.excess else self.excess
@@ -262,39 +224,17 @@ class GaussianBlueNoise:
         else:
             # The lowest band's preconditioner knows the torus's whole energy alone: in the box, and in one
             # dimension below an edge, it diverges.
-            noise = energy_error(d, self.sigma, self._precision())
-            band = self.sigma if plain else None
+            noise = energy_error(d, self.sigma, settings.chosen_precision)
+            band = self.sigma if settings.plain else None
             optimiser = Nesterov(energy, starts, step, enough, noise=noise, sigma=band)
-        if plain:
+        if settings.plain:
             alone = theta_at_0(n, d, self.sigma) ** d  # each point with its own images
             optimiser.constant = (uniform_energy(d, self.sigma) - alone) / 2
         return optimiser
 
-    def _precision(self) -> str:
-        return default_precision() if self.precision == "auto" else self.precision
-
-    def _energy(self, n: int, d: int) -> EnergyEvaluation:
-        precision = self._precision()
-        if self.domain == "box":
-            return BoxEnergy(n, d, self.sigma, precision)
-        if self.projections != "none":
-            return ProjectiveEnergy(
-                n,
-                d,
-                self.sigma,
-                subsets(self.projections, d),
-                edge=self.projection_edge or None,
-                precision=precision,
-            )
-        return energy_evaluation(
-            n, d, self.sigma, precision, cutoff=self.cutoff or None, edge=self.edge or None
-        )
-
-    def _step(self, n: int, d: int) -> float:
+    def _step(self, energy: EnergySettings, n: int, d: int) -> float:
         if self.step == "auto":
-            if self.domain == "box":
-                return stable_step(box_curvature(n, d, self.sigma), d, self.sigma)
-            return step_size(n, d, self.sigma)
+            return energy.first_step(n, d)
         if self.step == "authors":
             return authors_step(n, d)
         try:

@@ -10,8 +10,9 @@ import numpy as np
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn import kernel, operation_counts
 from gbnbench.generators.gbn.evaluation import CHUNK, DeviceEvaluation
+from gbnbench.generators.gbn.frequency_ball import ball_square
 from gbnbench.generators.gbn.protocol import EnergyGradient
-from gbnbench.generators.gbn.wave_tables import TILE, ball_square, ball_waves
+from gbnbench.generators.gbn.wave_tables import TILE, ball_waves
 from gbnbench.opencl import Runtime
 
 FILES = ("/turns.cl", "gbn_harmonics.cl")

@@ -7,11 +7,12 @@ count as one too. Loads and stores do not count. All numbers are of one set.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.generators.gbn import kernel
-from gbnbench.generators.gbn.wave_tables import MOST_ROWS, TILE, ball_square, ball_volume
+from gbnbench.generators.gbn.energy_cost import EnergyCost
+from gbnbench.generators.gbn.frequency_ball import ball_square, ball_volume
+from gbnbench.generators.gbn.wave_tables import MOST_ROWS, TILE
 
 # Sigmas beyond which a pair adds less than the precision: 4e-7 and 7e-16 of one pair's largest force.
 CUTOFF = {"double": 9.0, "float": 6.0}
@@ -24,44 +25,9 @@ EXP = {"double": 18, "float": 13}  # kernels/exp2.cl
 DISPLACEMENT = {"double": 5, "float": 3}  # nearest image, in sigmas
 WAVE = 8  # a wave of one point, kernels/gbn_harmonics.cl
 
-# Share of the multiply-add peak that each reaches once it is large, and the instructions that a launch costs;
-# measured once, rounded, and fixed: the choice of a method must not depend on the hour.
-SHARE = {"theta": 0.8, "images": 0.6, "harmonics": 0.4, "strips": 0.45}
-LAUNCH = 2e6
-LAUNCHES = {"theta": 2, "images": 2, "harmonics": 7, "strips": 4}
 # Pairs that strips look at, over those within the cut-off, in 1 to 3 dimensions; counted on random points.
 SPARE = {"double": (1.2, 1.4, 1.75), "float": (1.65, 2.05, 3.0)}
 STRIP = {"double": (3, 19), "float": (4, 14)}  # a dimension of a pair, and the rest with its exp2.cl
-
-
-@dataclass(frozen=True)
-class EnergyCost:
-    """One evaluation at one size.
-
-    Attributes
-    ----------
-    method : str
-        strips, images, theta or harmonics.
-    detail : str
-        What it sums, in words.
-    work : float
-        Pairs, both ways round, or frequencies times points.
-    instructions : float
-        A set, by count; nothing on memory or launches.
-    error : float
-        Bound as ``EnergyEvaluation.error``.
-    """
-
-    method: str
-    detail: str
-    work: float
-    instructions: float
-    error: float
-
-    @property
-    def effort(self) -> float:
-        """Instructions at the peak that take as long, launches among them: what a plan compares."""
-        return self.instructions / SHARE[self.method] + LAUNCH * LAUNCHES[self.method]
 
 
 def images_needed(ratio: float, precision: str) -> int:
@@ -89,18 +55,7 @@ def images_needed(ratio: float, precision: str) -> int:
 def theta(n: int, d: int, sigma: float, precision: str) -> EnergyCost:
     """All pairs by polynomials: 2 degree + 9 instructions a pair and dimension.
 
-    Parameters
-    ----------
-    n, d : int
-        Points and dimension.
-    sigma : float
-        Kernel width, in spacings.
-    precision : {"double", "float"}
-        Of the arithmetic.
-
-    Returns
-    -------
-    EnergyCost
+    Parameters and returns are those of ``images``, without side.
 
     Raises
     ------

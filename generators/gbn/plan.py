@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 
 from gbnbench.core.errors import InputError, RefusalError
-from gbnbench.generators.gbn import kernel, operation_counts
-from gbnbench.generators.gbn.operation_counts import EnergyCost
+from gbnbench.generators.gbn import kernel
+from gbnbench.generators.gbn.energy_cost import EnergyCost
+from gbnbench.generators.gbn.methods import METHODS
 
 TOLERATED = 5.0  # times the least error: image sums lose digits where images overlap
-METHODS = ("strips", "images", "theta", "harmonics")
+TRUNCATED = {"cutoff": "the only one that cuts the kernel off", "edge": "the only one with an edge"}
 
 
 @dataclass(frozen=True)
@@ -76,8 +76,8 @@ class EnergyPlan:
         from gbnbench.opencl.peak_rate import peak
 
         found = which or self.chosen
-        launches = operation_counts.LAUNCH * operation_counts.LAUNCHES[found.method]
-        return (self.sets * (found.effort - launches) + launches) * 2 / peak(self.precision)
+        each = found.effort - found.launches
+        return (self.sets * each + found.launches) * 2 / peak(self.precision)
 
     def __str__(self) -> str:
         """Explain the choice, a line for each method."""
@@ -133,23 +133,15 @@ def plan_energy(
         If the method asked for cannot serve this size.
     """
     _check(n, d, sigma, precision, sets, cutoff, edge, method)
-    makers: dict[str, Callable[[], EnergyCost]] = {
-        "strips": lambda: operation_counts.strips(n, d, sigma, precision, cutoff),
-        "images": lambda: operation_counts.images(n, d, sigma, precision),
-        "theta": lambda: operation_counts.theta(n, d, sigma, precision),
-        "harmonics": lambda: operation_counts.harmonics(n, d, sigma, precision, edge),
-    }
-    only = "strips" if cutoff is not None else "harmonics" if edge is not None else None
-    if only:
-        reason = (
-            "the only one that cuts the kernel off" if cutoff is not None else "the only one with an edge"
-        )
-        chosen = makers[only]()
-        return EnergyPlan(n, d, sets, sigma, precision, cutoff, edge, chosen, reason, (), ())
+    truncations = {"cutoff": cutoff, "edge": edge}
+    for entry in METHODS.values():
+        if entry.truncation and (value := truncations[entry.truncation]) is not None:
+            chosen, why = entry.cost(n, d, sigma, precision, value), TRUNCATED[entry.truncation]
+            return EnergyPlan(n, d, sets, sigma, precision, cutoff, edge, chosen, why, (), ())
     found, refused = [], []
-    for name, make in makers.items():
+    for name, entry in METHODS.items():
         try:
-            found.append(make())
+            found.append(entry.cost(n, d, sigma, precision))
         except RefusalError as refusal:
             if name == method:
                 raise
@@ -187,6 +179,7 @@ def _check(
             "cutoff truncates the kernel in space, edge in frequency, and a sharp cut in one has no end in "
             "the other: give one of them"
         )
-    for name, value, owner in (("cutoff", cutoff, "strips"), ("edge", edge, "harmonics")):
+    for name, value in (("cutoff", cutoff), ("edge", edge)):
+        owner = next(owner for owner, entry in METHODS.items() if entry.truncation == name)
         if value is not None and method not in (None, owner):
             raise InputError(f"{name} is a setting of method {owner}; got method={method!r}")

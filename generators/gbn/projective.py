@@ -18,8 +18,8 @@ from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gauss_newton.modes import bound_coordinates
 from gbnbench.generators.gbn.energy import energy_evaluation
-from gbnbench.generators.gbn.optimiser import step_size
 from gbnbench.generators.gbn.protocol import EnergyGradient
+from gbnbench.generators.gbn.step_sizes import step_size
 
 Subset = tuple[int, ...]
 EVACUATED = 0.72  # nu below which a set of the whole energy has next to no power

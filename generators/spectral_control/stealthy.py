@@ -17,7 +17,8 @@ from gbnbench.generators.gauss_newton.modes import edge_binding, modes_below
 from gbnbench.generators.gauss_newton.solver import solve_for_amplitudes
 from gbnbench.generators.gauss_newton.wave_sums import WaveSums
 from gbnbench.generators.gbn.energy import energy_evaluation
-from gbnbench.generators.gbn.optimiser import Nesterov, step_size
+from gbnbench.generators.gbn.optimiser import Nesterov
+from gbnbench.generators.gbn.step_sizes import step_size
 from gbnbench.generators.monitor import Monitor, refuse_all_but_progress
 from gbnbench.generators.spectral_control.band import BandGenerator, check_edge
 

@@ -14,14 +14,14 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, LogFormatterSciNotati
 
 from gbnbench.analysis.integration.variance import MOST_SCATTER
 from gbnbench.reports import captions, layout, style
-from gbnbench.studies.integration.study import IntegrationStudy
+from gbnbench.studies.integration.study_folder import IntegrationStudy
 
 CAPTION = (
     "Mean squared error of the mean over n points, over {instances} integrands of each family and {sets} "
     "sets of each source. {bands}: 95%, over integrands and sets. "
 )
-FORETOLD = (
-    "Crosses: what the sets' power spectra foretell (the inner product with the integrands' spectra), with a "
+PREDICTED = (
+    "Crosses: what the sets' power spectra predict (the inner product with the integrands' spectra), with a "
     "bar for what white noise beyond the frequencies summed would add. "
 )
 SLOPES = (
@@ -70,11 +70,10 @@ def panel(ax: Axes, part: pd.DataFrame, by_source: dict[str, style.Stroke]) -> N
             )
         else:
             ax.vlines(line["n"], line["low"], line["high"], color=stroke.colour, linewidth=1.2, alpha=0.6)
-        told = line[line["foretold"] > 0]
-        ax.plot(told["n"], told["foretold"], "x", color=stroke.colour, markersize=5, markeredgewidth=0.9)
-        ax.vlines(
-            told["n"], told["foretold"], told["foretold"] + told["beyond"], color=stroke.colour, linewidth=0.9
-        )
+        predicted = line[line["foretold"] > 0]
+        least = predicted["foretold"]
+        ax.plot(predicted["n"], least, "x", color=stroke.colour, markersize=5, markeredgewidth=0.9)
+        ax.vlines(predicted["n"], least, least + predicted["beyond"], color=stroke.colour, linewidth=0.9)
     sizes = np.array(sorted(part["n"].unique()), dtype=float)
     positive = part[part["variance"] > 0]
     if len(sizes) > 1 and len(positive):
@@ -136,7 +135,7 @@ def figure(study: IntegrationStudy) -> Figure:
         sets=_span(table["realizations"]),
         bands="Bands" if several else "Bars",
     )
-    caption += FORETOLD if table["foretold"].notna().any() else ""
+    caption += PREDICTED if table["foretold"].notna().any() else ""
     caption += SLOPES if several else ""
     caption += f"{shifts} random shifts of each set. " if shifts else ""
     caption += f"Seed {study.manifest.get('seed')} · gbnbench {study.manifest.get('version')}"

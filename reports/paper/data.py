@@ -21,7 +21,8 @@ from gbnbench.runs.resumable import Task, run_tasks
 from gbnbench.runs.sources import DEFAULT_READING, resolve
 from gbnbench.runs.task_folder import Arrays, TaskFolder
 from gbnbench.studies.comparison import run_comparison
-from gbnbench.studies.integration.study import IntegrationStudy, run_integration_study
+from gbnbench.studies.integration.study import run_integration_study
+from gbnbench.studies.integration.study_folder import IntegrationStudy
 
 
 @dataclass(frozen=True)

@@ -205,7 +205,7 @@ def _caption(
         "move, and its steepness c costs little order. (a) Radial power, the grey line is white noise; pale: "
         "the deep target. (b) Variance of the integral of toroidal sums of 64 Gaussians of width "
         f"512^(-1/2): {int(plain.instances)} integrands, {int(plain.realizations)} sets; bands 95%; "
-        f"crosses: foretold by the spectra; grey: 1/n. At n = {most:,} it is {number(plain.variance)} for "
+        f"crosses: predicted by the spectra; grey: 1/n. At n = {most:,} it is {number(plain.variance)} for "
         f"GBN and {number(at['deep'].variance)} for deep{worse}. (c, d, e) Share of six-sided Voronoi "
         "cells, sixfold order and spectral peak against the noise floor, deeper to the right, with "
         f"standard errors. {path}From {usual.title.partition(', ')[2]} to "

@@ -171,7 +171,7 @@ def _caption(data: Mapping[str, Any], options: FigureOptions) -> str:
         "Variance of the integral estimated by the mean over n points: (a) toroidal sums of 64 Gaussians of "
         "width 512^(-1/d), (b) half spaces by a random point and direction; insets: one of each. "
         f"{int(data['d2'].variance['instances'].max())} integrands of each family, {', '.join(counts)}, "
-        "all estimated with all. Bands: 95%. Crosses: what the sets' power spectra foretell. Grey: 1/n; "
+        "all estimated with all. Bands: 95%. Crosses: what the sets' power spectra predict. Grey: 1/n; "
         "dashed upright: n = 512, the nominal grid that the Gaussians' width is of. jittered is made at "
         f"n = m^d alone. Slopes over all n in 2D: {'; '.join(slopes)}.{left}"
     )

@@ -94,13 +94,13 @@ def test_a_lattice_has_waves_and_noise_has_none():
     assert new["anisotropy_edge_db"] == pytest.approx(-10 * math.log10(4), abs=1.2)
 
 
-def test_measured_variance_is_what_the_spectrum_foretells():
+def test_measured_variance_is_what_the_spectrum_predicts():
     rng = np.random.default_rng(5)
     x = rng.random((3, 40, 2))
     drawn = [Korobov().draw(2, rng) for _ in range(40)]
     variance, error = integration.measured(drawn, x, 40, rng)
-    foretold = integration.predicted(Korobov().mean_energy, x, 12)
-    assert variance == pytest.approx(foretold, abs=4 * error)
+    predicted = integration.predicted(Korobov().mean_energy, x, 12)
+    assert variance == pytest.approx(predicted, abs=4 * error)
     assert error < 0.1 * variance
 
 

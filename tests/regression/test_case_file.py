@@ -6,7 +6,8 @@ import pytest
 
 from gbnbench.cli import run
 from gbnbench.core.errors import FormatError, InputError
-from gbnbench.regression.case_file import default_path, read_cases, select, write_cases
+from gbnbench.regression.case_file import default_path, read_cases, write_cases
+from gbnbench.regression.cases import select
 from tests.regression.own_cases import OWN
 
 

@@ -17,7 +17,7 @@ import importlib, re, sys
 import numpy as np
 
 from gbnbench.cli import run
-from gbnbench.generators.gbn import energy, generator
+from gbnbench.generators.gbn import energy, energy_settings
 from gbnbench.generators.gbn.protocol import EnergyGradient
 
 met = []
@@ -137,7 +137,7 @@ def test_a_kernel_that_leaves_out_a_term():
 
 @pytest.mark.parametrize("factor", [10, 0.1])
 def test_a_wrong_step(factor):
-    said = caught(f'wrap(generator, "step_size", lambda size, *a: {factor} * size(*a))', "gbn-2d-64")
+    said = caught(f'wrap(energy_settings, "step_size", lambda size, *a: {factor} * size(*a))', "gbn-2d-64")
     assert "noise floor" in said
 
 
@@ -156,7 +156,7 @@ def test_float_where_double_was_asked():
         """
         def single(make, n, d, sigma, precision, **_):
             return make(n, d, sigma, "float")
-        wrap(generator, "energy_evaluation", single)
+        wrap(energy_settings, "energy_evaluation", single)
         """,
         "gbn-1d-64",
     )
@@ -165,7 +165,7 @@ def test_float_where_double_was_asked():
 def test_float_in_the_spectrum():
     caught(
         """
-        for name, function in (("spectrum.periodogram", "periodogram"), ("measures", "each_power")):
+        for name, function in (("spectrum.periodogram", "periodogram"), ("set_powers", "each_power")):
             module = importlib.import_module("gbnbench.analysis." + name)
             wrap(module, function, lambda power, x, fmax, precision=None: power(x, fmax, "float"))
         """,

@@ -14,7 +14,8 @@ from gbnbench.analysis.integration.variance import variance_of
 from gbnbench.cli import run as command
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.studies.integration.blocks import instances_of
-from gbnbench.studies.integration.study import read_integration, run_integration_study, variance
+from gbnbench.studies.integration.study import run_integration_study, variance
+from gbnbench.studies.integration.study_folder import read_integration
 
 
 def study(folder, sources=("random", "jittered"), **changes):
@@ -64,7 +65,7 @@ def test_random_sets_have_the_variance_of_monte_carlo(tmp_path):
     assert slope.standard_error < 0.1
 
 
-def test_foretold_is_for_periodic_families_alone(done):
+def test_a_prediction_is_for_periodic_families_alone(done):
     table = done.study.variance
     periodic = table.integrand.str.startswith("korobov")
     assert table[periodic].foretold.notna().all()

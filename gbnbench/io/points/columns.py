@@ -81,20 +81,28 @@ def fault_of_names(names: Sequence[str]) -> str | None:
         if first in (0, 1) and pairs == [(stem, first + k) for k in range(len(pairs))]:
             return None
     repeated = next((name for at, name in enumerate(names) if name in names[:at]), None)
-    if repeated is not None:
+    if repeated:
         return f"column {repeated!r} is there twice; name columns once each"
     if sorted(names) == sorted(_LETTERS[: len(names)]):
         return f"coordinates stand out of order; put the columns as {', '.join(_LETTERS[: len(names)])}"
-    if len(pairs) == len(names):
-        order = sorted(pairs)
-        if order[0][1] in (0, 1) and order == [(order[0][0], order[0][1] + k) for k in range(len(order))]:
-            ordered = ", ".join(name for _, name in sorted(zip(pairs, names, strict=True)))
-            return f"coordinates stand out of order; put the columns as {ordered}"
-    strange = next((name for name in names if name not in _LETTERS and not _NUMBERED.fullmatch(name)), None)
-    if strange is not None:
-        said = (
-            f"column {strange!r} is no coordinate" if strange else "a column without a name is no coordinate"
+    order = sorted(zip(pairs, names, strict=False))
+    stems = {stem for stem, _ in pairs}
+    if (
+        len(pairs) == len(names)
+        and len(stems) == 1
+        and [number - order[0][0][1] for (_, number), _ in order] == [*range(len(names))]
+    ):
+        return f"coordinates stand out of order; put the columns as {', '.join(name for _, name in order)}"
+    some = [name for name in names if name in _LETTERS[:3]] or [name for name in names if name][:2]
+    wanted = (
+        f"--columns {','.join(some) if all(len(name) <= 20 for name in some) else 'x,y'} takes those wanted"
+    )
+    if "" in names:
+        return (
+            f"column {names.index('') + 1} has no name, as where each line ends in a comma: remove it, or "
+            f"{wanted}"
         )
-    else:
-        said = f"columns {', '.join(names)} are not the axes of one space"
-    return f"{said}; the names are x, y, z or x0, x1, ..., once each; --columns x,y takes those wanted"
+    strange = next((name for name in names if name not in _LETTERS and not _NUMBERED.fullmatch(name)), None)
+    strange = strange or ("w" if "w" in names and len(pairs) < len(names) else None)
+    said = f"columns {', '.join(names)} are" if strange is None else f"column {strange[:40]!r} is"
+    return f"{said} no coordinate; the names are x, y, z or x0, x1, ..., once each; {wanted}"

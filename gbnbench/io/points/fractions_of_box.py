@@ -40,6 +40,9 @@ def fractions_of_box(path: Path, content: FileContent, options: ReadingOptions) 
         If the box has another number of axes, contradicts that of the file, or a point lies outside it.
     """
     d = content.sets[0].points.shape[1]
+    if any(one.points.shape[1] != d for one in content.sets):
+        dimensions = sorted({one.points.shape[1] for one in content.sets})
+        raise FormatError(path, f"its sets have different dimensions: {dimensions}")
     for one in content.sets:
         _refuse_transposed(path, one, options)
     box = _box(path, content.box, options, d)
@@ -104,7 +107,7 @@ def _inside(
     path: Path, one: Coordinates, box: Box | None, options: ReadingOptions, edge: float
 ) -> FloatArray:
     x = one.points
-    if box is not None:
+    if box is not None and not one.scaled:
         with np.errstate(invalid="ignore", over="ignore"):
             x = (x - np.array(box.low)) / np.array(box.sides)
     x = np.require(x, np.float64, ["C", "W"])
@@ -127,7 +130,7 @@ def _refuse(path: Path, one: Coordinates, x: FloatArray, outside: np.ndarray, bo
     value = float(one.points[row, column])
     line = None if one.lines is None else int(one.lines[row])
     where = "" if line is not None else f" (point {row}, axis {column})"
-    raise FormatError(path, f"{one.where}{_said(value, x, column, box)}{where}", line)
+    raise FormatError(path, f"{one.where}{_said(value, x, column, None if one.scaled else box)}{where}", line)
 
 
 def _said(value: float, x: FloatArray, axis: int, box: Box | None) -> str:

@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 
 from gbnbench.core.errors import FormatError
 from gbnbench.core.torus import FloatArray
-from gbnbench.io.points.columns import SET_NAMES, fault_of_names
 from gbnbench.io.points.file_format import NUMERIC
 from gbnbench.io.points.point_sets import IntArray
 
@@ -44,8 +43,6 @@ class Lexed:
         1-based numbers of the lines that start with #.
     hidden : (comments,) int64
         How many numbers follow the #, where nothing else does and not all of them are bare; else 0.
-    names : tuple of str
-        Column names, empty where the file has none.
     """
 
     line: IntArray
@@ -54,7 +51,6 @@ class Lexed:
     bare: NDArray[np.bool_]
     comment: IntArray
     hidden: IntArray
-    names: tuple[str, ...]
 
 
 def lex(path: Path, data: bytes) -> Lexed:
@@ -75,13 +71,12 @@ def lex(path: Path, data: bytes) -> Lexed:
     Raises
     ------
     FormatError
-        At the first line that holds anything but numbers, apart from comments and one line of column names.
+        At the first line that holds anything but numbers, apart from comments.
     """
-    names: tuple[str, ...] = ()
     parts: list[Tokens] = []
     comment: list[int] = []
     hidden: list[int] = []
-    before, started = 0, False
+    before = 0
     for raw in _blocks(data):
         block = raw.replace(b"\r\n", b"\n").replace(b"\r", b"\n") if b"\r" in raw else raw
         newlines = np.flatnonzero(np.frombuffer(block, np.uint8) == 10)
@@ -91,13 +86,10 @@ def lex(path: Path, data: bytes) -> Lexed:
             comment += at.tolist()
             hidden += [_numbers_in(match.group()) for match in found]
             block = _COMMENT.sub(b"", block)
-        if not started and block.strip():
-            started = True
-            names, block = _take_names(path, block, before)
         parts.append(_fast(block, before) or _slow(path, block, before))
         before += len(newlines)
     line, width, value, bare = (np.concatenate(arrays) for arrays in zip(*parts, strict=True))
-    return Lexed(line, width, value, bare, np.array(comment, np.int64), np.array(hidden, np.int64), names)
+    return Lexed(line, width, value, bare, np.array(comment, np.int64), np.array(hidden, np.int64))
 
 
 def shown(token: bytes) -> str:
@@ -126,27 +118,6 @@ def _numbers_in(comment: bytes) -> int:
     cells = _cells(comment.strip().lstrip(b"#"))
     plausible = all(NUMBER.fullmatch(cell) for cell in cells) and not all(cell.isdigit() for cell in cells)
     return len(cells) if plausible else 0
-
-
-def _take_names(path: Path, block: bytes, before: int) -> tuple[tuple[str, ...], bytes]:
-    """Split off a first line of column names, in .csv files and where commas part them, leaving it empty."""
-    start = len(block) - len(block.lstrip())
-    start = block.rfind(b"\n", 0, start) + 1
-    end = block.find(b"\n", start)
-    end = len(block) if end < 0 else end
-    first = block[start:end]
-    cells = [cell.strip().strip(b"\"'").strip() for cell in first.split(b",")]
-    if len(cells) == 1 and path.suffix.lower() != ".csv":
-        return (), block
-    if not all(cell[:1].isalpha() for cell in cells) or any(
-        cell.lower() in (b"nan", b"inf") for cell in cells
-    ):
-        return (), block
-    names = tuple(cell.decode("utf-8", "backslashreplace").lower() for cell in cells)
-    fault = fault_of_names([name for name in names if name not in SET_NAMES])
-    if fault is not None:
-        raise FormatError(path, fault, before + 1 + block.count(b"\n", 0, start))
-    return names, block[:start] + block[end:]
 
 
 def _fast(block: bytes, before: int) -> Tokens | None:
@@ -210,10 +181,24 @@ def _slow(path: Path, block: bytes, before: int) -> Tokens:
         cells = _cells(text)
         for cell in cells:
             if not NUMBER.fullmatch(cell):
-                said = f"{shown(cell)} is not a number" if cell else "an empty cell between commas"
-                raise FormatError(path, said, number)
+                raise FormatError(path, _fault(cell, text), number)
         line.append(number)
         width.append(len(cells))
         value += map(float, cells)
         bare += map(bytes.isdigit, cells)
     return np.array(line, np.int64), np.array(width, np.int64), np.array(value), np.array(bare, np.bool_)
+
+
+def _fault(cell: bytes, line: bytes) -> str:
+    """Say what is wrong with a cell that is no number."""
+    if not cell:
+        if line.rstrip().endswith(b","):
+            return "an empty cell after the last comma: remove it, or take columns, such as --columns 1,2"
+        return "an empty cell between commas"
+    if b'"' in cell:
+        return (
+            f"{shown(cell)} is not a number; quotes may hold one, without blanks, commas or parted thousands"
+        )
+    if re.fullmatch(rb"[0-9]+[ \t]+[+-]?[0-9]+", cell):
+        return f"{shown(cell)} is not a number; decimal commas are read where semicolons or tabs part cells"
+    return f"{shown(cell)} is not a number"

@@ -11,6 +11,7 @@ from gbnbench.core.torus import FloatArray
 
 IntArray = NDArray[np.int64]
 
+NO_TORUS = "says that its box is no torus, and it is measured as one: what crosses the sides is not real"
 EQUAL = 1e-9  # of the largest side: sides that differ by no more are equal
 
 
@@ -66,6 +67,8 @@ class Coordinates:
         1-based line of each point, where the format has lines.
     where : str
         What an error says of its place in the file before anything else, such as ``array 'points': ``.
+    scaled : bool
+        Whether they are fractions of the box already, as LAMMPS's xs are.
     unwrapped : bool
         Whether the format defines that whole sides are to be taken off, as LAMMPS's xu does.
     """
@@ -73,6 +76,7 @@ class Coordinates:
     points: FloatArray
     lines: IntArray | None = None
     where: str = ""
+    scaled: bool = False
     unwrapped: bool = False
 
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from gbnbench.core.errors import InputError
 
-_RAW = re.compile(r"([<>=]?[a-z]+[0-9]+)\s*,\s*([1-9][0-9]{0,5})")
+_RAW = re.compile(r"([<>]?)([a-z]+[0-9]+)\s*,\s*([1-9][0-9]{0,5})")
 
 
 @dataclass(frozen=True)
@@ -88,16 +88,16 @@ class ReadingOptions:
         try:
             if match is None:
                 raise TypeError
-            dtype = np.dtype(match[1])
+            dtype = np.dtype(match[2])
             if dtype.kind not in "fiu" or dtype.itemsize > 8:
                 raise TypeError
         except TypeError:
             raise InputError(
                 f"raw must be a type of numbers and how many a point has, such as float32,3; got {self.raw!r}"
             ) from None
-        if dtype.byteorder == "=" or (dtype.byteorder == "|" and dtype.itemsize > 1):
-            dtype = dtype.newbyteorder("<")  # files do not change with the machine that reads them
-        return dtype, int(match[2])
+        # files do not change with the machine that reads them
+        dtype = dtype.newbyteorder(">") if match[1] == ">" else dtype.newbyteorder("<")
+        return dtype, int(match[3])
 
     def record(self) -> dict[str, Any]:
         """Return what was given, JSON-ready; empty where nothing was."""

@@ -1,11 +1,13 @@
-"""Writing point sets: text that keeps every bit, and files that appear whole or not at all."""
+"""Writing point sets: the bytes of a file by its suffix, and files that appear whole or not at all."""
 
 from __future__ import annotations
 
-import io
+import bz2
+import gzip
+import lzma
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, cast
+from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,6 +16,17 @@ from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray, check_points
 from gbnbench.io.points.file_format import reason
+from gbnbench.io.points.formats.registry import FORMATS
+from gbnbench.io.points.point_sets import PointSets, unequal_sides
+
+# text first, for whoever reads the list
+WRITTEN = {suffix: format_ for format_ in (FORMATS[-1], *FORMATS) for suffix in format_.write}
+
+_PACKERS: dict[str, Callable[[bytes], bytes]] = {
+    ".gz": lambda data: gzip.compress(data, mtime=0),
+    ".bz2": bz2.compress,
+    ".xz": lzma.compress,
+}
 
 
 def checked_sets(x: ArrayLike | Sequence[ArrayLike]) -> list[FloatArray]:
@@ -42,74 +55,15 @@ def checked_sets(x: ArrayLike | Sequence[ArrayLike]) -> list[FloatArray]:
     return list(points) if points.ndim == 3 else [points]
 
 
-def _rows(points: FloatArray, separator: str, prefix: str = "") -> str:
-    """Lines of the shortest literals that read back to the same bits."""
-    return "".join(f"{prefix}{separator.join(map(repr, row))}\n" for row in points.tolist())
-
-
-def _txt(sets: list[FloatArray]) -> bytes:
-    """PSA's count and rows; where d is not 2, the count and the dimension as the GBN authors' programs do."""
-    heads = [f"{len(s)}\n" if s.shape[1] == 2 else f"{len(s)} {s.shape[1]}\n" for s in sets]
-    return "".join(head + _rows(s, " ") for head, s in zip(heads, sets, strict=True)).encode()
-
-
-def _dat(sets: list[FloatArray]) -> bytes:
-    """UTK's rows, sets parted by a line #."""
-    return "#\n".join(_rows(s, "\t") for s in sets).encode()
-
-
-def _csv(sets: list[FloatArray]) -> bytes:
-    """Columns x0, x1, ..., and before them the set's number where there are several."""
-    names = ",".join(f"x{a}" for a in range(sets[0].shape[1]))
-    if len(sets) == 1:
-        return f"{names}\n{_rows(sets[0], ',')}".encode()
-    return (f"set,{names}\n" + "".join(_rows(s, ",", f"{k},") for k, s in enumerate(sets))).encode()
-
-
-def _npy(sets: list[FloatArray]) -> bytes:
-    if not _same_size(sets):
-        sizes = [len(s) for s in sets][:6]
-        raise InputError(f".npy holds sets of one size; got {sizes} points: use .npz, .txt, .dat or .csv")
-    file = io.BytesIO()
-    np.lib.format.write_array(file, _stack(sets), allow_pickle=False)
-    return file.getvalue()
-
-
-def _npz(sets: list[FloatArray]) -> bytes:
-    file = io.BytesIO()
-    arrays: dict[str, Any] = (
-        {"points": _stack(sets)} if _same_size(sets) else {f"set_{k}": s for k, s in enumerate(sets)}
-    )
-    np.savez(file, **arrays)
-    return file.getvalue()
-
-
-def _same_size(sets: list[FloatArray]) -> bool:
-    return len({len(s) for s in sets}) == 1
-
-
-def _stack(sets: list[FloatArray]) -> FloatArray:
-    return np.stack(sets) if len(sets) > 1 else sets[0]
-
-
-WRITERS: dict[str, Callable[[list[FloatArray]], bytes]] = {
-    ".txt": _txt,
-    ".dat": _dat,
-    ".csv": _csv,
-    ".npy": _npy,
-    ".npz": _npz,
-}
-
-
-def encode(path: Path, x: ArrayLike | Sequence[ArrayLike]) -> bytes:
+def encode(path: Path, x: ArrayLike | Sequence[ArrayLike] | PointSets) -> bytes:
     """Make the bytes of a file of the format that the path's extension names.
 
     Parameters
     ----------
     path : Path
-        Ends in one of ``WRITERS``.
-    x : (n, d) or (realizations, n, d) array_like, or a list of (n_i, d)
-        Points in [0, 1).
+        Ends in one of ``WRITTEN``, or in one of them and .gz, .bz2 or .xz.
+    x : (n, d) or (realizations, n, d) array_like, a list of (n_i, d), or PointSets
+        Points in [0, 1); PointSets have a box too, in whose unit they are written where the format holds it.
 
     Returns
     -------
@@ -118,12 +72,71 @@ def encode(path: Path, x: ArrayLike | Sequence[ArrayLike]) -> bytes:
     Raises
     ------
     InputError
-        If the extension is none of these, or x is not points.
+        If the extension is none of these, x is not points, or the format cannot hold them.
     """
-    writer = WRITERS.get(path.suffix.lower())
-    if writer is None:
-        raise InputError(f"{path}: points are written as {', '.join(WRITERS)}; got extension {path.suffix!r}")
-    return writer(checked_sets(x))
+    check_suffix(path)
+    suffix, pack = suffix_of(path), _PACKERS.get(path.suffix.lower(), bytes)
+    format_ = WRITTEN[suffix]
+    given = x if isinstance(x, PointSets) else PointSets(checked_sets(x))
+    if (lost := lost_box(path, given)) is not None:
+        raise InputError(f"{path}: {lost}")
+    try:
+        return pack(format_.write[suffix](given if format_.keeps_box else PointSets(given.sets)))
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+
+
+def lost_box(path: Path, x: PointSets) -> str | None:
+    """Say what of the box a file of this name could not hold and measures need, or return None.
+
+    Parameters
+    ----------
+    path : Path
+        Its suffix names the format.
+    x : PointSets
+        Sets with their box.
+
+    Returns
+    -------
+    str or None
+        A sentence for an error; a cube that is a torus, or not told to be none, is the unit torus in another
+        unit and loses nothing that is measured.
+    """
+    check_suffix(path)
+    format_ = WRITTEN[suffix_of(path)]
+    if format_.keeps_box:
+        return None
+    keepers = ", ".join(dict.fromkeys(suffix for suffix, other in WRITTEN.items() if other.keeps_box))
+    if unequal_sides(x.sides) is not None and x.sides is not None:
+        sides = " x ".join(f"{side:g}" for side in x.sides)
+        return f"{format_.name} cannot hold a box of unequal sides, {sides}; {keepers} do"
+    if x.toroidal is False:
+        return f"{format_.name} cannot say that the box is no torus; {keepers} do"
+    return None
+
+
+def suffix_of(path: Path) -> str:
+    """Return the suffix that names the format of a file, in lower case, without that of a compression."""
+    suffix = path.suffix.lower()
+    return Path(path.stem).suffix.lower() if suffix in _PACKERS else suffix
+
+
+def check_suffix(path: Path) -> None:
+    """Refuse a file whose format is not written.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Raises
+    ------
+    InputError
+        If its suffix is none of ``WRITTEN``.
+    """
+    if suffix_of(path) not in WRITTEN:
+        known = ", ".join(WRITTEN)
+        raise InputError(f"{path}: points are written as {known}; got extension {suffix_of(path)!r}")
 
 
 def write_atomically(path: Path, data: bytes) -> None:

@@ -10,7 +10,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from numpy.typing import ArrayLike
 
@@ -18,54 +18,24 @@ from gbnbench import __version__
 from gbnbench.analysis.integration.integrands.protocol import Family
 from gbnbench.analysis.integration.integrands.registry import find as find_family
 from gbnbench.analysis.integration.variance import Variance, variance_of
-from gbnbench.core import atomic_write
-from gbnbench.core.errors import DeviceError, FormatError, InputError, RefusalError
+from gbnbench.core.errors import DeviceError, InputError, RefusalError
 from gbnbench.core.settings import specification
+from gbnbench.core.sides import as_sides
 from gbnbench.core.torus import as_realizations
 from gbnbench.execution.progress import Progress
-from gbnbench.io import data_files
 from gbnbench.opencl import choose
 from gbnbench.runs import comparison_folder
 from gbnbench.runs.provenance import versions
 from gbnbench.runs.resumable import run_tasks
-from gbnbench.runs.resumable_folder import MANIFEST, SETTINGS, explain_interruption
+from gbnbench.runs.resumable_folder import explain_interruption
 from gbnbench.runs.sources import Source, resolve
-from gbnbench.runs.task_folder import TaskFolder
 from gbnbench.studies.integration.blocks import errors_of, instances_of, tasks_of
+from gbnbench.studies.integration.study_folder import IntegrationStudy, StudyFolder, read_integration
 from gbnbench.studies.integration.tables import gather, tables
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 DEFAULT_SOURCES = ("random", "jittered", "sobol", "gbn")
 DEFAULT_INTEGRANDS = ("gaussians", "half-space")
 DEFAULT_N = (16, 64, 256, 1024)
-TEXT = ("source", "integrand")
-TABLES = ("variance", "slopes")
-
-
-@dataclass(frozen=True)
-class IntegrationStudy:
-    """A finished study.
-
-    Attributes
-    ----------
-    manifest : mapping
-        JSON-ready: command, settings, seed, device, versions.
-    variance : DataFrame
-        A row a source, n, d and family: columns source, n, d, integrand, instances, realizations, shifts,
-        variance, standard_error, low, high (95% band), bias, bias_error, foretold, foretold_error, beyond
-        (most that white noise would add beyond the frequencies summed), deviation (of variance from the range
-        of foretold to foretold + beyond, in standard errors of their difference, which is taken integrand by
-        integrand and set by set); the last four nan for families whose spectrum is not known.
-    slopes : DataFrame
-        A row a source, d and family with two or more n: columns source, d, integrand, n_from, n_to, slope,
-        standard_error, scatter (decades).
-    """
-
-    manifest: dict[str, Any]
-    variance: pd.DataFrame
-    slopes: pd.DataFrame
 
 
 @dataclass(frozen=True)
@@ -195,7 +165,8 @@ def run_integration_study(
     InputError
         If a name or number is wrong, or the folder holds something else.
     RefusalError
-        If nothing remains of the sources or a family has no integrand in one of the dimensions.
+        If nothing remains of the sources, a family has no integrand in one of the dimensions, or points lie
+        on a torus with unequal sides.
     UnfinishedError
         If pieces failed; every other piece is kept.
     """
@@ -212,6 +183,11 @@ def run_integration_study(
         given.extend(found)
         skipped = (*skipped, *refused)
     for source in given:
+        if as_sides(source.sides, source.d) is not None:
+            raise RefusalError(
+                f"{source.label} (n={source.n}, d={source.d}): the integrands are functions of a cube, and "
+                "its box has unequal sides; gbnbench convert --fractions writes its points as those of a cube"
+            )
         for family in families:
             _refuse(family, source.d)
     settings: dict[str, Any] = {
@@ -254,47 +230,6 @@ def run_integration_study(
             draw(study, store.path)
         store.finish(manifest)
     return IntegrationOutcome(study, store.path, work.reused, len(tasks), time.monotonic() - began)
-
-
-class StudyFolder(TaskFolder):
-    """A study on disk."""
-
-    kind = "study of integration"
-
-    def write_tables(self, study: IntegrationStudy) -> None:
-        """Write ``variance.csv`` and ``slopes.csv``."""
-        for name in TABLES:
-            atomic_write.write_whole(self.path / f"{name}.csv", data_files.to_csv(getattr(study, name)))
-
-
-def is_study(folder: str | Path) -> bool:
-    """Whether a folder is a study of integration, finished or not."""
-    settings = Path(folder) / SETTINGS
-    return settings.is_file() and "integrands" in data_files.read_json(settings)
-
-
-def read_integration(folder: str | Path) -> IntegrationStudy:
-    """Read a finished study.
-
-    Raises
-    ------
-    InputError
-        If it is none, or an unfinished one.
-    FormatError
-        If a file in it is missing or is not what was written.
-    """
-    path = Path(folder)
-    if not (path / MANIFEST).is_file():
-        state = "an unfinished" if (path / SETTINGS).is_file() else "no"
-        raise InputError(f"{path} is {state} study of integration: it has no {MANIFEST}")
-    manifest = data_files.read_json(path / MANIFEST)
-    if "integrands" not in manifest.get("settings", {}):
-        raise FormatError(path / MANIFEST, "is not of a study of integration")
-    tables = (
-        data_files.read_or_explain(path / f"{name}.csv", lambda p: data_files.read_csv(p, text=TEXT))
-        for name in TABLES
-    )
-    return IntegrationStudy(manifest, *tables)
 
 
 def _require(**whole: tuple[int, int]) -> None:

@@ -1,4 +1,4 @@
-"""Tables of a study of integration: variances with their errors, what is foretold, slopes."""
+"""Tables of a study of integration: variances with their errors, what spectra predict, slopes."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ class Gathered:
     ----------
     errors : (instances, realizations, shifts or 1) float64
         Estimates less integrals.
-    foretold : (instances, realizations) float64 or None
-        Variances that the spectra foretell.
+    predicted : (instances, realizations) float64 or None
+        Variances that the spectra predict.
     beyond : float
         What the frequencies left out may add to them.
     """
 
     errors: FloatArray
-    foretold: FloatArray | None
+    predicted: FloatArray | None
     beyond: float
 
 
@@ -60,8 +60,8 @@ def gather(results: Mapping[str, Arrays], source: Source, family: Family) -> Gat
     errors = np.concatenate([piece[f"{text} errors"] for piece in pieces], axis=1)
     if f"{text} foretold" not in pieces[0]:
         return Gathered(errors, None, float("nan"))
-    foretold = np.concatenate([piece[f"{text} foretold"] for piece in pieces], axis=1)
-    return Gathered(errors, foretold, float(pieces[0][f"{text} beyond"]))
+    predicted = np.concatenate([piece[f"{text} foretold"] for piece in pieces], axis=1)
+    return Gathered(errors, predicted, float(pieces[0][f"{text} beyond"]))
 
 
 def tables(
@@ -85,7 +85,7 @@ def tables(
     Returns
     -------
     variance, slopes : DataFrame
-        As ``gbnbench.studies.integration.study.IntegrationStudy`` has them.
+        As ``gbnbench.studies.integration.study_folder.IntegrationStudy`` has them.
     """
     import pandas as pd
 
@@ -125,17 +125,17 @@ def _row(gathered: Gathered) -> dict[str, float]:
         "bias": found.bias, "bias_error": found.bias_error,
     }  # fmt: skip
     nan = float("nan")
-    if gathered.foretold is None:
+    if gathered.predicted is None:
         return {**row, "foretold": nan, "foretold_error": nan, "beyond": nan, "deviation": nan}
-    foretold = crossed_mean(gathered.foretold)
+    predicted = crossed_mean(gathered.predicted)
     # Integrand by integrand and set by set: what both have in common is no error of their difference.
-    difference = crossed_mean((gathered.errors**2).mean(axis=2) - gathered.foretold)
+    difference = crossed_mean((gathered.errors**2).mean(axis=2) - gathered.predicted)
     outside = difference.value - min(max(difference.value, 0.0), gathered.beyond)
     deviation = outside / difference.standard_error if difference.standard_error > 0 else nan
     return {
         **row,
-        "foretold": foretold.value,
-        "foretold_error": foretold.standard_error,
+        "foretold": predicted.value,
+        "foretold_error": predicted.standard_error,
         "beyond": gathered.beyond,
         "deviation": deviation,
     }

@@ -70,6 +70,31 @@ def test_errors_hold_against_exact_fractions(name: str) -> None:
     assert_within_stated_errors(x, {**squares(x), "diaphony": diaphony_square(x)})
 
 
+@pytest.mark.parametrize("name", [name for name, x in hard_sets().items() if x.shape[1] == 2])
+def test_divide_and_conquer_s_errors_hold_against_exact_fractions(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(discrepancy, "PLANE_FROM", 1)
+    x = hard_sets()[name]
+    assert measure_discrepancies(x, ["CD"])["CD"].method == "divide and conquer"
+    assert_within_stated_errors(x, {**squares(x), "diaphony": diaphony_square(x)})
+
+
+def test_divide_and_conquer_counts_every_pair_once_among_many_ties(monkeypatch: pytest.MonkeyPatch) -> None:
+    numerators = np.random.default_rng(2).integers(0, 32, (1500, 2))
+    exact = dyadic_squares(numerators, 5)
+    monkeypatch.setattr(discrepancy, "PLANE_FROM", 1)
+    assert_within_stated_errors(numerators / 32, exact)
+
+
+def test_a_large_lattice_of_the_plane_has_its_exact_value() -> None:
+    n = 75_025
+    x = np.stack([np.arange(n), np.arange(n) * 46_368 % n], axis=1) / n
+    exact = {"WD": lattice_square(n, (1, 46_368), Fraction(3, 2))}
+    assert_within_stated_errors(x, exact)
+    assert discrepancies(x, ["WD"])["WD"][0] == pytest.approx(float(exact["WD"]), rel=1e-6, abs=0)
+
+
 def test_errors_hold_for_several_blocks_against_exact_integers() -> None:
     numerators = np.random.default_rng(1).integers(0, 256, (2600, 2))
     assert_within_stated_errors(numerators / 256, dyadic_squares(numerators, 8))
@@ -149,8 +174,10 @@ def test_a_gpu_s_groups_and_numpy_agree_with_vectors(monkeypatch: pytest.MonkeyP
 
 
 def test_too_many_points_are_refused_before_the_sum_with_the_cost() -> None:
-    with pytest.raises(RefusalError, match="at most 141421, got n=1000000: some 260 seconds"):
-        discrepancies(np.broadcast_to(0.5, (1_000_000, 2)))
+    with pytest.raises(RefusalError, match="at most 115470, got n=200000: some 16 seconds"):
+        discrepancies(np.full((200_000, 3), 0.5))
+    with pytest.raises(RefusalError, match="at most 4194304; got n=5000000: some 50 seconds of one core"):
+        discrepancies(np.full((5_000_000, 2), 0.5))
 
 
 def test_an_unknown_kind_is_named() -> None:

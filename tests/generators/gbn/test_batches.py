@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from gbnbench.core.errors import InputError
-from gbnbench.generators.gbn import batches, optimiser
+from gbnbench.generators.gbn import batches, optimiser, step_sizes
 from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.monitor import Monitor, Trace
 from gbnbench.generators.registry import generate
@@ -147,10 +147,10 @@ def test_a_set_that_is_done_waits_for_the_others():
 def test_the_step_is_halved_while_the_energy_rises():
     """Ten times the largest stable step: the energy rises until the step has come down."""
     x = np.random.default_rng(0).random((1, 256, 2))
-    method = optimiser.Nesterov(energy_evaluation(256, 2, 1.0), x, 10 * optimiser.step_size(256, 2, 1.0))
+    method = optimiser.Nesterov(energy_evaluation(256, 2, 1.0), x, 10 * step_sizes.step_size(256, 2, 1.0))
     for _ in range(400):
         method.advance()
-    assert method.size[0] < 5 * optimiser.step_size(256, 2, 1.0)
+    assert method.size[0] < 5 * step_sizes.step_size(256, 2, 1.0)
     assert method.excess[0] < 1e-3
 
 
@@ -159,7 +159,7 @@ def test_each_set_gets_its_own_band_back():
     x = np.random.default_rng(0).random((2, 2100, 2))
     energy = energy_evaluation(2100, 2, 1.0)
     enough = float(energy(x).excess.min()) * (1 + 1e-9)
-    step = optimiser.step_size(2100, 2, 1.0)
+    step = step_sizes.step_size(2100, 2, 1.0)
     one, other = (
         optimiser.Nesterov(energy_evaluation(2100, 2, 1.0), x, step, enough, sigma=1.0) for _ in range(2)
     )

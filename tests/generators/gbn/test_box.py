@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from gbnbench.analysis.spatial.edge_density import edge_density
-from gbnbench.generators.gbn import operation_counts
+from gbnbench.generators.gbn import energy_cost
 from gbnbench.generators.gbn.box import BoxEnergy, domain_energy, domain_pull, fold
 from gbnbench.generators.registry import generate
 from gbnbench.opencl.runtime import Runtime
@@ -49,7 +49,7 @@ def test_strips_give_what_all_pairs_give(monkeypatch, n, d, sigma, precision):
     x = np.random.default_rng(d).random((2, n, d))
     cut = BoxEnergy(n, d, sigma, precision)
     assert cut.method == "box, strips"
-    monkeypatch.setitem(operation_counts.SHARE, "strips", 1e-9)
+    monkeypatch.setitem(energy_cost.SHARE, "strips", 1e-9)
     whole = BoxEnergy(n, d, sigma, precision)
     assert whole.method == "box, images"
     one, other = cut(x), whole(x)

@@ -13,7 +13,8 @@ from gbnbench.generators.gbn import kernel
 from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.harmonics import Harmonics
 from gbnbench.generators.gbn.images import Images
-from gbnbench.generators.gbn.plan import METHODS, plan_energy
+from gbnbench.generators.gbn.methods import METHODS
+from gbnbench.generators.gbn.plan import plan_energy
 from gbnbench.generators.gbn.theta import Theta
 from gbnbench.opencl import Runtime, runtime
 from gbnbench.opencl.width_probe import VectorWidths

@@ -11,8 +11,9 @@ from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.integer_frequencies import shell_counts
 from gbnbench.generators.gbn import kernel, operation_counts
 from gbnbench.generators.gbn.energy import energy_evaluation
+from gbnbench.generators.gbn.frequency_ball import ball_volume, square_needed
 from gbnbench.generators.gbn.plan import plan_energy
-from gbnbench.generators.gbn.wave_tables import TILE, ball_volume, ball_waves, square_needed
+from gbnbench.generators.gbn.wave_tables import TILE, ball_waves
 
 
 def dense_counts(d, square):

@@ -16,7 +16,7 @@ from gbnbench.core.errors import InputError
 from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.gbn.lowest_band import LowestBandPreconditioner
-from gbnbench.generators.gbn.optimiser import largest_curvature, step_size
+from gbnbench.generators.gbn.step_sizes import largest_curvature, step_size
 from gbnbench.generators.protocol import realization_rng
 
 

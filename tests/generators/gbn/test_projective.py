@@ -9,8 +9,9 @@ from gbnbench.analysis.radial.projections import projections
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import wrap
 from gbnbench.generators.gbn.energy import energy_evaluation
-from gbnbench.generators.gbn.optimiser import Nesterov, step_size
+from gbnbench.generators.gbn.optimiser import Nesterov
 from gbnbench.generators.gbn.projective import ProjectiveEnergy, shares, subsets
+from gbnbench.generators.gbn.step_sizes import step_size
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.generators.registry import generate
 

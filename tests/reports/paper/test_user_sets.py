@@ -13,7 +13,7 @@ from gbnbench.reports.paper.figure import FigureOptions
 from gbnbench.reports.paper.method_styles import stroke
 from gbnbench.reports.paper.registry import find
 from gbnbench.reports.paper.user_sets import check_sets
-from gbnbench.studies.integration.study import IntegrationStudy
+from gbnbench.studies.integration.study_folder import IntegrationStudy
 from tests.smallest_sizes import smallest_sizes
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 
 from gbnbench.io.points.point_file import PointFile
 from gbnbench.io.points.point_sets import FileContent, PointSets
@@ -18,14 +18,14 @@ class Format:
     name : str
         For the user.
     suffixes : tuple of str
-        Those of its files, in lower case; of one that is written, the first is not that of another format.
+        Those of its files, in lower case.
     recognises : callable
         ``recognises(file)``: whether this is such a file, by its first bytes, and by its name only where
         bytes cannot tell.
     read : callable
         ``read(file)``: its sets in its own unit.
-    write : callable or None
-        ``write(sets)``: the bytes of a file of these sets; None where the format is only read.
+    write : mapping of str to callable
+        Suffix of the files that are written -> ``write(sets)``, their bytes; empty where it is only read.
     takes : frozenset of str
         The reading options that it has a use for, of columns and array; others are refused.
     keeps_box : bool
@@ -36,6 +36,6 @@ class Format:
     suffixes: tuple[str, ...]
     recognises: Callable[[PointFile], bool]
     read: Callable[[PointFile], FileContent]
-    write: Callable[[PointSets], bytes] | None = None
+    write: Mapping[str, Callable[[PointSets], bytes]] = field(default_factory=dict)
     takes: frozenset[str] = frozenset()
     keeps_box: bool = False

@@ -45,4 +45,4 @@ def stack(sets: list[FloatArray]) -> FloatArray:
     return np.stack(sets) if len(sets) > 1 else sets[0]
 
 
-NPY = Format("numpy array", (".npy",), _recognises, _read, _write, frozenset({"columns"}))
+NPY = Format("numpy array", (".npy",), _recognises, _read, {".npy": _write}, frozenset({"columns"}))

@@ -63,6 +63,8 @@ def _read_archive(file: PointFile, archive: zipfile.ZipFile, entries: int) -> Fi
         raise FormatError(path, "the archive holds no arrays")
     if any(name.endswith(".pkl") for name in names):
         raise FormatError(path, f"holds {UNSAFE}; save the points with numpy.save or as text")
+    if "[Content_Types].xml" in names:
+        raise FormatError(path, "is an Office document, not points: save its sheet as .csv")
     if len(set(names)) < len(names) or not all(name.endswith(".npy") for name in names):
         raise FormatError(path, f"not an .npz of arrays: it holds {', '.join(map(repr, names[:4]))[:80]}")
     chosen = _choose(file, [*members])
@@ -159,5 +161,11 @@ def _write(x: PointSets) -> bytes:
 
 
 NPZ = Format(
-    "numpy archive", (".npz",), _recognises, _read, _write, frozenset({"columns", "array"}), keeps_box=True
+    "numpy archive",
+    (".npz",),
+    _recognises,
+    _read,
+    {".npz": _write},
+    frozenset({"columns", "array"}),
+    keeps_box=True,
 )

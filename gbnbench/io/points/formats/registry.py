@@ -9,15 +9,22 @@ from pathlib import Path
 
 from gbnbench.core.errors import FormatError
 from gbnbench.io.points.file_format import LEGIBLE
+from gbnbench.io.points.formats.edat import EDAT
 from gbnbench.io.points.formats.eps import EPS
+from gbnbench.io.points.formats.foreign import foreign
 from gbnbench.io.points.formats.format import Format
+from gbnbench.io.points.formats.json_lists import JSON
+from gbnbench.io.points.formats.lammps import LAMMPS
 from gbnbench.io.points.formats.npy import NPY
 from gbnbench.io.points.formats.npz import NPZ
+from gbnbench.io.points.formats.ply import PLY
 from gbnbench.io.points.formats.rps import RPS
 from gbnbench.io.points.formats.text import TEXT
+from gbnbench.io.points.formats.xyz import XYZ
 from gbnbench.io.points.point_file import PACKED, PointFile
 
-FORMATS = (NPY, NPZ, EPS, RPS, TEXT)
+# text last: it takes whatever is legible
+FORMATS = (NPY, NPZ, EPS, RPS, PLY, LAMMPS, EDAT, JSON, XYZ, TEXT)
 SUFFIXES = tuple(suffix for format_ in FORMATS for suffix in format_.suffixes)
 # what point sets of a folder end in; its JSON files mostly tell of the others
 FOLDER_SUFFIXES = tuple(suffix for suffix in SUFFIXES if suffix != ".json")
@@ -59,11 +66,11 @@ def format_of(file: PointFile) -> Format:
         If the bytes belong to something that is not a point set.
     """
     path, head = file.path, file.head
+    if file.suffix != ".rps" and (said := foreign(file)) is not None:
+        raise FormatError(path, said)
     for format_ in FORMATS[:-1]:
         if format_.recognises(file):
             return format_
-    if head.startswith((b"\xff\xfe", b"\xfe\xff")) and b"\0" in head[2:4]:
-        raise FormatError(path, "is UTF-16 text; save it as UTF-8 or ASCII")
     if file.suffix in (".npy", ".npz") and head.translate(None, LEGIBLE):
         raise FormatError(path, f"is not a {file.suffix} file: it starts with {head[:6]!r}")
     if TEXT.recognises(file):

@@ -12,17 +12,22 @@ from gbnbench.core.errors import FormatError
 from gbnbench.io.points.columns import SET_NAMES
 from gbnbench.io.points.file_format import LEGIBLE
 from gbnbench.io.points.formats.format import Format
+from gbnbench.io.points.formats.text_writing import WRITERS
 from gbnbench.io.points.number_parser import Lexed, lex
 from gbnbench.io.points.point_file import PointFile
 from gbnbench.io.points.point_sets import Coordinates, FileContent, IntArray
+from gbnbench.io.points.text_columns import plain_rows
 
 # (first line, lines) of one set, as indices into Lexed.line
 Span = tuple[int, int]
 
+STRAY = 3  # bytes of a short text that no text has, such as a NUL or an old end-of-file mark
+
 
 def _recognises(file: PointFile) -> bool:
-    """Tell text by its bytes; a stray one among them is better named by its line."""
-    return 20 * len(file.head.translate(None, LEGIBLE)) < len(file.head)
+    """Tell text by its bytes; a few stray ones among them are better named by their line."""
+    strange = len(file.head.translate(None, LEGIBLE))
+    return 20 * strange < len(file.head) or (strange <= STRAY and 4 * strange < len(file.head))
 
 
 def read_text(file: PointFile) -> FileContent:
@@ -44,19 +49,20 @@ def read_text(file: PointFile) -> FileContent:
         At the first line that breaks the grammar.
     """
     path, options = file.path, file.options
-    text = lex(path, file.read())
+    names, rows = plain_rows(path, file.read(), options.columns)
+    text = lex(path, rows)
     if len(text.line) == 0:
         raise FormatError(path, "the file holds no points")
     begin = np.concatenate([[0], np.cumsum(text.width)])
     _refuse_hidden(path, text)
     unit_torus = options.period is None and options.bounds is None and not options.wrap
-    form = 0 if text.names else _header_form(path, text, unit_torus)
+    form = 0 if names else _header_form(path, text, unit_torus)
     if form:
         spans = _counted(path, text, begin, form)
     else:
-        _same_width(path, text)
-        if any(name in SET_NAMES for name in text.names):
-            return FileContent(_by_column(path, text))
+        _same_width(path, text, names)
+        if any(name in SET_NAMES for name in names):
+            return FileContent(_by_column(path, text, names))
         spans = _parted(path, text)
     return FileContent([_coordinates(text, begin, span) for span in spans])
 
@@ -163,11 +169,11 @@ def _points(n: int) -> str:
     return f"{n} point{'s' * (n != 1)}"
 
 
-def _same_width(path: Path, text: Lexed) -> None:
-    d = len(text.names) or int(text.width[0])
+def _same_width(path: Path, text: Lexed, names: tuple[str, ...]) -> None:
+    d = len(names) or int(text.width[0])
     wrong = np.flatnonzero(text.width != d)
     if len(wrong):
-        what = "the header names" if text.names else "the lines before have"
+        what = "the header names" if names else "the lines before have"
         _refuse_width(path, text, int(wrong[0]), d, f"{what} {d}")
 
 
@@ -192,12 +198,12 @@ def _parted(path: Path, text: Lexed) -> list[Span]:
     return [(a, b - a) for a, b in pairwise(bounds)]
 
 
-def _by_column(path: Path, text: Lexed) -> list[Coordinates]:
+def _by_column(path: Path, text: Lexed, names: tuple[str, ...]) -> list[Coordinates]:
     """Find the sets by the column named set, whose numbers start at 0 or 1 and count up by one."""
-    columns = [i for i, name in enumerate(text.names) if name in SET_NAMES]
-    if len(columns) > 1 or len(text.names) < 2:
+    columns = [i for i, name in enumerate(names) if name in SET_NAMES]
+    if len(columns) > 1 or len(names) < 2:
         raise FormatError(path, "the header needs one set column and at least one coordinate")
-    table = text.value.reshape(len(text.line), len(text.names))
+    table = text.value.reshape(len(text.line), len(names))
     index = np.clip(table[:, columns[0]], -1, 2.0**53)  # the difference of two inf is none
     step = np.diff(index, prepend=index[0])
     good = ((step == 0) | (step == 1)) & ((index[0] == 0) | (index[0] == 1))
@@ -216,4 +222,6 @@ def _coordinates(text: Lexed, begin: IntArray, span: Span) -> Coordinates:
     return Coordinates(points, text.line[first : first + n])
 
 
-TEXT = Format("text", (".txt", ".dat", ".csv", ".tsv"), _recognises, read_text, None, frozenset({"columns"}))
+TEXT = Format(
+    "text", (".txt", ".dat", ".csv", ".tsv"), _recognises, read_text, WRITERS, frozenset({"columns"})
+)

@@ -56,7 +56,7 @@ def test_the_mean_energy_is_the_mean_over_draws() -> None:
     assert family.mean_energy(np.array([[0, 0], [2, 2]])).tolist() == [0, 0]
 
 
-def test_variance_over_shifts_is_what_the_spectrum_foretells() -> None:
+def test_variance_over_shifts_is_what_the_spectrum_predicts() -> None:
     rng = np.random.default_rng(5)
     family = Waves(count=5, reach=0.15)
     x, f = rng.random((30, 2)), family.frequencies(2, 0.1)
