@@ -17,6 +17,7 @@ from gbnbench.core.errors import RefusalError
 from gbnbench.core.results.measures import Measures
 from gbnbench.core.results.radial import RadialPower
 from gbnbench.core.results.spectrum import Spectrum
+from gbnbench.core.sides import as_sides
 from gbnbench.core.torus import FloatArray, as_realizations
 from gbnbench.opencl import use_device
 
@@ -35,7 +36,7 @@ class Analysis:
     spectrum : Spectrum
         Mean over the realizations.
     radial : RadialPower
-        Its exact shells.
+        Its exact shells; where the sides are unequal, neighbouring ones are pooled (``box_shells.pooled``).
     anisotropy : DataFrame
         A row a ring: frequency, nu, anisotropy_db, psa_db.
     rdf : DataFrame or None
@@ -60,7 +61,13 @@ class Analysis:
     warnings: tuple[str, ...]
 
 
-def measures(x: ArrayLike, fmax: int | None = None, *, device: str | None = None) -> Measures:
+def measures(
+    x: ArrayLike,
+    fmax: int | None = None,
+    *,
+    sides: ArrayLike | None = None,
+    device: str | None = None,
+) -> Measures:
     """Compute every scalar measure of one or several sets.
 
     Parameters
@@ -69,8 +76,12 @@ def measures(x: ArrayLike, fmax: int | None = None, *, device: str | None = None
         Points on the unit torus. Spatial measures and evacuated energy are means over the sets, the others
         are of the mean spectrum.
     fmax : int, optional
-        Largest harmonic on each axis; by default as far as nu = 2, or as affordable (``default_fmax``).
-        Where a cube of frequencies is not, as in d = 20, exact shells are taken as far as they go.
+        Largest harmonic on each axis, or |k| for unequal sides; by default as far as nu = 2, or as affordable
+        (``default_fmax``). Where a cube of frequencies is not, as in d = 20, exact shells are taken as far as
+        they go.
+    sides : (d,) array_like, optional
+        Lengths of the torus's sides in any unit, whose ratios count; a cube if not given. Lengths and |k| are
+        then those of the rectangle or box, in units of its volume^(1/d); discrepancies do not change.
     device : str, optional
         Part of the name of the OpenCL device, or its position, as in ``GBNBENCH_DEVICE``, which it overrides.
 
@@ -84,7 +95,8 @@ def measures(x: ArrayLike, fmax: int | None = None, *, device: str | None = None
     Raises
     ------
     InputError
-        If x is not points of the unit torus, or fmax is no harmonic that can be evaluated.
+        If x is not points of the unit torus, fmax is no harmonic that can be evaluated, or sides are not d
+        lengths.
     DeviceError
         If a device is named and fits none or several.
 
@@ -101,12 +113,19 @@ def measures(x: ArrayLike, fmax: int | None = None, *, device: str | None = None
     True
     >>> measures(gbnbench.generate("random", n=64, d=3, seed=1)).reasons["psi6"]
     'psi6 is defined in the plane; got d=3'
+
+    The hexagonal lattice is the lattice it is in a rectangle of sqrt(3) by 1:
+
+    >>> m = measures([[0.0, 0.0], [0.5, 0.5]], sides=(3**0.5, 1))
+    >>> round(m["psi6"], 9), round(m["min_distance"], 9)
+    (1.0, 1.0)
     """
+    points = as_realizations(x)
     with use_device(device):
-        return Scalars(as_realizations(x), fmax).measures()
+        return Scalars(points, fmax, as_sides(sides, points.shape[2])).measures()
 
 
-def analyse(x: ArrayLike, fmax: int | None = None) -> Analysis:
+def analyse(x: ArrayLike, fmax: int | None = None, sides: ArrayLike | None = None) -> Analysis:
     """Measure everything of one or several sets, curves and pictures included.
 
     Parameters
@@ -114,7 +133,9 @@ def analyse(x: ArrayLike, fmax: int | None = None) -> Analysis:
     x : (n, d) or (realizations, n, d) array_like
         Points on the unit torus.
     fmax : int, optional
-        Largest harmonic on each axis; by default that of ``measures``.
+        Largest harmonic on each axis, or |k| for unequal sides; by default that of ``measures``.
+    sides : (d,) array_like, optional
+        Lengths of the torus's sides, whose ratios count; a cube if not given.
 
     Returns
     -------
@@ -126,18 +147,19 @@ def analyse(x: ArrayLike, fmax: int | None = None) -> Analysis:
     InputError
         As ``measures``.
     """
-    scalars = Scalars(as_realizations(x), fmax)
-    points = scalars.points
+    points = as_realizations(x)
+    lengths = as_sides(sides, points.shape[2])
+    scalars = Scalars(points, fmax, lengths)
     found = scalars.measures()  # first: it may take the shells farther
     return Analysis(
         spectrum=scalars.spectrum,
         radial=scalars.radial,
         anisotropy=scalars.anisotropy(),
-        rdf=_unless_refused(lambda: rdf(points).to_frame()),
+        rdf=_unless_refused(lambda: rdf(points, lengths).to_frame()),
         valence=_unless_refused(lambda: valence(scalars.neighbours()).to_frame()),
-        zone_plate=_unless_refused(lambda: zone_plate(points)),
+        zone_plate=_unless_refused(lambda: zone_plate(points, sides=lengths)),
         measures=found,
-        warnings=border_warnings(scalars.radial, points.shape[2]),
+        warnings=border_warnings(scalars.spectrum, scalars.radial),
     )
 
 

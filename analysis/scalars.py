@@ -25,6 +25,7 @@ from gbnbench.analysis.standard_errors import Estimate, mean_over_sets
 from gbnbench.core.errors import RefusalError, ShortSpectrumError
 from gbnbench.core.results.measures import Measures
 from gbnbench.core.results.radial import RadialPower
+from gbnbench.core.sides import Sides
 from gbnbench.core.torus import FloatArray
 
 if TYPE_CHECKING:
@@ -42,7 +43,10 @@ class Scalars:
     points : (realizations, n, d) float64
         Checked points.
     fmax : int or None
-        Largest harmonic on each axis; None for as far as nu = 2, or as affordable (``default_fmax``).
+        Largest harmonic on each axis, or |k| for unequal sides; None for as far as nu = 2, or as affordable
+        (``default_fmax``).
+    sides : tuple of d floats, optional
+        As ``as_sides`` returns them; a cube if not given.
 
     Attributes
     ----------
@@ -57,9 +61,9 @@ class Scalars:
     gives a value and a standard error for each.
     """
 
-    def __init__(self, points: FloatArray, fmax: int | None) -> None:
-        self.points = points
-        self.near = set_powers(points, fmax)
+    def __init__(self, points: FloatArray, fmax: int | None, sides: Sides | None = None) -> None:
+        self.points, self.sides = points, sides
+        self.near = set_powers(points, fmax, sides)
         self.spectrum = self.near.spectrum
         self._by_default = fmax is None
         self._spectral = spectral_scalars(self.near)
@@ -72,8 +76,8 @@ class Scalars:
 
     @property
     def radial(self) -> RadialPower:
-        """Mean power of the exact shells, as far as they were evaluated."""
-        near, far = self.near.radial, self._evaluated_far()
+        """Mean power of the exact shells, pooled where sides are unequal, as far as they were evaluated."""
+        near, far = self.near.profile, self._evaluated_far()
         if far is None:
             return near
         beyond = far.radial.frequency > near.frequency[-1]
@@ -92,7 +96,9 @@ class Scalars:
         import pandas as pd
 
         rings = anisotropy(far.shell_spectrum())
-        return pd.concat([near, rings[rings.frequency > near.frequency.max()]], ignore_index=True)
+        farther: pd.DataFrame = rings[rings.frequency > near.frequency.max()]
+        found: pd.DataFrame = pd.concat([near, farther], ignore_index=True)
+        return found
 
     def _evaluated_far(self) -> SetPowers | None:
         """Return the farther shells if a measure needed them."""
@@ -101,7 +107,7 @@ class Scalars:
     def neighbours(self) -> Sequence[Neighbours]:
         """Delaunay neighbours of every set, triangulated once."""
         if self._neighbours is None:
-            self._neighbours = neighbours(self.points)
+            self._neighbours = neighbours(self.points, self.sides)
         return self._neighbours
 
     @cached_property
@@ -146,11 +152,12 @@ class Scalars:
 
     def _cost_of_more(self, powers: SetPowers) -> str:
         """Say what the next shell costs; nothing of a cube, or where an fmax was asked for."""
-        if not (self._by_default and powers.listed):
+        if self.sides is not None or not (self._by_default and powers.listed):
             return ""
-        count = sum(shell_sizes(self.points.shape[2], powers.most + 1))
+        most = int(powers.most)
+        count = sum(shell_sizes(self.points.shape[2], most + 1))
         return (
-            f"; shells up to |f|^2 = {powers.most} are affordable by default, the next one would make it "
+            f"; shells up to |f|^2 = {most} are affordable by default, the next one would make it "
             f"{float(count):.2g} frequencies"
         )
 
@@ -158,7 +165,7 @@ class Scalars:
         """Measures of each set, averaged."""
 
         def psa() -> list[Estimate]:
-            statistics = spectral_statistics(self.points)
+            statistics = spectral_statistics(self.points, self.sides)
             return [
                 (
                     statistics.effective_nyquist,
@@ -178,8 +185,8 @@ class Scalars:
             return estimates
 
         return [
-            (("min_distance",), lambda: [mean_over_sets(min_distance(self.points))]),
-            (("mean_distance",), lambda: [mean_over_sets(mean_distance(self.points))]),
+            (("min_distance",), lambda: [mean_over_sets(min_distance(self.points, self.sides))]),
+            (("mean_distance",), lambda: [mean_over_sets(mean_distance(self.points, self.sides))]),
             (("bond_order",), lambda: [mean_over_sets(bond_order(self.neighbours()))]),
             (("psi6",), lambda: [mean_over_sets(psi6(self.neighbours()))]),
             (("valence6",), lambda: [mean_over_sets(valence6(self.neighbours()))]),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from gbnbench.analysis.radial.profile_measures import (
     powerlaw_fit,
 )
 from gbnbench.analysis.set_powers import SetPowers
+from gbnbench.analysis.spectrum.shells import Shells
 from gbnbench.analysis.standard_errors import Estimate, jackknife, left_out_sums, mean_over_sets
 from gbnbench.core.results.radial import RadialPower
 from gbnbench.core.torus import FloatArray
@@ -40,23 +42,31 @@ def spectral_scalars(powers: SetPowers) -> Entries:
         RefusalError where they are undefined, ShortSpectrumError where the spectrum ends too early. A new
         measure is one more entry.
     """
-    rows = np.stack([powers.shells.mean(power) for power in powers.powers])
-    realizations, spacing, radial = len(rows), powers.spectrum.spacing, powers.radial
+
+    def rows_of(shells: Shells) -> FloatArray:
+        return np.stack([shells.mean(power) for power in powers.powers])
+
+    rows = rows_of(powers.shells)
+    full_rows = rows if powers.full_shells is powers.shells else rows_of(powers.full_shells)
+    realizations, spacing = len(rows), powers.spectrum.spacing
     n, d = powers.spectrum.n, powers.spectrum.d
 
-    def profile(compute: Callable[[RadialPower], Sequence[float]]) -> Callable[[], list[Estimate]]:
-        def with_power(power: FloatArray) -> RadialPower:
-            return RadialPower(radial.frequency, radial.nu, power, radial.count)
+    def profile(
+        compute: Callable[[RadialPower], Sequence[float]], *, full: bool = False
+    ) -> Callable[[], list[Estimate]]:
+        radial, each = (powers.profile, full_rows) if full else (powers.radial, rows)
 
         def estimates() -> list[Estimate]:
-            others = (compute(with_power(p / (realizations - 1))) for p in left_out_sums(rows))
+            others = (
+                compute(replace(radial, power=total / (realizations - 1))) for total in left_out_sums(each)
+            )
             return jackknife(compute(radial), others, realizations)
 
         return estimates
 
     def directional() -> list[Estimate]:
         def decibels(power: FloatArray, sets: int) -> list[float]:
-            return [anisotropy_db(power, powers.shells, sets, spacing)]
+            return [anisotropy_db(power, powers.full_shells, sets, spacing)]
 
         # Left-out spectra read -10 log10(M - 1): the same shift for each, so the spread is not touched.
         rest = realizations - 1
@@ -65,9 +75,11 @@ def spectral_scalars(powers: SetPowers) -> Entries:
 
     def energy() -> list[Estimate]:
         each = [
-            evacuated_energy_of_ball(power, powers.square, n, d)
+            evacuated_energy_of_ball(
+                power, powers.square, n, d, powers.most if powers.spectrum.sides else None
+            )
             if powers.listed
-            else evacuated_energy(power, n, d, powers.spectrum.fmax)
+            else evacuated_energy(power, n, d, powers.spectrum.fmax, powers.spectrum.sides)
             for power in powers.powers
         ]
         return [mean_over_sets(np.array(each))]
@@ -88,8 +100,8 @@ def spectral_scalars(powers: SetPowers) -> Entries:
     return {
         ("noise_floor",): profile(lambda r: [noise_floor(r)]),
         ("power_at_1",): profile(lambda r: [power_at_1(r)]),
-        ("profile_epsilon", "profile_c", "profile_residual_db"): profile(exponential),
-        ("powerlaw_exponent", "powerlaw_residual_db"): profile(powerlaw),
+        ("profile_epsilon", "profile_c", "profile_residual_db"): profile(exponential, full=True),
+        ("powerlaw_exponent", "powerlaw_residual_db"): profile(powerlaw, full=True),
         ("peak", "peak_nu"): summit,
         ("anisotropy_db",): directional,
         ("evacuated_energy",): energy,

@@ -9,6 +9,7 @@ import numpy as np
 
 from gbnbench.analysis.radial.profile_measures import ROUNDING_POWER
 from gbnbench.analysis.radial.radial_power import shells_from_cube
+from gbnbench.analysis.spectrum.box_shells import pooled_spectrum
 from gbnbench.analysis.spectrum.shells import EDGE, Shells, in_band
 from gbnbench.core.errors import InputError, RefusalError, ShortSpectrumError
 from gbnbench.core.results.radial import ShellSpectrum
@@ -54,6 +55,9 @@ def anisotropy(spectrum: Spectrum | ShellSpectrum) -> pd.DataFrame:
     Isotropic noise averaged over M sets reads -10 log10(M) dB at every M, since |F|^2 of one set is
     exponentially distributed. PSA draws its reference at -M dB, right only at M = 10.
 
+    Where the torus has unequal sides the exact shells hold little more than mirror images, which tell nothing
+    of direction: they are pooled (``gbnbench.analysis.spectrum.box_shells``), and a ring is round(|k|) = j.
+
     References
     ----------
     Ulichney, "Dithering with blue noise", Proceedings of the IEEE 76(1), 1988. Schlömer & Deussen, "Accurate
@@ -74,6 +78,8 @@ def anisotropy(spectrum: Spectrum | ShellSpectrum) -> pd.DataFrame:
         shells = shells_from_cube(spectrum)
     else:
         shells = spectrum
+    if shells.sides is not None:
+        shells = pooled_spectrum(shells)
     m = shells.count / 2
     deviation, freedom = shell_variance(shells.power, shells.deviation, m, shells.realizations)
     rings, ring = np.unique(np.rint(shells.frequency).astype(np.int64), return_inverse=True)
@@ -99,9 +105,9 @@ def anisotropy_db(power: FloatArray, shells: Shells, realizations: int, spacing:
     Parameters
     ----------
     power : (2*fmax+1,)*d float64
-        Power of the whole cube, averaged over the sets.
+        Power of the whole cube or box, averaged over the sets.
     shells : Shells
-        Exact shells of that cube.
+        Exact shells of that cube; pooled ones where the torus has unequal sides.
     realizations : int
         M, the number of sets averaged.
     spacing : float

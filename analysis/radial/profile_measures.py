@@ -15,6 +15,7 @@ from gbnbench.analysis.spectrum.limits import FLOOR_NU
 from gbnbench.analysis.spectrum.shells import EDGE, in_band, squared_radius
 from gbnbench.core.errors import RefusalError, ShortSpectrumError
 from gbnbench.core.results.radial import RadialPower
+from gbnbench.core.sides import Sides, squared_lengths
 from gbnbench.core.torus import FloatArray
 
 TIE = 1e-9  # relative difference at or below which two powers count as equal
@@ -140,15 +141,17 @@ def powerlaw_fit(radial: RadialPower) -> Fit:
     return _fit(radial, logarithmic=True)
 
 
-def evacuated_energy(power: FloatArray, n: int, d: int, fmax: int) -> float:
+def evacuated_energy(power: FloatArray, n: int, d: int, fmax: int, sides: Sides | None = None) -> float:
     """Evacuated energy of one set: -(1/n) sum of ln P(f) over all f with 0 < nu < 1 and P(f) < 1.
 
     Parameters
     ----------
     power : (2*fmax+1,)*d float64
-        Power of that set alone, the whole cube.
+        Power of that set alone, the whole cube or box.
     n, d, fmax : int
-        Its points, dimension and largest harmonic.
+        Its points, dimension and largest harmonic; for unequal sides the |k| up to which the box is whole.
+    sides : tuple of d floats, optional
+        As ``as_sides`` returns them; a cube if not given.
 
     Returns
     -------
@@ -161,24 +164,31 @@ def evacuated_energy(power: FloatArray, n: int, d: int, fmax: int) -> float:
         If the cube ends below nu = 1, or a power is 0 to rounding (its logarithm is unknown).
     """
     edge = math.pow(n, 1 / d) * (1 - EDGE)
-    if fmax + 1 < edge:
+    needed = math.ceil(edge) - (sides is None)  # a cube holds every |f| < fmax + 1
+    if fmax < needed:
         raise ShortSpectrumError(
-            f"evacuated energy needs every frequency with nu < 1: fmax >= {math.ceil(edge) - 1}, here {fmax}"
+            f"evacuated energy needs every frequency with nu < 1: fmax >= {needed}, here {fmax}"
         )
-    return _evacuated(power, squared_radius(fmax, d), n, edge)
+    if sides is None:
+        return _evacuated(power, squared_radius(fmax, d), n, edge)
+    return _evacuated(power, squared_lengths(tuple(s // 2 for s in power.shape), sides).ravel(), n, edge)
 
 
-def evacuated_energy_of_ball(power: FloatArray, square: NDArray[np.int64], n: int, d: int) -> float:
+def evacuated_energy_of_ball(
+    power: FloatArray, square: NDArray[np.int64] | FloatArray, n: int, d: int, most: float | None = None
+) -> float:
     """Evacuated energy of one set from the listed frequencies of one half of a ball.
 
     Parameters
     ----------
     power : (m,) float64
         Power of that set alone.
-    square : (m,) int64
+    square : (m,) int64 or float64
         |f|^2 of each frequency; all frequencies of one half space up to the largest are there.
     n, d : int
         Its points and dimension.
+    most : float, optional
+        |k|^2 up to which they are there, for unequal sides.
 
     Returns
     -------
@@ -191,15 +201,15 @@ def evacuated_energy_of_ball(power: FloatArray, square: NDArray[np.int64], n: in
         If the ball ends below nu = 1, or a power is 0 to rounding.
     """
     edge = math.pow(n, 1 / d) * (1 - EDGE)
-    if square.max() + 1 < edge * edge:
+    if (square.max() + 1 if most is None else most) < edge * edge:
         raise ShortSpectrumError(
             f"evacuated energy needs every frequency with nu < 1: |f|^2 up to {math.ceil(edge * edge) - 1}, "
-            f"here {square.max()}"
+            f"here {square.max() if most is None else most:.6g}"
         )
     return 2 * _evacuated(power, square, n, edge)
 
 
-def _evacuated(power: FloatArray, r2: NDArray[np.int64], n: int, edge: float) -> float:
+def _evacuated(power: FloatArray, r2: NDArray[np.int64] | FloatArray, n: int, edge: float) -> float:
     chosen = power.ravel()[(r2 > 0) & (r2 < edge * edge)]
     if (chosen <= ROUNDING_POWER).any():
         raise RefusalError("evacuated energy is unbounded: the power of some frequency is 0 to rounding")

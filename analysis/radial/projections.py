@@ -11,13 +11,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gbnbench.analysis.radial import profile_measures
-from gbnbench.analysis.radial.radial_power import mean_over_groups
-from gbnbench.analysis.spectrum.limits import default_fmax
+from gbnbench.analysis.radial.radial_power import mean_over_groups, shells_of
+from gbnbench.analysis.spectrum.limits import default_fmax, default_radius
 from gbnbench.analysis.spectrum.periodogram import each_power
-from gbnbench.analysis.spectrum.shells import exact_shells
 from gbnbench.analysis.standard_errors import mean_over_sets
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.results.radial import RadialPower
+from gbnbench.core.sides import Sides, as_sides
 from gbnbench.core.torus import FloatArray, as_realizations, spacing
 
 if TYPE_CHECKING:
@@ -54,7 +54,10 @@ class Projection:
 
 
 def projections(
-    x: ArrayLike, chosen: Sequence[Sequence[int]], fmax: int | None = None
+    x: ArrayLike,
+    chosen: Sequence[Sequence[int]],
+    fmax: int | None = None,
+    sides: ArrayLike | None = None,
 ) -> tuple[Projection, ...]:
     """Measure projections of one or several sets.
 
@@ -65,7 +68,10 @@ def projections(
     chosen : sequence of sequences of int
         Coordinates of each projection, such as ``gbnbench.generators.gbn.projective.subsets("1/0+1", d)``.
     fmax : int, optional
-        Largest harmonic; by default to nu = 2 of each projection, or as affordable.
+        Largest harmonic, or |k| for unequal sides; by default to nu = 2 of each projection, or as affordable.
+    sides : (d,) array_like, optional
+        Lengths of the torus's sides, whose ratios count; a cube if not given. A projection has those of its
+        axes.
 
     Returns
     -------
@@ -76,7 +82,7 @@ def projections(
     ------
     InputError
         If x is not points of the unit torus, or a projection is empty, names a coordinate twice or one that x
-        does not have, or fmax ends within the noise floor's band.
+        does not have, fmax ends within the noise floor's band, or sides are not d lengths.
 
     Notes
     -----
@@ -96,7 +102,8 @@ def projections(
             raise InputError(
                 f"a projection must name some of the coordinates 0 to {d - 1}, each once; got {tuple(axes)}"
             )
-    return tuple(_measured(points, tuple(axes), fmax) for axes in chosen)
+    lengths = as_sides(sides, d)
+    return tuple(_measured(points, tuple(axes), fmax, lengths) for axes in chosen)
 
 
 def frame(projected: Sequence[Projection]) -> pd.DataFrame:
@@ -113,12 +120,14 @@ def frame(projected: Sequence[Projection]) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=["projection", *names])
 
 
-def _measured(points: FloatArray, axes: tuple[int, ...], fmax: int | None) -> Projection:
+def _measured(points: FloatArray, axes: tuple[int, ...], fmax: int | None, sides: Sides | None) -> Projection:
     projected = np.ascontiguousarray(points[:, :, axes])
     sets, n, m = projected.shape
-    fmax = default_fmax(n, m, sets) if fmax is None else fmax
-    powers, spectrum = each_power(projected, fmax)
-    shells = exact_shells(fmax, m)
+    own = None if sides is None else as_sides([sides[a] for a in axes], m)
+    if fmax is None:
+        fmax = default_fmax(n, m, sets) if own is None else default_radius(n, m, sets, own)
+    powers, spectrum = each_power(projected, fmax, sides=own)
+    shells = shells_of(spectrum)
     radials = [mean_over_groups(power, shells, spacing(n, m)) for power in powers]
     mean = mean_over_groups(spectrum.power, shells, spacing(n, m))
     floor, first = (

@@ -114,9 +114,9 @@ def spectral_statistics(x: ArrayLike, sides: ArrayLike | None = None) -> Spectra
     lengths = as_sides(sides, d)
     if (total // 2 + 1) * (0.5 / total) > 0.5 * shortest_side(lengths):
         raise RefusalError(
-            "PSA's spectral statistics count pairs to a quarter of the root of the area; half the shorter "
-            f"side is {0.5 * shortest_side(lengths):.3g} of it, and one side may be four times the other "
-            "at most"
+            "PSA's spectral statistics count pairs to a quarter of the root of the area; half the "
+            f"shorter side is {0.5 * shortest_side(lengths):.3g} of it, and one side may be about four times "
+            "the other at most"
         )
     density = _excess_density(sets, total, lengths)
     rows = min(total, math.ceil(FIRST_RANGE * total / (0.5 * math.sqrt(n))))

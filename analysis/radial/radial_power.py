@@ -2,27 +2,51 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+from numpy.typing import ArrayLike
+
+from gbnbench.analysis.spectrum.box_shells import (
+    box_annuli,
+    box_shells,
+    harmonics_within,
+    pooled,
+    pooled_spectrum,
+)
 from gbnbench.analysis.spectrum.shells import Shells, annuli, digit_classes, exact_shells
 from gbnbench.core.errors import InputError
 from gbnbench.core.results.radial import RadialPower, ShellSpectrum
 from gbnbench.core.results.spectrum import Spectrum
+from gbnbench.core.sides import as_sides, sides_text
 from gbnbench.core.torus import FloatArray
 
-GROUPINGS = ("shells", "digits", "annuli")
+GROUPINGS = ("shells", "pooled", "digits", "annuli")
 
 
-def radial(spectrum: Spectrum | ShellSpectrum, by: str = "shells", width: float = 2.0) -> RadialPower:
+def radial(
+    spectrum: Spectrum | ShellSpectrum,
+    by: str = "shells",
+    width: float = 2.0,
+    *,
+    sides: ArrayLike | None = None,
+) -> RadialPower:
     """Mean power over frequencies of equal radius, 0 < |f| <= fmax.
 
     Parameters
     ----------
     spectrum : Spectrum or ShellSpectrum
         A cube or its half; or exact shells, which hold their means already.
-    by : {"shells", "digits", "annuli"}
-        Exact shells of integer |f|^2; classes of sorted |digits| (finer, for d > 2; Ahmed, Ren & Wonka 2022,
-        App. C); or PSA's annuli floor(|f| / width), so that numbers can be laid beside PSA's.
+    by : {"shells", "pooled", "digits", "annuli"}
+        Exact shells of integer |f|^2; neighbouring shells joined until each has 2^d independent frequencies,
+        less noisy where sides are unequal (``gbnbench.analysis.spectrum.box_shells``); classes of sorted
+        |digits| (finer, for d > 2; Ahmed, Ren & Wonka 2022, App. C), of a cube alone; or PSA's annuli
+        floor(|f| / width), so that numbers can be laid beside PSA's.
     width : float
         Width of an annulus, cycles per unit length.
+    sides : (d,) array_like, optional
+        Lengths of the sides of the torus that the points lie on, whose ratios count, where the spectrum was
+        evaluated without them. |f| is then |k|, k_a = f_a / s_a, the torus having volume 1, and shells are
+        as far as the cube holds them, |k| <= fmax / max(s_a).
 
     Returns
     -------
@@ -32,8 +56,8 @@ def radial(spectrum: Spectrum | ShellSpectrum, by: str = "shells", width: float 
     Raises
     ------
     InputError
-        If the spectrum is neither of the two or holds listed frequencies, or by or width is not one of the
-        above.
+        If the spectrum is neither of the two or holds listed frequencies, by or width is not one of the
+        above, or sides do not fit: d lengths, for a whole cube.
 
     Notes
     -----
@@ -48,14 +72,65 @@ def radial(spectrum: Spectrum | ShellSpectrum, by: str = "shells", width: float 
     [4, 4, 4]
     """
     if isinstance(spectrum, ShellSpectrum):
-        if by != "shells":
-            raise InputError(f'shells give radial power by="shells" alone; got by={by!r}')
-        return spectrum.radial()
+        if by not in ("shells", "pooled"):
+            raise InputError(f'shells give radial power by="shells" or "pooled" alone; got by={by!r}')
+        if sides is not None and as_sides(sides, spectrum.d) != spectrum.sides:
+            raise InputError("shells are of one torus: give its sides to gbnbench.shells(x, sides=...)")
+        return (spectrum if by == "shells" else pooled_spectrum(spectrum)).radial()
     if not isinstance(spectrum, Spectrum):
         raise InputError(
             f"radial takes a spectrum, radial(periodogram(x, fmax)); got {type(spectrum).__name__}"
         )
+    if sides is not None:
+        spectrum = with_sides(spectrum, sides)
     return mean_over_groups(spectrum.whole().power, _groups(spectrum, by, width), spectrum.spacing)
+
+
+def with_sides(spectrum: Spectrum, sides: ArrayLike) -> Spectrum:
+    """Say of a spectrum which sides the torus of its points has.
+
+    Parameters
+    ----------
+    spectrum : Spectrum
+        Of any kind; of a cube where the sides are unequal.
+    sides : (d,) array_like
+        Lengths of the sides, whose ratios count.
+
+    Returns
+    -------
+    Spectrum
+        The same power, with the sides.
+
+    Raises
+    ------
+    InputError
+        If sides are not d lengths, or the spectrum was evaluated for others.
+    """
+    lengths = as_sides(sides, spectrum.d)
+    if lengths == spectrum.sides:
+        return spectrum
+    if spectrum.sides is not None:
+        raise InputError(
+            f"this spectrum was evaluated for sides {sides_text(spectrum.sides)}; got {sides!r}. Leave sides "
+            "out, or evaluate it again"
+        )
+    return replace(spectrum, sides=lengths)
+
+
+def whole_radius(spectrum: Spectrum) -> float:
+    """Largest |k| within which a cube or box holds every frequency; fmax in a cube of equal sides."""
+    if spectrum.sides is None:
+        return float(spectrum.fmax)
+    if harmonics_within(spectrum.fmax, spectrum.sides) == spectrum.harmonics:
+        return float(spectrum.fmax)  # a box, which was evaluated to hold this ball
+    return min(f / side for f, side in zip(spectrum.harmonics, spectrum.sides, strict=True))
+
+
+def shells_of(spectrum: Spectrum) -> Shells:
+    """Group the frequencies of a whole cube or box by exact shells."""
+    if spectrum.sides is None:
+        return exact_shells(spectrum.fmax, spectrum.d)
+    return box_shells(spectrum.harmonics, spectrum.sides, whole_radius(spectrum))
 
 
 def _groups(spectrum: Spectrum, by: str, width: float) -> Shells:
@@ -67,8 +142,16 @@ def _groups(spectrum: Spectrum, by: str, width: float) -> Shells:
     if by == "annuli":
         if not width > 0:
             raise InputError(f"width must be positive; got {width!r}")
+        if spectrum.sides is not None:
+            radius = whole_radius(spectrum)
+            return box_annuli(spectrum.harmonics, spectrum.sides, radius, float(width))
         return annuli(spectrum.fmax, spectrum.d, float(width))
-    return (digit_classes if by == "digits" else exact_shells)(spectrum.fmax, spectrum.d)
+    if by == "digits":
+        if spectrum.sides is not None:
+            raise InputError('equal digits mean equal |k| only in a cube; take by="shells"')
+        return digit_classes(spectrum.fmax, spectrum.d)
+    groups = shells_of(spectrum)
+    return groups if by == "shells" else pooled(groups, spectrum.d)
 
 
 def mean_over_groups(power: FloatArray, groups: Shells, spacing: float) -> RadialPower:
@@ -77,9 +160,9 @@ def mean_over_groups(power: FloatArray, groups: Shells, spacing: float) -> Radia
     Parameters
     ----------
     power : (2*fmax+1,)*d float64
-        Power of the whole cube.
+        Power of the whole cube or box.
     groups : Shells
-        Shells, digit classes or annuli of that cube.
+        Shells, digit classes or annuli of that cube or box.
     spacing : float
         n**(-1/d), so that nu = |f| * spacing.
 
@@ -94,7 +177,7 @@ def mean_over_groups(power: FloatArray, groups: Shells, spacing: float) -> Radia
 def shells_from_cube(spectrum: Spectrum) -> ShellSpectrum:
     """Mean and spread of a cube's exact shells; ``gbnbench.shells`` computes them without the cube."""
     whole = spectrum.whole()
-    groups = exact_shells(whole.fmax, whole.d)
+    groups = shells_of(whole)
     mean, deviation = groups.moments(whole.power)
     return ShellSpectrum(
         frequency=groups.radius,
@@ -111,4 +194,5 @@ def shells_from_cube(spectrum: Spectrum) -> ShellSpectrum:
         device=whole.device,
         error_rms=whole.error_rms,
         error_bound=whole.error_bound,
+        sides=whole.sides,
     )

@@ -14,6 +14,8 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+Harmonics = int | tuple[int, ...]  # largest harmonic on every axis of a cube, or on each axis of a box
+
 TABLE_COST = 40  # multiply-adds for an entry of a table; a pair of entries takes 4
 
 
@@ -76,19 +78,38 @@ def half_size(axes: Axes) -> int:
     return (size(axes) + 1) // 2
 
 
-def whole_axes(d: int, fmax: int) -> Axes:
+def each_axis(d: int, fmax: Harmonics) -> tuple[int, ...]:
+    """Give the largest harmonic on each axis, of a cube or of a box.
+
+    Parameters
+    ----------
+    d : int
+        Dimension.
+    fmax : int or tuple of d ints
+        One number for every axis of a cube, or one an axis.
+
+    Returns
+    -------
+    tuple of d ints
+    """
+    return (fmax,) * d if isinstance(fmax, int) else fmax
+
+
+def whole_axes(d: int, fmax: Harmonics) -> Axes:
     """List one undivided axis for each coordinate.
 
     Parameters
     ----------
-    d, fmax : int
-        Dimension, and largest harmonic on each axis.
+    d : int
+        Dimension.
+    fmax : int or tuple of d ints
+        Largest harmonic on each axis.
 
     Returns
     -------
     tuple of Axis
     """
-    return tuple(Axis(a, 1, fmax) for a in range(d))
+    return tuple(Axis(a, 1, largest) for a, largest in enumerate(each_axis(d, fmax)))
 
 
 @dataclass(frozen=True)
@@ -155,13 +176,15 @@ def even_division(axes: Axes) -> Division:
 
 
 @lru_cache(maxsize=256)
-def cheapest_division(d: int, fmax: int, rows: int) -> Division:
-    """Find the division of a whole cube that a real matrix product evaluates at the least cost.
+def cheapest_division(d: int, fmax: Harmonics, rows: int) -> Division:
+    """Find the division of a whole cube or box that a real matrix product evaluates at the least cost.
 
     Parameters
     ----------
-    d, fmax : int
-        Dimension, and largest harmonic on each axis.
+    d : int
+        Dimension.
+    fmax : int or tuple of d ints
+        Largest harmonic on each axis.
     rows : int
         Rows of a register tile; the leading group is padded to a multiple of it.
 
@@ -171,11 +194,11 @@ def cheapest_division(d: int, fmax: int, rows: int) -> Division:
     """
     axes = whole_axes(d, fmax)
     best: tuple[float, Division] | None = None
-    for at in range(d):
-        lead, trail = (2 * fmax + 1) ** at, (2 * fmax + 1) ** (d - at - 1)
-        ideal = min(round((math.sqrt((2 * fmax + 1) * lead / trail) - 1) / 2), fmax)
-        near = range(ideal // 2, 2 * ideal + 3) if d > 1 or fmax < 1 << 12 else (ideal,)
-        for fine in {0, fmax, *(min(max(f, 0), fmax) for f in near)}:
+    for at, axis in enumerate(axes):
+        lead, trail = size(axes[:at]), size(axes[at + 1 :])
+        ideal = min(round((math.sqrt(axis.base * lead / trail) - 1) / 2), axis.largest)
+        near = range(ideal // 2, 2 * ideal + 3) if d > 1 or axis.largest < 1 << 12 else (ideal,)
+        for fine in {0, axis.largest, *(min(max(f, 0), axis.largest) for f in near)}:
             found = division(axes, at, fine)
             a, b = half_size(found.leading), half_size(found.trailing)
             cost = 4 * (-(-a // rows) * rows) * b + TABLE_COST * (a + b)

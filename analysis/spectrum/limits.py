@@ -9,6 +9,7 @@ import numpy as np
 from gbnbench.analysis.spectrum.shells import EDGE
 from gbnbench.core.errors import InputError
 from gbnbench.core.memory import physical_memory
+from gbnbench.core.sides import Sides
 
 MEMORY_SHARE = 0.5  # of the machine's memory that one cube may take
 BYTES = 24  # for each frequency: 8 on the device, 8 on the host and 8 to work with it
@@ -161,6 +162,35 @@ def default_fmax(n: int, d: int, realizations: int = 1) -> int:
     most = min(MOST_FREQUENCIES, MOST_TERMS / n, MOST_KEPT / realizations)
     floor = math.ceil(FLOOR_NU * edge)  # the noise floor is always wanted
     return max(1, min(wanted, max(floor, largest_fmax(int(most), d))))
+
+
+def default_radius(n: int, d: int, realizations: int, sides: Sides) -> int:
+    """Choose the largest |k| for a torus with unequal sides, as ``default_fmax`` does for a cube.
+
+    The box |f_a| <= fmax s_a has as many frequencies as a cube may have, and the band of the noise floor is
+    within it, with the shell beyond.
+
+    Parameters
+    ----------
+    n, d : int
+        Points of a set, and dimension.
+    realizations : int
+        Number of sets whose powers are kept.
+    sides : tuple of d floats
+        As ``as_sides`` returns them.
+
+    Returns
+    -------
+    int
+        |k| in cycles per unit length, the torus having volume 1.
+    """
+    edge = math.pow(n, 1 / d)
+    wanted = math.floor(LARGEST_NU * edge * (1 + EDGE)) + 1
+    most = min(MOST_FREQUENCIES, MOST_TERMS / n, MOST_KEPT / realizations)
+    least = math.ceil(FLOOR_NU * edge + 1 / max(sides))
+    while wanted > least and math.prod(2 * math.floor(wanted * side) + 1 for side in sides) > most:
+        wanted -= 1
+    return wanted
 
 
 def default_shell_fmax(n: int, d: int) -> int:

@@ -9,14 +9,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gbnbench.analysis.precision import PrecisionName
+from gbnbench.analysis.spectrum.box_shells import harmonics_within
 from gbnbench.analysis.spectrum.choice import choose
 from gbnbench.analysis.spectrum.error_model import Errors
 from gbnbench.analysis.spectrum.evaluators.protocol import Evaluator
 from gbnbench.analysis.spectrum.evaluators.registry import Method
-from gbnbench.analysis.spectrum.limits import check_fmax
-from gbnbench.analysis.spectrum.request import SpectrumRequest
+from gbnbench.analysis.spectrum.input_checks import check_frequencies, check_weights
+from gbnbench.analysis.spectrum.limits import check_fmax, check_harmonic
+from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest, box_request
 from gbnbench.core.errors import InputError
 from gbnbench.core.results.spectrum import Spectrum
+from gbnbench.core.sides import Sides, as_sides
 from gbnbench.core.torus import FloatArray, as_realizations
 from gbnbench.opencl import use_device
 
@@ -31,6 +34,7 @@ def periodogram(
     half: bool = False,
     floor: float | None = None,
     method: Method | None = None,
+    sides: ArrayLike | None = None,
     device: str | None = None,
 ) -> Spectrum:
     """Exact power at every integer frequency with |f_a| <= fmax, or at those listed.
@@ -40,7 +44,7 @@ def periodogram(
     x : (n, d) or (realizations, n, d) array_like
         Points on the unit torus; power is averaged over realizations.
     fmax : int
-        Largest harmonic on each axis, cycles per unit length, at least 1.
+        Largest harmonic on each axis, cycles per unit length, at least 1; with sides the largest |k|.
     precision : {"double", "float"}
         Precision of the phases, tables and sums of 128 points; those sums are added in double where the
         device has it. With a floor, "double" stands for whichever precision resolves it.
@@ -57,6 +61,10 @@ def periodogram(
     method : {"product", "gridded", "nufft", "numpy", "direct"}, optional
         An evaluator instead of the cheapest: the two-group product, the gridded product, the non-uniform FFT,
         the product in plain numpy, or the direct sum for listed frequencies.
+    sides : (d,) array_like, optional
+        Lengths of the torus's sides, whose ratios count; a cube if not given. The wave vector of f is
+        k_a = f_a / s_a, the volume being 1, and the box of frequencies that holds the ball |k| <= fmax is
+        evaluated: |f_a| <= fmax s_a.
     device : str, optional
         Part of the name of the OpenCL device, or its position, as in ``GBNBENCH_DEVICE``, which it overrides.
 
@@ -72,8 +80,8 @@ def periodogram(
     ------
     InputError
         If x is not points of [0, 1)^d, fmax is not a positive integer, both or neither of fmax and
-        frequencies are given, weights do not fit, floor is below what any evaluator resolves, or the cube
-        does not fit in memory (the text says what would).
+        frequencies are given, weights or sides do not fit, floor is below what any evaluator resolves, or the
+        cube does not fit in memory (the text says what would).
     DeviceError
         If the OpenCL device lacks the precision. Without any device numpy computes.
 
@@ -98,22 +106,40 @@ def periodogram(
             "give either fmax or frequencies: periodogram(x, 64) or periodogram(x, frequencies=f)"
         )
     w = check_weights(weights, sets, n)
+    lengths = as_sides(sides, d)
     if frequencies is not None:
         if half:
             raise InputError("half is of a cube; list only the frequencies wanted")
         wanted = check_frequencies(frequencies, d)
         with use_device(device):
-            return _listed(points, wanted, precision, w, floor, method)
-    f = check_fmax(fmax, d)
-    request = SpectrumRequest("half cube" if half else "cube", n, d, f, sets, (2 * f + 1) ** d)
+            return _listed(points, wanted, precision, w, floor, method, lengths)
+    f, request = _cube_request(n, d, fmax, sets, lengths, half=half)
     with use_device(device):
         evaluator = choose(request, precision, floor, method)
-        power, errors = evaluator.cube(points, f, w, half=half, mean=True)
+        if method is None:
+            evaluator = evaluator.for_points(points, request.fmax, floor)
+        power, errors = evaluator.box(points, request, w, mean=True)
         errors = errors.averaged(sets, n)
-        return _spectrum(power, request, evaluator, errors, half=half, weighted=w is not None)
+        return _spectrum(
+            power, request, evaluator, errors, fmax=f, half=half, weighted=w is not None, sides=lengths
+        )
 
 
-def each_power(x: FloatArray, fmax: int, precision: PrecisionName = "double") -> tuple[FloatArray, Spectrum]:
+def _cube_request(
+    n: int, d: int, fmax: object, realizations: int, sides: Sides | None, *, half: bool = False
+) -> tuple[int, SpectrumRequest]:
+    """Check fmax, and make the request for its cube or, for unequal sides, for the box round its ball."""
+    if sides is None:
+        f = check_fmax(fmax, d)
+        kind: Frequencies = "half cube" if half else "cube"
+        return f, SpectrumRequest(kind, n, d, f, realizations, (2 * f + 1) ** d)
+    f = check_harmonic(fmax, d)
+    return f, box_request(n, d, harmonics_within(f, sides), realizations, half=half)
+
+
+def each_power(
+    x: FloatArray, fmax: int, precision: PrecisionName = "double", sides: Sides | None = None
+) -> tuple[FloatArray, Spectrum]:
     """Power of every realization, and their mean.
 
     Parameters
@@ -121,24 +147,36 @@ def each_power(x: FloatArray, fmax: int, precision: PrecisionName = "double") ->
     x : (realizations, n, d) float64
         Checked points.
     fmax : int
-        Checked by ``check_fmax``.
+        Largest harmonic on each axis; for unequal sides the largest |k|.
     precision : {"double", "float"}
         As in ``periodogram``.
+    sides : tuple of d floats, optional
+        As ``as_sides`` returns them.
 
     Returns
     -------
     powers : (realizations,) + (2*fmax+1,)*d float64
+        A box for unequal sides, as in ``periodogram``.
     spectrum : Spectrum
+
+    Raises
+    ------
+    InputError
+        If fmax is not a positive integer, or the powers do not fit in memory.
     """
     sets, n, d = x.shape
-    request = SpectrumRequest("cube", n, d, fmax, sets, (2 * fmax + 1) ** d)
-    evaluator = choose(request, precision, None)
-    powers, errors = evaluator.cube(x, fmax, None, half=False, mean=False)
-    return powers, _spectrum(powers.mean(axis=0), request, evaluator, errors.averaged(sets, n))
+    f, request = _cube_request(n, d, fmax, sets, sides)
+    evaluator = choose(request, precision, None).for_points(x, request.fmax, None)
+    powers, errors = evaluator.box(x, request, None, mean=False)
+    mean, averaged = powers.mean(axis=0), errors.averaged(sets, n)
+    return powers, _spectrum(mean, request, evaluator, averaged, fmax=f, sides=sides)
 
 
 def each_listed_power(
-    x: FloatArray, frequencies: NDArray[np.int64], precision: PrecisionName = "double"
+    x: FloatArray,
+    frequencies: NDArray[np.int64],
+    precision: PrecisionName = "double",
+    sides: Sides | None = None,
 ) -> tuple[FloatArray, Spectrum]:
     """Power of every realization at listed frequencies, and their mean.
 
@@ -150,13 +188,15 @@ def each_listed_power(
         Cycles per unit length.
     precision : {"double", "float"}
         As in ``periodogram``.
+    sides : tuple of d floats, optional
+        As ``as_sides`` returns them.
 
     Returns
     -------
     powers : (realizations, m) float64
     spectrum : Spectrum
     """
-    each = [_listed(one[None], frequencies, precision, None, None, None) for one in x]
+    each = [_listed(one[None], frequencies, precision, None, None, None, sides) for one in x]
     powers = np.stack([one.power for one in each])
     errors = Errors(max(one.error_rms for one in each), max(one.error_bound for one in each))
     errors = errors.averaged(*x.shape[:2])
@@ -177,6 +217,7 @@ def _listed(
     weights: FloatArray | None,
     floor: float | None,
     method: str | None,
+    sides: Sides | None,
 ) -> Spectrum:
     sets, n, d = x.shape
     fmax = max(abs(int(frequencies.max())), abs(int(frequencies.min())))
@@ -185,7 +226,9 @@ def _listed(
     power, errors = evaluator.listed(x, frequencies, weights)
     errors = errors.averaged(sets, n)
     weighted = weights is not None
-    return _spectrum(power, request, evaluator, errors, frequencies=frequencies, weighted=weighted)
+    return _spectrum(
+        power, request, evaluator, errors, frequencies=frequencies, weighted=weighted, sides=sides
+    )
 
 
 def _spectrum(
@@ -196,81 +239,10 @@ def _spectrum(
         n=request.n,
         d=request.d,
         realizations=request.realizations,
-        fmax=request.fmax,
         precision=evaluator.precision,
         method=evaluator.method,
         device=evaluator.device,
         error_rms=errors.rms,
         error_bound=errors.bound,
-        **more,
+        **{"fmax": request.fmax, **more},
     )
-
-
-def check_weights(weights: ArrayLike | None, sets: int, n: int) -> FloatArray | None:
-    """Check weights, and divide each set's by its largest, so that their squares cannot overflow.
-
-    Parameters
-    ----------
-    weights : (n,) or (sets, n) array_like, or None
-        What the user gave.
-    sets, n : int
-        Number of sets, and of points in each.
-
-    Returns
-    -------
-    (1 or sets, n) float64, or None
-        None where there are no weights.
-
-    Raises
-    ------
-    InputError
-        If they are not finite numbers, one for each point, or all 0 in some set.
-    """
-    if weights is None:
-        return None
-    try:
-        given = np.asarray(weights)
-        if given.dtype.kind not in "fiub" or isinstance(weights, np.ma.MaskedArray):
-            raise TypeError
-        w = np.ascontiguousarray(given, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise InputError("weights must be real numbers, one for each point, none of them masked") from None
-    if w.shape not in ((n,), (sets, n)):
-        raise InputError(f"weights must be ({n},) or ({sets}, {n}), one for each point; got shape {w.shape}")
-    w = w.reshape(-1, n)
-    if not np.isfinite(w).all():
-        raise InputError(f"weights must be finite; got {float(w[~np.isfinite(w)][0])!r}")
-    largest = np.abs(w).max(axis=1, keepdims=True)
-    if (largest == 0).any():
-        raise InputError("weights are all 0 in a set; at least one point must count")
-    scaled: FloatArray = w / largest  # power does not change, and squares cannot overflow
-    return scaled
-
-
-def check_frequencies(frequencies: ArrayLike, d: int) -> NDArray[np.int64]:
-    """Check listed frequencies.
-
-    Parameters
-    ----------
-    frequencies : (m, d) array_like
-        What the user gave; floats are taken if they are whole.
-    d : int
-        Dimension.
-
-    Returns
-    -------
-    (m, d) int64
-
-    Raises
-    ------
-    InputError
-        If they are not integers of 64 bits, or not (m, d) with m at least 1.
-    """
-    f = np.asarray(frequencies)
-    if f.ndim != 2 or f.shape[1] != d or len(f) == 0:
-        raise InputError(f"frequencies must be (m, {d}), one row a frequency, m >= 1; got shape {f.shape}")
-    if f.dtype.kind == "f" and np.array_equal(f, np.rint(f)) and np.abs(f).max() < 2.0**63:
-        f = f.astype(np.int64)
-    if f.dtype.kind not in "iu" or (f.dtype.kind == "u" and f.max() >= 2**63):
-        raise InputError(f"frequencies must be integers of 64 bits (cycles per unit length); got {f.dtype}")
-    return f.astype(np.int64)

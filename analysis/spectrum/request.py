@@ -13,6 +13,7 @@ from typing import Literal
 import numpy as np
 
 from gbnbench.analysis.spectrum import limits
+from gbnbench.analysis.spectrum.digits import Harmonics
 from gbnbench.analysis.spectrum.limits import check_harmonic
 from gbnbench.analysis.spectrum.sorted_groups import count_pairs, two_sorted_groups
 from gbnbench.core.errors import InputError
@@ -37,6 +38,8 @@ class SpectrumRequest:
         Number of frequencies wanted, over the whole space.
     low, high : int
         Smallest and largest |f|^2, for shells.
+    harmonics : tuple of d ints, or ()
+        Largest harmonic on each axis of a box, of which fmax is the largest; empty for a cube.
     """
 
     what: Frequencies
@@ -47,6 +50,12 @@ class SpectrumRequest:
     frequencies: int
     low: int = 0
     high: int = 0
+    harmonics: tuple[int, ...] = ()
+
+    @property
+    def largest(self) -> Harmonics:
+        """Largest harmonic on each axis: one number for a cube."""
+        return self.harmonics or self.fmax
 
     def __str__(self) -> str:
         sets = "" if self.realizations == 1 else f", {self.realizations} sets"
@@ -54,9 +63,51 @@ class SpectrumRequest:
         reach = (
             f"|f|^2 from {max(self.low, 1)} to {self.high}"
             if self.what == "shells"
-            else f"|f_a| <= {self.fmax}"
+            else f"|f_a| <= {', '.join(map(str, self.harmonics or (self.fmax,)))}"
         )
-        return f"{self.what}: {self.frequencies:,} {noun}, {reach}, of {self.n:,} points, d={self.d}{sets}"
+        what = self.what.replace("cube", "box") if self.harmonics else self.what
+        return f"{what}: {self.frequencies:,} {noun}, {reach}, of {self.n:,} points, d={self.d}{sets}"
+
+
+def box_request(
+    n: int, d: int, harmonics: tuple[int, ...], realizations: int, *, half: bool = False
+) -> SpectrumRequest:
+    """Make the request for a box of frequencies, which is a cube where all axes reach as far.
+
+    Parameters
+    ----------
+    n, d : int
+        Points in a set, and dimension.
+    harmonics : tuple of d ints
+        Largest harmonic on each axis.
+    realizations : int
+        Number of sets.
+    half : bool
+        Only the half with f_0 >= 0.
+
+    Returns
+    -------
+    SpectrumRequest
+
+    Raises
+    ------
+    InputError
+        If the powers do not fit in memory.
+    """
+    count = math.prod(2 * f + 1 for f in harmonics)
+    room = limits.MEMORY_SHARE * physical_memory() / limits.BYTES
+    if count > room:
+        raise InputError(
+            f"|f_a| <= {', '.join(map(str, harmonics))} means {float(count):.3g} frequencies, of which "
+            f"{room:.3g} fit in memory; ask for a smaller fmax"
+        )
+    largest = max(harmonics)
+    equal = min(harmonics) == largest
+    return SpectrumRequest(
+        "half cube" if half else "cube",
+        *(n, d, largest, realizations, count),
+        harmonics=() if equal else harmonics,
+    )
 
 
 def shell_request(
@@ -86,19 +137,7 @@ def shell_request(
     f = check_harmonic(fmax, d)
     low, high = 1, d * f * f if corners else f * f
     if band is not None:
-        try:
-            least, most = (float(edge) for edge in band)
-        except (TypeError, ValueError):
-            raise InputError(
-                f"band must be two numbers, the least and the largest |f|; got {band!r}"
-            ) from None
-        if not 0 <= least <= most < math.inf:
-            raise InputError(f"band must be 0 <= low <= high, cycles per unit length; got {band!r}")
-        if most > math.sqrt(high) * (1 + 1e-12):
-            raise InputError(
-                f"band ends at |f| = {most:g}, beyond the whole shells of fmax={f}; "
-                f"ask for fmax={math.ceil(most)}"
-            )
+        least, most = check_band(band, math.sqrt(high), f)
         low = max(low, math.ceil(least * least * (1 - 1e-12)))
         high = min(high, math.floor(most * most * (1 + 1e-12)))
     if high >= 1 << 32:
@@ -113,6 +152,41 @@ def shell_request(
     if count == 0:
         raise InputError(f"no integer frequency has |f| in {band!r}")
     return SpectrumRequest("shells", n, d, f, realizations, count, low, high)
+
+
+def check_band(band: Sequence[float], largest: float, fmax: int) -> tuple[float, float]:
+    """Check a band of |f|.
+
+    Parameters
+    ----------
+    band : (float, float)
+        What the user gave.
+    largest : float
+        |f| up to which there are shells.
+    fmax : int
+        Largest harmonic, for the message.
+
+    Returns
+    -------
+    low, high : float
+
+    Raises
+    ------
+    InputError
+        If they are not 0 <= low <= high <= largest.
+    """
+    try:
+        least, most = (float(edge) for edge in band)
+    except (TypeError, ValueError):
+        raise InputError(f"band must be two numbers, the least and the largest |f|; got {band!r}") from None
+    if not 0 <= least <= most < math.inf:
+        raise InputError(f"band must be 0 <= low <= high, cycles per unit length; got {band!r}")
+    if most > largest * (1 + 1e-12):
+        raise InputError(
+            f"band ends at |f| = {most:g}, beyond the whole shells of fmax={fmax}; "
+            f"ask for fmax={math.ceil(most)}"
+        )
+    return least, most
 
 
 def check_room(d: int, fmax: int, low: int, high: int) -> None:

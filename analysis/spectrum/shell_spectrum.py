@@ -9,12 +9,16 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gbnbench.analysis.precision import PrecisionName
+from gbnbench.analysis.spectrum.ball_power import ball_power
+from gbnbench.analysis.spectrum.box_shells import equal_lengths
 from gbnbench.analysis.spectrum.choice import choose
-from gbnbench.analysis.spectrum.limits import default_shell_fmax
-from gbnbench.analysis.spectrum.periodogram import check_weights
-from gbnbench.analysis.spectrum.request import shell_request
+from gbnbench.analysis.spectrum.input_checks import check_weights
+from gbnbench.analysis.spectrum.limits import check_harmonic, default_radius, default_shell_fmax
+from gbnbench.analysis.spectrum.request import check_band, shell_request
+from gbnbench.core.errors import InputError
 from gbnbench.core.results.radial import ShellSpectrum
-from gbnbench.core.torus import as_realizations, spacing
+from gbnbench.core.sides import Sides, as_sides
+from gbnbench.core.torus import FloatArray, as_realizations, spacing
 from gbnbench.opencl import use_device
 
 
@@ -28,6 +32,7 @@ def shells(
     weights: ArrayLike | None = None,
     floor: float | None = None,
     progress: Callable[[float], None] | None = None,
+    sides: ArrayLike | None = None,
     device: str | None = None,
 ) -> ShellSpectrum:
     """Mean and spread of power on every exact shell of |f|, and nothing else.
@@ -51,6 +56,9 @@ def shells(
         Smallest power of a frequency that must be known to 1%; lets float be chosen where it does.
     progress : callable, optional
         Called now and then with the share done.
+    sides : (d,) array_like, optional
+        Lengths of the torus's sides, whose ratios count; a cube if not given. |f| is then the length of
+        k_a = f_a / s_a, the volume being 1, and by default reaches as far as in ``gbnbench.measures``.
     device : str, optional
         The OpenCL device, as in ``periodogram``.
 
@@ -62,14 +70,16 @@ def shells(
     Raises
     ------
     InputError
-        If x, fmax, band or weights are not what they must be, or (2*fmax+1)**d exceeds 2^63.
+        If x, fmax, band, weights or sides are not what they must be, (2*fmax+1)**d exceeds 2^63, or corners
+        are asked for of a torus with unequal sides.
     DeviceError
         If the OpenCL device lacks the precision.
 
     Notes
     -----
     Only frequencies inside the ball or band are evaluated: at d = 10 and fmax = 3 these are the 2e5 with
-    |f| <= 3, out of 2.8e8 in the cube. Memory does not grow with their number.
+    |f| <= 3, out of 2.8e8 in the cube. Memory does not grow with their number. For unequal sides they are
+    listed or evaluated as the box that holds them, whichever is cheaper, and kept in memory.
 
     Examples
     --------
@@ -81,6 +91,12 @@ def shells(
     points = as_realizations(x)
     sets, n, d = points.shape
     w = check_weights(weights, sets, n)
+    lengths = as_sides(sides, d)
+    if lengths is not None:
+        if corners:
+            raise InputError("corners are those of a cube; leave them out for a torus with unequal sides")
+        with use_device(device):
+            return _of_box(points, fmax, band, lengths, w, precision, floor, progress)
     if fmax is None:
         fmax = default_shell_fmax(n, d) if band is None else max(1, math.ceil(band[1]))
     request = shell_request(n, d, fmax, sets, band, corners)
@@ -104,4 +120,45 @@ def shells(
         device=ran_on,
         error_rms=errors.rms,
         error_bound=errors.bound,
+    )
+
+
+def _of_box(
+    points: FloatArray,
+    fmax: int | None,
+    band: Sequence[float] | None,
+    sides: Sides,
+    weights: FloatArray | None,
+    precision: PrecisionName,
+    floor: float | None,
+    progress: Callable[[float], None] | None,
+) -> ShellSpectrum:
+    """Evaluate the exact shells of |k| of a torus with unequal sides."""
+    sets, n, d = points.shape
+    if fmax is None:
+        fmax = default_radius(n, d, 1, sides) if band is None else max(1, math.ceil(band[1]))
+    largest = check_harmonic(fmax, d)
+    low, high = (0.0, float(largest)) if band is None else check_band(band, largest, largest)
+    ball = ball_power(points, (low, high), sides, weights, precision, floor, progress)
+    group, count = equal_lengths(ball.square)
+    frequency = np.bincount(group, np.sqrt(ball.square)) / count
+    mean = np.bincount(group, ball.power) / count
+    deviation = np.bincount(group, (ball.power - mean[group]) ** 2).astype(np.float64, copy=False)
+    errors = ball.errors.averaged(sets, n)
+    return ShellSpectrum(
+        frequency=frequency,
+        nu=frequency * spacing(n, d),
+        power=mean,
+        count=2 * count,
+        deviation=deviation,
+        n=n,
+        d=d,
+        realizations=sets,
+        fmax=largest,
+        precision=ball.evaluator.precision,
+        method=ball.evaluator.method,
+        device=ball.evaluator.device,
+        error_rms=errors.rms,
+        error_bound=errors.bound,
+        sides=sides,
     )

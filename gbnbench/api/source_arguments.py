@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from gbnbench.core.errors import InputError
 from gbnbench.generators.protocol import Generator
@@ -23,6 +24,7 @@ def as_sources(
     d: int | Sequence[int],
     realizations: int,
     reading: ReadingOptions = DEFAULT_READING,
+    sides: ArrayLike | None = None,
 ) -> tuple[tuple[Source, ...], tuple[str, ...]]:
     """Turn what Python was given into sources, in the order given.
 
@@ -37,6 +39,8 @@ def as_sources(
         Sets of each generator.
     reading : ReadingOptions
         How files are read.
+    sides : (d,) array_like, optional
+        Lengths of the sides of the torus on which arrays lie; a cube if not given.
 
     Returns
     -------
@@ -57,7 +61,9 @@ def as_sources(
         sources: list[Source] = []
         skipped: list[str] = []
         for label, item in given.items():
-            found, left_out = resolve([_source(item, str(label))], sizes, dimensions, realizations, reading)
+            found, left_out = resolve(
+                [_source(item, str(label), sides)], sizes, dimensions, realizations, reading
+            )
             sources += [replace(source, label=str(label)) for source in found]
             skipped += left_out
         found, _ = resolve(sources, sizes, dimensions, realizations)
@@ -70,7 +76,7 @@ def as_sources(
     for item in items:
         count += _is_array(item)
         label = "array" if arrays == 1 else f"array {count}"
-        named.append(_source(item, label))
+        named.append(_source(item, label, sides))
     found, refused = resolve(named, sizes, dimensions, realizations, reading)
     _check_used(reading, found)
     return found, refused
@@ -85,11 +91,11 @@ def _check_used(reading: ReadingOptions, sources: Iterable[Source]) -> None:
         )
 
 
-def _source(item: SourceLike, label: str) -> str | Path | Generator | Source:
+def _source(item: SourceLike, label: str, sides: ArrayLike | None) -> str | Path | Generator | Source:
     """Return an item as ``resolve`` takes it: an array becomes a source with this label."""
     if isinstance(item, (str, Path, Source)):
         return item
-    return array_source(item, label) if _is_array(item) else item
+    return array_source(item, label, sides) if _is_array(item) else item
 
 
 def _is_one(given: object) -> bool:

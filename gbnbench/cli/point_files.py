@@ -12,12 +12,11 @@ import click
 from gbnbench.core.errors import FormatError, GbnbenchError
 
 if TYPE_CHECKING:
-    from gbnbench.core.torus import FloatArray
-    from gbnbench.io.points import ReadingOptions
+    from gbnbench.io.points import PointSets, ReadingOptions
 
 
-def read_cube(path: Path, reading: ReadingOptions) -> list[FloatArray]:
-    """Read the sets of a file whose box has equal sides, and warn where the file says that it is no torus.
+def read_torus(path: Path, reading: ReadingOptions) -> PointSets:
+    """Read the sets of a file with the sides of their torus, and warn where the file says that it is none.
 
     Parameters
     ----------
@@ -28,23 +27,21 @@ def read_cube(path: Path, reading: ReadingOptions) -> list[FloatArray]:
 
     Returns
     -------
-    list of (n_i, d) float64
-        Fractions of the box.
+    PointSets
+        Fractions of the box, and its sides.
 
     Raises
     ------
     FormatError
-        If the file cannot be read, or its box has unequal sides.
+        If the file cannot be read.
     """
     from gbnbench.io.points import read_sets
-    from gbnbench.io.points.point_sets import NO_TORUS, unequal_sides
+    from gbnbench.io.points.point_sets import NO_TORUS
 
     found = read_sets(path, reading)
-    if (fault := unequal_sides(found.sides)) is not None:
-        raise FormatError(path, fault)
     if found.toroidal is False:
         click.echo(f"gbnbench: warning: {path}: {NO_TORUS}", err=True)
-    return found.sets
+    return found
 
 
 @contextlib.contextmanager

@@ -123,6 +123,29 @@ def wave_numbers(frequencies: ArrayLike, sides: Sides | None) -> FloatArray:
     return np.asarray(np.sqrt((k * k).sum(axis=-1)), dtype=np.float64)
 
 
+def squared_lengths(harmonics: tuple[int, ...], sides: Sides | None) -> FloatArray:
+    """|k|^2 of every frequency of a box |f_a| <= harmonics[a].
+
+    Parameters
+    ----------
+    harmonics : tuple of d ints
+        Largest harmonic on each axis.
+    sides : tuple of d floats, or None
+        As ``as_sides`` returns them.
+
+    Returns
+    -------
+    (2*f_a+1, ...) float64
+        Zero frequency at the centre; whole numbers for a cube.
+    """
+    d = len(harmonics)
+    total = np.zeros((1,) * d)
+    for axis, (largest, side) in enumerate(zip(harmonics, sides or (1.0,) * d, strict=True)):
+        squares = np.arange(-largest, largest + 1, dtype=np.float64) ** 2 / side**2
+        total = total + squares.reshape([-1 if a == axis else 1 for a in range(d)])
+    return total
+
+
 def sides_text(sides: Sides) -> str:
     """Write the ratios of the sides, the shortest being 1: "2:1"."""
     least = min(sides)

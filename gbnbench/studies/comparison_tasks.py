@@ -58,7 +58,7 @@ def comparison_tasks(sources: Sequence[Source], seed: int, jobs: int) -> list[Ta
             source.key,
             f"{row}, measuring it",
             analyse if source.generator is None else analyse_realizations,
-            (source.sets,) if source.generator is None else (),
+            (source.sets, None, source.sides) if source.generator is None else (),
             tuple(draw.key for draw in draws),
             partial(source_result, source),
             f"measured {done}",

@@ -9,7 +9,14 @@ from typing import ClassVar
 import numpy as np
 
 from gbnbench.analysis.precision import Precision, padded
-from gbnbench.analysis.spectrum.digits import Division, cheapest_division, half_size, size
+from gbnbench.analysis.spectrum.digits import (
+    Division,
+    Harmonics,
+    cheapest_division,
+    each_axis,
+    half_size,
+    size,
+)
 from gbnbench.analysis.spectrum.error_model import Errors, coordinates, rounded_at_worst
 from gbnbench.analysis.spectrum.evaluators.cube_writer import CubeWriter
 from gbnbench.analysis.spectrum.evaluators.device_evaluator import DeviceEvaluator
@@ -38,17 +45,17 @@ class CubeProduct(DeviceEvaluator):
 
     def work(self, request: SpectrumRequest) -> float:
         """Count the pairs of frequencies, the tables and the powers that are written."""
-        p, n, d, f = self.on_device, request.n, request.d, request.fmax
-        divided = cheapest_division(d, f, tile_rows(p))
+        p, n = self.on_device, request.n
+        divided = cheapest_division(request.d, request.largest, tile_rows(p))
         a, b = half_size(divided.leading), half_size(divided.trailing)
         each = (TILE * padded(a, tile_rows(p)) * b + ENTRY * (a + b)) * n
-        return request.realizations * float(each + WRITTEN * (2 * f + 1) ** d / 2)
+        return request.realizations * float(each + WRITTEN * request.frequencies / 2)
 
     def cost(self, request: SpectrumRequest) -> EvaluationCost:
         """Estimate the product's cost on the device."""
         slots = product_slots(self.on_device, request)
         launches = 3.0 * slots.launches(request.n) * -(-request.realizations // slots.sets)
-        held = 3 * 8 * (2 * request.fmax + 1) ** request.d + 2 * TABLE_BYTES
+        held = 3 * 8 * request.frequencies + 2 * TABLE_BYTES
         return device_cost(self.on_device, request, self.work(request), launches, held)
 
     def expected_errors(self, request: SpectrumRequest) -> Errors:
@@ -62,6 +69,13 @@ class CubeProduct(DeviceEvaluator):
     ) -> tuple[FloatArray, Errors]:
         """Evaluate the power of a cube, as ``Evaluator.cube`` describes it."""
         return cube_powers(self.on_device, x, fmax, weights, half, mean)
+
+    def box(
+        self, x: FloatArray, request: SpectrumRequest, weights: FloatArray | None, *, mean: bool
+    ) -> tuple[FloatArray, Errors]:
+        """Evaluate the power of a box and nothing beyond it, as ``Evaluator.box`` describes it."""
+        half = request.what == "half cube"
+        return cube_powers(self.on_device, x, request.largest, weights, half, mean)
 
 
 def product_slots(p: Precision, request: SpectrumRequest) -> Slots:
@@ -78,7 +92,7 @@ def product_slots(p: Precision, request: SpectrumRequest) -> Slots:
     -------
     Slots
     """
-    divided = cheapest_division(request.d, request.fmax, tile_rows(p))
+    divided = cheapest_division(request.d, request.largest, tile_rows(p))
     a, b = half_size(divided.leading), half_size(divided.trailing)
     return choose_slots(
         p, request.n, request.realizations, padded(a, tile_rows(p)), padded(b, p.runtime.group)
@@ -88,12 +102,12 @@ def product_slots(p: Precision, request: SpectrumRequest) -> Slots:
 def cube_powers(
     p: Precision,
     x: FloatArray,
-    fmax: int,
+    fmax: Harmonics,
     weights: FloatArray | None = None,
     half: bool = False,
     mean: bool = True,
 ) -> tuple[FloatArray, Errors]:
-    """Evaluate the power at all frequencies with |f_a| <= fmax.
+    """Evaluate the power at all frequencies with |f_a| <= fmax, or <= fmax[a].
 
     Parameters
     ----------
@@ -101,7 +115,7 @@ def cube_powers(
         Precision on the device.
     x : (sets, n, d) float64
         Checked points.
-    fmax : int
+    fmax : int or tuple of d ints
         Largest harmonic on each axis.
     weights : (sets or 1, n) float64, optional
         Weights of the points; power is divided by the sum of their squares.
@@ -112,7 +126,7 @@ def cube_powers(
 
     Returns
     -------
-    power : (2*fmax+1,)*d float64
+    power : (2*fmax+1,)*d or (2*fmax[0]+1, ...) float64
         The first axis is only fmax+1 long for a half. An axis of sets precedes it unless ``mean``.
     errors : Errors
         Errors of the square root of the power of any one set.
@@ -129,7 +143,7 @@ def cube_powers(
             writer.add(
                 product.program, product.amplitude, product.slots.splits, first, count, first_row, rows.count
             )
-        errors = product_errors(p, n, product.slots, fmax, at)
+        errors = product_errors(p, n, product.slots, max(each_axis(d, fmax)), at)
         rms, bound = max(rms, errors.rms), max(bound, errors.bound)
     assert writer is not None  # noqa: S101 - there is a row
     return writer.result(), Errors(rms, bound)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from gbnbench.analysis.precision import Precision, padded
-from gbnbench.analysis.spectrum.digits import Division, half_size
+from gbnbench.analysis.spectrum.digits import Division, Harmonics, each_axis, half_size
 from gbnbench.core.torus import FloatArray
 from gbnbench.opencl import Program
 
@@ -24,7 +24,7 @@ class CubeWriter:
         Precision on the device.
     divided : Division
         The two groups of axes.
-    fmax : int
+    fmax : int or tuple of d ints
         Largest harmonic on each axis.
     norms : (sets,) float64
         Numbers by which the squared amplitudes of each set are divided.
@@ -40,14 +40,14 @@ class CubeWriter:
         self,
         p: Precision,
         divided: Division,
-        fmax: int,
+        fmax: Harmonics,
         norms: FloatArray,
         d: int,
         half: bool,
         mean: bool,
         gains: FloatArray | None = None,
     ) -> None:
-        self._p, self._fmax, self._d, self._half, self._mean = p, fmax, d, half, mean
+        self._p, self._harmonics, self._half, self._mean = p, each_axis(d, fmax), half, mean
         self._sets = len(norms)
         self._rows, self._columns = half_size(divided.leading), half_size(divided.trailing)
         shape = covered(divided, d)
@@ -100,11 +100,11 @@ class CubeWriter:
 
     def result(self) -> FloatArray:
         """Download the cube, and cut off the frequencies beyond its edge that the groups cover."""
-        fmax, sets = self._fmax, 1 if self._mean else self._sets
+        sets = 1 if self._mean else self._sets
         power = self._p.runtime.download(self._out, np.empty((sets, *self._shape), self._p.sum))
         inner = tuple(
-            slice(0, fmax + 1) if self._half and a == 0 else slice(have // 2 - fmax, have // 2 + fmax + 1)
-            for a, have in enumerate(self._shape)
+            slice(0, f + 1) if self._half and a == 0 else slice(have // 2 - f, have // 2 + f + 1)
+            for a, (f, have) in enumerate(zip(self._harmonics, self._shape, strict=True))
         )
         power = np.ascontiguousarray(power[(slice(None), *inner)], np.float64)
         if not self._mean:

@@ -12,13 +12,14 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.analysis.precision import Precision, precision_of
 from gbnbench.analysis.spectrum.error_model import Errors
+from gbnbench.analysis.spectrum.limits import cube_fits
 from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest
 from gbnbench.analysis.spectrum.shell_moments import ShellMoments, moments_of_cube
 from gbnbench.core.errors import InputError
@@ -126,6 +127,25 @@ class Evaluator(ABC):
         """Count what a request takes in multiply-adds, to compare exact evaluators without any timing."""
         return self.cost(request).flops / 2
 
+    def for_points(self, x: FloatArray, fmax: int, floor: float | None) -> Evaluator:
+        """Give the evaluator that shall take these points, once they are known.
+
+        Parameters
+        ----------
+        x : (sets, n, d) float64
+            Checked points.
+        fmax : int
+            Largest harmonic on each axis.
+        floor : float or None
+            Smallest power that must be known to 1%.
+
+        Returns
+        -------
+        Evaluator
+            Itself, or an exact one where these points make its errors larger than it stated.
+        """
+        return self
+
     @property
     def device(self) -> str:
         """Where it runs."""
@@ -172,6 +192,43 @@ class Evaluator(ABC):
             Errors of the square root of the power of any one set.
         """
         raise InputError(f"{self.method} does not evaluate cubes of frequencies")
+
+    def box(
+        self, x: FloatArray, request: SpectrumRequest, weights: FloatArray | None, *, mean: bool
+    ) -> tuple[FloatArray, Errors]:
+        """Evaluate the power of a cube, or of a box: the cube of its largest harmonic, cut, if not better.
+
+        Parameters
+        ----------
+        x : (sets, n, d) float64
+            Checked points.
+        request : SpectrumRequest
+            A request for a cube or box, or its half.
+        weights : (sets or 1, n) float64 or None
+            As in ``cube``.
+        mean : bool
+            As in ``cube``.
+
+        Returns
+        -------
+        power : (2*f_a+1, ...) float64
+            As ``cube`` has it, f_a being the largest harmonic on axis a.
+        errors : Errors
+            As in ``cube``.
+        """
+        half, f = request.what == "half cube", request.fmax
+        if request.harmonics and not cube_fits(f, request.d):
+            raise InputError(
+                f"{request} are evaluated as a cube where there is no OpenCL device, and that does not fit "
+                "in memory; ask for a smaller fmax"
+            )
+        power, errors = self.cube(x, f, weights, half=half, mean=mean)
+        if request.harmonics:
+            inner: list[Any] = [slice(f - h, f + h + 1) for h in request.harmonics]
+            if half:
+                inner[0] = slice(0, request.harmonics[0] + 1)
+            power = np.ascontiguousarray(power[(..., *inner)])
+        return power, errors
 
     def listed(
         self, x: FloatArray, frequencies: NDArray[np.int64], weights: FloatArray | None

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.core.results.resolution import gaussian_response, resolvable_power
+from gbnbench.core.sides import Sides
 from gbnbench.core.torus import FloatArray, spacing
 
 if TYPE_CHECKING:
@@ -70,6 +71,8 @@ class ShellSpectrum:
         Sum of (p - mean)^2 over the count/2 frequencies of one half space.
     n, d, realizations, fmax : int
         Points a set, dimension, sets averaged, largest harmonic on each axis.
+    sides : tuple of d floats or None
+        Sides of the torus, of volume 1; None for a cube. Radii are then |k|, k_a = f_a / s_a.
     precision, method, device : str
         "double" or "float", the name of the evaluator, and the device it ran on.
     error_rms, error_bound : float
@@ -99,6 +102,7 @@ class ShellSpectrum:
     device: str = ""
     error_rms: float = math.nan
     error_bound: float = math.nan
+    sides: Sides | None = None
 
     @property
     def spacing(self) -> float:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.core.results.resolution import gaussian_response, resolvable_power
+from gbnbench.core.sides import Sides, squared_lengths, wave_numbers
 from gbnbench.core.torus import FloatArray, spacing
 
 
@@ -23,11 +24,13 @@ class Spectrum:
     ----------
     power : (2*fmax+1,)*d, (fmax+1, 2*fmax+1, ...) or (m,) float64
         1 in expectation for white noise. The cube has DC at its centre, where it equals n, and axis a is
-        coordinate a. A half cube begins at f_0 = 0. For listed frequencies it is (m,), in their order.
+        coordinate a. A half cube begins at f_0 = 0. For listed frequencies it is (m,), in their order. Where
+        the torus has unequal sides it is a box, 2*f_a+1 long on axis a with f_a = floor(fmax s_a).
     n, d, realizations : int
         Points a set, dimension, sets averaged.
     fmax : int
-        Largest harmonic on each axis, cycles per unit length.
+        Largest harmonic on each axis, cycles per unit length; for unequal sides the radius |k| up to which
+        the box holds every frequency.
     frequencies : (m, d) int64 or None
         The listed frequencies; None for a cube.
     precision, method, device : str
@@ -37,6 +40,8 @@ class Spectrum:
         by at most 2 sqrt(P) error_bound + error_bound**2.
     half, weighted : bool
         Whether only f_0 >= 0 is held, and whether points had weights.
+    sides : tuple of d floats or None
+        Sides of the torus, of volume 1; None for a cube.
 
     Examples
     --------
@@ -59,14 +64,16 @@ class Spectrum:
     error_bound: float = math.nan
     half: bool = False
     weighted: bool = False
+    sides: Sides | None = None
 
     def whole(self) -> Spectrum:
         """Return the spectrum of the whole cube, a half completed by P(-f) = P(f)."""
         if not self.half:
             return self
-        cube = np.empty((2 * self.fmax + 1,) * self.d)
-        cube[self.fmax :] = self.power
-        cube[: self.fmax + 1] = np.flip(self.power)
+        first = self.harmonics[0]
+        cube = np.empty((2 * first + 1, *self.power.shape[1:]))
+        cube[first:] = self.power
+        cube[: first + 1] = np.flip(self.power)
         return replace(self, power=cube, half=False)
 
     def filtered(self, sigma: float) -> Spectrum:
@@ -80,16 +87,19 @@ class Spectrum:
             If sigma is not a number of at least 0.
         """
         if self.frequencies is not None:
-            square = (self.frequencies.astype(np.float64) ** 2).sum(axis=1)
+            radius = wave_numbers(self.frequencies, self.sides)
         else:
-            first = self.fmax if self.half else 0
-            axis = np.arange(-self.fmax, self.fmax + 1, dtype=np.float64) ** 2
-            square = sum(
-                (axis[first:] if a == 0 else axis).reshape([-1 if b == a else 1 for b in range(self.d)])
-                for a in range(self.d)
-            )
-        response = gaussian_response(np.sqrt(square) * self.spacing, sigma)
+            radius = np.sqrt(squared_lengths(self.harmonics, self.sides))
+            if self.half:
+                radius = radius[self.harmonics[0] :]
+        response = gaussian_response(radius * self.spacing, sigma)
         return replace(self, power=self.power * response)
+
+    @property
+    def harmonics(self) -> tuple[int, ...]:
+        """Largest harmonic on each axis of a cube or box."""
+        first, *others = self.power.shape
+        return (first - 1 if self.half else first // 2, *(size // 2 for size in others))
 
     @property
     def resolvable(self) -> float:

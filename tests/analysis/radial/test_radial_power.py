@@ -52,7 +52,7 @@ def test_by_digits_and_annuli_hold_the_same_total():
 
 @pytest.mark.parametrize(
     ("arguments", "says"),
-    [({"by": "rings"}, "shells, digits, annuli"), ({"by": "annuli", "width": 0}, "positive")],
+    [({"by": "rings"}, "shells, pooled, digits, annuli"), ({"by": "annuli", "width": 0}, "positive")],
 )
 def test_bad_requests_are_refused(arguments, says):
     with pytest.raises(InputError, match=says):
