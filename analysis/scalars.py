@@ -96,7 +96,9 @@ class Scalars:
         import pandas as pd
 
         rings = anisotropy(far.shell_spectrum())
-        return pd.concat([near, rings[rings.frequency > near.frequency.max()]], ignore_index=True)
+        farther: pd.DataFrame = rings[rings.frequency > near.frequency.max()]
+        found: pd.DataFrame = pd.concat([near, farther], ignore_index=True)
+        return found
 
     def _evaluated_far(self) -> SetPowers | None:
         """Return the farther shells if a measure needed them."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -20,7 +21,8 @@ from gbnbench.analysis.spectrum.evaluators.registry import EVALUATORS
 from gbnbench.analysis.spectrum.request import SpectrumRequest
 from gbnbench.analysis.spectrum.spectrum_plan import SpectrumPlan
 from gbnbench.core.errors import InputError
-from gbnbench.opencl import devices_present
+from gbnbench.opencl import devices_present, runtime
+from gbnbench.opencl.device import Device
 
 
 def choose(
@@ -53,11 +55,22 @@ def choose(
     if floor is not None or method is not None:
         return planned(request, precision, floor, method).chosen.evaluator
     check_precision(precision)
-    if devices_present():
+    return _cheapest(request, precision, EVALUATORS, runtime().device if devices_present() else None)
+
+
+@lru_cache(maxsize=256)
+def _cheapest(
+    request: SpectrumRequest, precision: str, kinds: tuple[type[Evaluator], ...], device: Device | None
+) -> Evaluator:
+    """Choose the exact evaluator of least work; what was chosen before is known at once.
+
+    The device is that of the process now. It is an argument since another one may choose otherwise.
+    """
+    if device is not None:
         precision_of(precision)  # says what the device lacks
     exact = [
         evaluator
-        for kind in EVALUATORS
+        for kind in kinds
         if not kind.approximate and (evaluator := kind.offer(request, precision)) is not None
     ]
     if not exact:

@@ -21,6 +21,7 @@ ComplexArray = NDArray[np.complex128]
 IntArray = NDArray[np.int64]
 
 MOST_TAPERS = 16  # of a box, as chosen by ``default_counts``
+LOBES = 1 << 14  # half steps of pi / L over which a taper's energy is summed
 
 
 def default_counts(sides: FloatArray) -> tuple[int, ...]:
@@ -144,6 +145,30 @@ class SineTapers:
             for q in orders:
                 total += np.abs(_overlap(p, q, kappa)) ** 2
         return total
+
+    def energy_beyond(self, axis: int, away: FloatArray) -> FloatArray:
+        """Sum the energy of an axis's tapers, 1 in all, at wave numbers farther than ``away`` from 0.
+
+        Parameters
+        ----------
+        axis : int
+            The axis.
+        away : (m,) float64
+            Wave numbers, in radians a length, at least 0.
+
+        Returns
+        -------
+        (m,) float64
+            Mean over the axis's tapers. It falls as (L_a away)^-3.
+        """
+        kappa = math.pi * np.arange(LOBES)
+        energy = np.mean([np.abs(_transform(p, kappa)) ** 2 for p in range(1, self.counts[axis] + 1)], axis=0)
+        beyond = np.cumsum(energy[::-1])[
+            ::-1
+        ]  # sampled every pi / L_a, which is exact for both signs together
+        first = np.ceil(away * self.sides[axis] / math.pi).astype(np.intp)
+        found: FloatArray = beyond[np.minimum(first, LOBES - 1)]
+        return found
 
     def _product(self, at: FloatArray, factor: Callable[[int, FloatArray], NDArray]) -> ComplexArray:  # type: ignore[type-arg]
         """Multiply a factor of (order, coordinate) over the axes, tabulated at the distinct coordinates."""

@@ -61,12 +61,13 @@ def as_sources(
         sources: list[Source] = []
         skipped: list[str] = []
         for label, item in given.items():
-            found, refused = resolve(
+            found, left_out = resolve(
                 [_source(item, str(label), sides)], sizes, dimensions, realizations, reading
             )
             sources += [replace(source, label=str(label)) for source in found]
-            skipped += refused
+            skipped += left_out
         found, _ = resolve(sources, sizes, dimensions, realizations)
+        _check_used(reading, found)
         return found, tuple(skipped)
     items = [given] if _is_one(given) else list(given)
     arrays = sum(_is_array(item) for item in items)
@@ -76,7 +77,18 @@ def as_sources(
         count += _is_array(item)
         label = "array" if arrays == 1 else f"array {count}"
         named.append(_source(item, label, sides))
-    return resolve(named, sizes, dimensions, realizations, reading)
+    found, refused = resolve(named, sizes, dimensions, realizations, reading)
+    _check_used(reading, found)
+    return found, refused
+
+
+def _check_used(reading: ReadingOptions, sources: Iterable[Source]) -> None:
+    """Refuse options of reading where no source is read."""
+    given = reading.record()
+    if given and not any(source.kind == "files" for source in sources):
+        raise InputError(
+            f"{', '.join(given)} say how files are read, and no source is a file: leave them out"
+        )
 
 
 def _source(item: SourceLike, label: str, sides: ArrayLike | None) -> str | Path | Generator | Source:

@@ -58,7 +58,7 @@ def generate(
     from gbnbench.io.points import save
     from gbnbench.io.points.writer import encode, write_atomically
 
-    encode(out, [[[0.0] * d]] * realizations)  # what cannot be written is refused before the work
+    encode(out, [[[0.0] * d]] * min(realizations, 2))  # what cannot be written is refused before the work
     if spectra_at and trace is None:
         raise click.UsageError("--spectra-at goes with --trace FILE")
     if trace is not None and trace.suffix != ".csv":

@@ -14,8 +14,6 @@ from gbnbench.core.errors import FormatError, GbnbenchError
 if TYPE_CHECKING:
     from gbnbench.io.points import PointSets, ReadingOptions
 
-NO_TORUS = "says that its box is no torus, and it is measured as one: what crosses the sides is not real"
-
 
 def read_torus(path: Path, reading: ReadingOptions) -> PointSets:
     """Read the sets of a file with the sides of their torus, and warn where the file says that it is none.
@@ -38,6 +36,7 @@ def read_torus(path: Path, reading: ReadingOptions) -> PointSets:
         If the file cannot be read.
     """
     from gbnbench.io.points import read_sets
+    from gbnbench.io.points.point_sets import NO_TORUS
 
     found = read_sets(path, reading)
     if found.toroidal is False:

@@ -30,7 +30,7 @@ class Program:
     """A built program, which holds one kernel object for each entry point."""
 
     def __init__(self, owner: Runtime, built: Any) -> None:
-        self._runtime = owner
+        self.owner = owner
         self._kernels = {kernel.function_name: kernel for kernel in built.all_kernels()}
 
     def run(self, name: str, global_size: Sequence[int], local_size: Sequence[int], *args: Any) -> None:
@@ -46,7 +46,7 @@ class Program:
             Buffers and numpy scalars of the kernel's own types.
         """
         with LAUNCH:
-            self._kernels[name](self._runtime.queue, tuple(global_size), tuple(local_size), *args)
+            self._kernels[name](self.owner.queue, tuple(global_size), tuple(local_size), *args)
 
 
 class Runtime:
@@ -165,6 +165,21 @@ class Runtime:
                 f"{nbytes} were needed"
             )
         return self._cl.Buffer(self.context, self._cl.mem_flags.READ_WRITE, max(int(nbytes), 1))
+
+    def shared(self, array: NDArray[Any]) -> Any:
+        """Make a buffer of a host array's own memory, which a CPU device reads and writes in place.
+
+        Parameters
+        ----------
+        array : array
+            C-contiguous; it must live as long as the buffer.
+
+        Returns
+        -------
+        pyopencl.Buffer
+        """
+        flags = self._cl.mem_flags.READ_WRITE | self._cl.mem_flags.USE_HOST_PTR
+        return self._cl.Buffer(self.context, flags, hostbuf=array)
 
     def download(self, buffer: Any, out: NDArray[Any]) -> NDArray[Any]:
         """Copy the beginning of a buffer to the host, after the kernels before it have ended.

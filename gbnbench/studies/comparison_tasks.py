@@ -11,6 +11,7 @@ import numpy as np
 from gbnbench.analysis.measures import Analysis, analyse
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import Generator, checked_draw, realization_rng
+from gbnbench.io.points.point_sets import NO_TORUS
 from gbnbench.runs.comparison_folder import Realization, realization_key
 from gbnbench.runs.comparison_result import SourceResult
 from gbnbench.runs.resumable import Task
@@ -123,8 +124,9 @@ def source_result(source: Source, analysis: Analysis, realizations: Sequence[Rea
     -------
     SourceResult
     """
+    told = (f"the file {NO_TORUS}",) if source.toroidal is False else ()
     return SourceResult(
-        **vars(analysis),
+        **{**vars(analysis), "warnings": (*told, *analysis.warnings)},
         key=source.key,
         label=source.label,
         n=source.n,

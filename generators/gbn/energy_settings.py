@@ -1,4 +1,4 @@
-"""Which energy Gaussian Blue Noise minimises: on the torus or in the box, truncated, with projections."""
+"""Settings that say which energy Gaussian Blue Noise minimises: torus or box, truncations, projections."""
 
 from __future__ import annotations
 

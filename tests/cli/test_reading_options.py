@@ -121,6 +121,21 @@ def test_a_source_is_another_when_read_otherwise(pixels: tuple[Path, Path]) -> N
     assert (one.sides, one.toroidal, none.toroidal) == ((512.0, 512.0), True, None)
 
 
+def test_options_without_a_file_are_refused() -> None:
+    done = run("compare", "random", "--period", "3", "--wrap")
+    assert done.exit_code != 0
+    assert "period, wrap say how files are read, and no source is a file" in str(done.exception)
+
+
+def test_a_file_that_is_no_torus_says_so(tmp_path: Path) -> None:
+    rows = "".join(f"{a!r} {b!r}\n" for a, b in np.random.default_rng(1).random((9, 2)).tolist())
+    (tmp_path / "window.edat").write_text("0 0\n1 1\n0\n" + rows)
+    told = "says that its box is no torus, and it is measured as one"
+    assert f"window.edat: {told}" in run("analyze", tmp_path / "window.edat").output
+    done = run("compare", tmp_path / "window.edat", "--out", tmp_path / "run", "--jobs", 1, "--quiet")
+    assert f"warning: window (n=9, d=2): the file {told}" in done.output
+
+
 def test_a_resumed_folder_notices_other_options(pixels: tuple[Path, Path], tmp_path: Path) -> None:
     there, unit = pixels
     call = ["integrate", there, "--instances", 2, "--out", tmp_path / "study", "--jobs", 1, "--quiet"]

@@ -274,7 +274,7 @@ BAD: list[tuple[str, str, bytes | str, int | None, str]] = [
     (".edat, no points", "a.edat", EDAT + "#\n-1 0\n1 4\n1\n", 7, "a box without points"),
     (".edat, struck out", "a.edat", EDAT + "#0.5 0.25\n", 6, "a point behind a '#'"),
     (".edat, a blank line", "a.edat", EDAT + "\n0.5 0.25\n", 6, "a blank line between points"),
-    ("JSON, cut", "a.json", "[[0.5, 0.25],\n[0.5", 2, "is no JSON"),
+    ("JSON, cut", "a.json", "[[0.5, 0.25],\n[0.5", 2, "begins as JSON does and is none"),
     ("JSON, NaN", "a.json", "[[0.5, NaN]]", None, "NaN is not a number"),
     ("JSON, ragged", "a.json", "[[0.5, 0.25], [0.5]]", None, "point 1 has 1 numbers where point 0 has 2"),
     ("JSON, a word", "a.json", '[[0.5, "x"]]', None, 'point 0: "x" is not a number'),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import csv
 import io
 import re
 import struct
@@ -15,7 +16,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gbnbench.core.errors import FormatError
-from gbnbench.io.points import read, save
+from gbnbench.io.points import PointSets, ReadingOptions, read, read_sets, save
 
 pytestmark = pytest.mark.slow  # thousands of damaged files
 
@@ -27,9 +28,7 @@ FUZZ = settings(max_examples=350, derandomize=True, deadline=None, database=None
 # The strict twin: plain Python, no code shared with gbnbench.io.points
 
 DECIMAL = r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?"
-COORDINATE_NAME = (
-    r"([xyzwuvstcdp]|dim|dimension|coord|coordinate|column|axis)[_ ]?[\[(]?[0-9]*[\])]?|set|realization"
-)
+QUOTED = r'(?<![^\s,])"([0-9.eE+-]+)"(?![^\s,])'
 
 
 class NoPointsError(Exception):
@@ -52,25 +51,96 @@ def twin_point(tokens: list[str], d: int) -> tuple[float, ...]:
     return tuple(0.0 if v == 1 else v for v in values)
 
 
-def twin_text(data: bytes, csv: bool) -> Sets:
+def twin_cells(line: str) -> list[str]:
+    """Cells that commas part, else blanks; quotes hold a cell together."""
+    if '"' in line and "," in line:
+        return [cell.strip() for cell in next(csv.reader([line], skipinitialspace=True))]
+    if '"' in line:
+        words = re.findall(r'"[^"]*"|[^ \t\v\f]+', line)
+        return [re.sub(r'^"(.*)"$', r"\1", word, flags=re.DOTALL) for word in words]
+    return twin_tokens(line)
+
+
+def twin_names(line: str) -> list[str]:
+    tabbed = "\t" in line and '"' not in line and "," not in line
+    cells = [cell.strip() for cell in line.split("\t")] if tabbed else twin_cells(line)
+    cells = [cell.strip("\"'").strip() for cell in cells]
+    words = [cell for cell in cells if cell]
+    named = words and all(
+        re.match("[A-Za-z]", w) and w.lower() not in ("nan", "inf", "infinity") for w in words
+    )
+    return [cell.lower() for cell in cells] if named else []
+
+
+def twin_axes(names: list[str]) -> bool:
+    """Whether these are x, y, z, w in turn, or one letter with numbers from 0 or 1 on."""
+    if names == list("xyzw")[: len(names)]:
+        return True
+    parts = [re.fullmatch(r"([a-z])[_ ]?[\[(]?([0-9]{1,6})[\])]?", name) for name in names]
+    numbers = [int(part[2]) for part in parts if part]
+    return len({part and part[1] for part in parts}) == 1 and numbers in (
+        list(range(len(names))),
+        list(range(1, len(names) + 1)),
+    )
+
+
+def twin_decimal_commas(text: str) -> str:
+    """Points for commas and commas for semicolons, unless every comma could part thousands."""
+    found = re.findall(r"[0-9]*,[0-9]*", text)
+    need(not found or not all(re.fullmatch(r"[1-9][0-9]?[0-9]?,[0-9]{3}", cell) for cell in found))
+    return text.replace(",", ".").replace(";", ",")
+
+
+def twin_is_tabbed(line: str) -> bool:
+    cells = [cell.strip() for cell in line.split("\t")]
+    comma = r"[+-]?\d*,\d+([eE][+-]?\d+)?"
+    return (
+        len(cells) > 1
+        and all(re.fullmatch(comma, c, re.ASCII) or re.fullmatch(DECIMAL, c, re.ASCII) for c in cells)
+        and any("," in c for c in cells)
+    )
+
+
+def twin_numbered(lines: list[str], rows: list[int], width: int) -> None:
+    """Leave out a first column without a name, which counts the rows or quotes their names."""
+    need(rows)
+    cells = [twin_cells(lines[row]) for row in rows]
+    need(all(len(row) == width for row in cells))
+    need(all(re.fullmatch(DECIMAL, cell, re.ASCII) for row in cells for cell in row[1:]))
+    if not all(lines[row].startswith('"') and lines[row].count('"') == 2 for row in rows):
+        begin = 0 if cells[0][0] == "0" else 1
+        need([row[0] for row in cells] == [str(begin + k) for k in range(len(cells))])
+    for row, kept in zip(rows, cells, strict=True):
+        lines[row] = " ".join(kept[1:])
+
+
+def twin_text(data: bytes) -> Sets:
     """Read text by the grammar in the docstring of gbnbench.io.points, one line after the other."""
     need(data.removeprefix(b"\xef\xbb\xbf").isascii() or b"#" in data)
     lines = re.split("\r\n|\r|\n", data.removeprefix(b"\xef\xbb\xbf").decode("latin-1"))
     if lines[-1] == "":
         lines.pop()
+    content = [line.strip(" \t\v\f") for line in lines]
+    holding = [line for line in content if line and line[0] != "#"]
+    need(holding)
+    numbers = holding[1:] if twin_names(holding[0]) else holding
+    if ";" in holding[0] or (numbers and twin_is_tabbed(numbers[0])):
+        lines = twin_decimal_commas("\n".join(lines)).split("\n")
     lines = [line.strip(" \t\v\f") for line in lines]
-    names: list[str] = []
-    first = next((i for i, line in enumerate(lines) if line and line[0] != "#"), None)
-    need(first is not None)
-    assert first is not None
-    cells = [c.strip().strip("\"'").strip() for c in lines[first].split(",")]
-    if (csv or "," in lines[first]) and all(re.match("[A-Za-z]", c) for c in cells):
-        names = [c.lower() for c in cells]
-        need(all(re.fullmatch(COORDINATE_NAME, n) for n in names) and len(set(names)) == len(names))
-        axes = [n for n in names if n not in ("set", "realization")]
-        place = [(int(re.sub(r"\D", "", n) or 0), "xyzwuvstcdp".find(n[0])) for n in axes]
-        need(place == sorted(place))
+    first = next(i for i, line in enumerate(lines) if line and line[0] != "#")
+    names = twin_names(lines[first])
+    if names:
+        rows = [i for i, line in enumerate(lines) if line and line[0] != "#"][1:]
+        width = len(twin_cells(lines[rows[0]])) if rows else len(twin_cells(lines[first]))
+        if names[0] and width == len(names) + 1:
+            names.insert(0, "")
         lines[first] = ""
+        if names[0] == "":
+            twin_numbered(lines, rows, width)
+            names = names[1:]
+        axes = [name for name in names if name not in ("set", "realization")]
+        need(not axes or twin_axes(axes))
+    lines = [re.sub(QUOTED, r"\1", line) for line in lines]
     rows = [line for line in lines if line and line[0] != "#"]
     tokens = [twin_tokens(row) for row in rows]
     need(rows)
@@ -186,8 +256,8 @@ def twin_eps(data: bytes) -> Sets:
 
 
 def twin_npy(data: bytes) -> Sets:
-    need(data[:6] == b"\x93NUMPY" and data[6:8] in (b"\1\0", b"\2\0"))
-    wide = data[6] == 2
+    need(data[:6] == b"\x93NUMPY" and data[6:8] in (b"\1\0", b"\2\0", b"\3\0"))
+    wide = data[6] > 1
     start = 12 if wide else 10
     need(len(data) >= start)
     (length,) = struct.unpack("<I" if wide else "<H", data[8:start])
@@ -324,6 +394,12 @@ SEEDS: list[tuple[str, Callable[[Path], bytes]]] = [
     (".csv", lambda f: written(".csv", X, f)),
     (".csv", lambda f: written(".csv", X[0, :, :1], f)),
     (".csv", lambda f: b"0.5,0.25\n0.125, 1.0\n"),
+    (".csv", lambda f: b"x;y\r\n0,5;0,25\r\n0,125;,75\r\n"),
+    (".csv", lambda f: b'"x","y"\n"0.5","0.25"\n"0.125","1.0"\n'),
+    (".csv", lambda f: b",x,y\n0,0.5,0.25\n1,0.125,1.0\n2,0,1\n"),
+    (".txt", lambda f: b'"x" "y"\n"1" 0.5 0.25\n"2" 0.125 1.0\n'),
+    (".txt", lambda f: b"x\ty\n0,5\t0,25\n0,125\t,75\n"),
+    (".tsv", lambda f: written(".tsv", X, f)),
 ]
 
 
@@ -332,12 +408,12 @@ def test_damaged_text(seed: int, folder: Path) -> None:
     suffix, make = SEEDS[seed]
     data = make(folder)
     path = folder / f"damaged{suffix}"
-    verdict(path, data, lambda b: twin_text(b, suffix == ".csv"))
+    verdict(path, data, twin_text)
 
     @FUZZ
     @given(DAMAGE)
     def check(edits: bytes) -> None:
-        verdict(path, damaged(data, edits), lambda b: twin_text(b, suffix == ".csv"))
+        verdict(path, damaged(data, edits), twin_text)
 
     check()
 
@@ -398,7 +474,7 @@ def test_damaged_npz(folder: Path) -> None:
     sets = {"one": [X[0]], "stack": X, "ragged": [X[0], X[1][:2], X[0][:1]]}
     seeds = [(written(".npz", x, folder), [np.asarray(s).tolist() for s in x]) for x in sets.values()]
     packed = io.BytesIO()
-    np.savez_compressed(packed, x=X[0], other=np.eye(3))
+    np.savez_compressed(packed, points=X[0], other=np.eye(3))
     seeds.append((packed.getvalue(), [X[0].tolist()]))
 
     @FUZZ
@@ -420,7 +496,7 @@ def test_binary_junk(folder: Path, data: bytes, suffix: str) -> None:
     """Random bytes are refused in one line, unless they happen to be numbers."""
     found = outcome(folder / f"junk{suffix}", data)
     if not isinstance(found, str):
-        assert [[tuple(p) for p in x.tolist()] for x in found] == twin_text(data, suffix == ".csv")
+        assert [[tuple(p) for p in x.tolist()] for x in found] == twin_text(data)
 
 
 COUNTED = b"4\n0.1 0.2\n0.3 0.4\n0.5 0.6\n0.7 0.8\n"
@@ -443,7 +519,7 @@ def test_one_token_replaced(folder: Path, row: int, column: int, text: str) -> N
         assert read(path)[0].tolist() == expected.tolist()
         return
     # blanks, commas, # and line ends can leave other good rows: then the twin must read the same
-    verdict(path, path.read_bytes(), lambda data: twin_text(data, csv=False))
+    verdict(path, path.read_bytes(), twin_text)
 
 
 @FUZZ
@@ -456,3 +532,54 @@ def test_wrong_count(folder: Path, count: int) -> None:
     else:
         with pytest.raises(FormatError, match=r"line [1-6]: "):
             read(path)
+
+
+BOXED = (".extxyz", ".lammpstrj", ".edat", ".json", ".npz")
+SUFFIXES = (".ply", ".xyz", *BOXED, ".csv.gz", ".txt.xz", ".ply.b")
+OPTIONS = [
+    ReadingOptions(),
+    ReadingOptions(columns=("x", "y")),
+    ReadingOptions(columns=("2", "1")),
+    ReadingOptions(period=(2.0,)),
+    ReadingOptions(bounds=(-1.0, 2.0), wrap=True),
+    ReadingOptions(array="points"),
+    ReadingOptions(raw="float32,3"),
+    ReadingOptions(wrap=True),
+]
+
+
+def other_seed(suffix: str, k: int, folder: Path) -> bytes:
+    """A file of another format: of the unit torus, or in a box of its own where it can hold one."""
+    if suffix == ".ply.b":
+        head = b"ply\nformat binary_%s_endian 1.0\nelement vertex 4\n" % (b"little", b"big")[k]
+        rows = Y[0, :, :12].reshape(-1, 3)[:4].astype("<f8" if k == 0 else ">f8").tobytes()
+        return head + b"property double x\nproperty double y\nproperty double z\nend_header\n" + rows
+    x = Y[:, :, :3] if suffix != ".ply" else Y[:1, :, :3]
+    box = suffix in BOXED and k == 1
+    return written(suffix, PointSets(list(x), (2.0,) * 3, (-1.0,) * 3, True) if box else x, folder)
+
+
+@pytest.mark.parametrize("suffix", SUFFIXES)
+@pytest.mark.parametrize("k", range(2))
+def test_damaged_files_of_other_formats(suffix: str, k: int, folder: Path) -> None:
+    """Whatever is damaged, however it is to be read: points of [0, 1), or one line that names the file."""
+    seed = other_seed(suffix, k, folder)
+    path = folder / f"other{suffix.removesuffix('.b')}"
+
+    @FUZZ
+    @given(DAMAGE, st.sampled_from(OPTIONS), st.booleans())
+    def check(edits: bytes, options: ReadingOptions, binary: bool) -> None:
+        path.write_bytes(damaged(seed, edits, binary))
+        said = ""
+        try:
+            found = read_sets(path, options)
+        except FormatError as error:
+            said = str(error)
+        if said:
+            assert said.startswith(str(path))
+            assert "\n" not in said
+            return
+        assert all(((x >= 0) & (x < 1)).all() for x in found.sets)
+        assert found.sides is None or len(found.sides) == found.sets[0].shape[1]
+
+    check()

@@ -65,22 +65,7 @@ class Gaussians:
     def draw(self, d: int, rng: np.random.Generator) -> GaussianSum:
         """Draw a sum by uniform centres.
 
-        Parameters
-        ----------
-        d : int
-            Dimension.
-        rng : numpy.random.Generator
-            Source of the random numbers.
-
-        Returns
-        -------
-        GaussianSum
-            With ``count`` Gaussians.
-
-        Raises
-        ------
-        RefusalError
-            If ``refusal(d)`` has a reason.
+        Parameters, returns and errors are those of ``Family.draw``.
         """
         if reason := self.refusal(d):
             raise RefusalError(reason)
@@ -93,24 +78,7 @@ class Gaussians:
     def frequencies(self, d: int, share: float, most: int = MOST_FREQUENCIES) -> NDArray[np.int64]:
         """List half a ball of frequencies; those outside it hold less than a share of the mean energy.
 
-        Parameters
-        ----------
-        d : int
-            Dimension.
-        share : float
-            Share of the mean energy over f != 0 that may be left out, 0 < share < 1.
-        most : int
-            Longest list allowed.
-
-        Returns
-        -------
-        (m, d) int64
-            One of each pair f, -f.
-
-        Raises
-        ------
-        RefusalError
-            If more than ``most`` are needed, or the spectrum is not known in d dimensions.
+        Parameters, returns and errors are those of ``Family.frequencies``.
         """
         check_share(share, self.refusal(d))
         decay = (2 * math.pi * self.width(d)) ** 2

@@ -79,22 +79,7 @@ class Genz:
     def draw(self, d: int, rng: np.random.Generator) -> GenzIntegrand:
         """Draw a and u, uniform before a is scaled to its sum.
 
-        Parameters
-        ----------
-        d : int
-            Dimension.
-        rng : numpy.random.Generator
-            Source of the random numbers.
-
-        Returns
-        -------
-        GenzIntegrand
-            Of this kind.
-
-        Raises
-        ------
-        RefusalError
-            If ``refusal(d)`` has a reason.
+        Parameters, returns and errors are those of ``Family.draw``.
         """
         if reason := self.refusal(d):
             raise RefusalError(reason)
@@ -105,16 +90,6 @@ class Genz:
     def frequencies(self, d: int, share: float, most: int = 0) -> NDArray[np.int64]:  # noqa: ARG002
         """Return an empty list: these functions are not periodic.
 
-        Parameters
-        ----------
-        d : int
-            Dimension.
-        share, most : float, int
-            Of no effect; the protocol has them.
-
-        Returns
-        -------
-        (0, d) int64
-            No frequencies.
+        Parameters are those of ``Family.frequencies``; share and most have no effect.
         """
         return np.empty((0, d), dtype=np.int64)

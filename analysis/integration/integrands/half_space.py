@@ -34,22 +34,7 @@ class HalfSpaces:
     def draw(self, d: int, rng: np.random.Generator) -> HalfSpace:
         """Draw a plane by a uniform point and a uniform direction.
 
-        Parameters
-        ----------
-        d : int
-            Dimension.
-        rng : numpy.random.Generator
-            Source of the random numbers.
-
-        Returns
-        -------
-        HalfSpace
-            The step across it.
-
-        Raises
-        ------
-        RefusalError
-            If ``refusal(d)`` has a reason.
+        Parameters, returns and errors are those of ``Family.draw``.
         """
         if reason := self.refusal(d):
             raise RefusalError(reason)
@@ -58,17 +43,7 @@ class HalfSpaces:
     def frequencies(self, d: int, share: float, most: int = 0) -> NDArray[np.int64]:  # noqa: ARG002
         """Return an empty list: these functions are not periodic.
 
-        Parameters
-        ----------
-        d : int
-            Dimension.
-        share, most : float, int
-            Of no effect; the protocol has them.
-
-        Returns
-        -------
-        (0, d) int64
-            No frequencies.
+        Parameters are those of ``Family.frequencies``; share and most have no effect.
         """
         return np.empty((0, d), dtype=np.int64)
 

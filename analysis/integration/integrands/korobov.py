@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections import defaultdict
 from dataclasses import dataclass
 from decimal import Decimal, localcontext
 from typing import ClassVar, Literal
@@ -11,6 +10,7 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from gbnbench.analysis.integration.integrands.hyperbolic_cross import half_cross, product_classes
 from gbnbench.analysis.integration.integrands.limits import beyond_dimensions, check_count, check_share
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.integer_frequencies import MOST_FREQUENCIES
@@ -62,22 +62,7 @@ class Korobov:
     def draw(self, d: int, rng: np.random.Generator) -> KorobovProduct:
         """Draw a product by a uniform shift.
 
-        Parameters
-        ----------
-        d : int
-            Dimension.
-        rng : numpy.random.Generator
-            Source of the random numbers.
-
-        Returns
-        -------
-        KorobovProduct
-            With this smoothness and weight.
-
-        Raises
-        ------
-        RefusalError
-            If ``refusal(d)`` has a reason.
+        Parameters, returns and errors are those of ``Family.draw``.
         """
         if reason := self.refusal(d):
             raise RefusalError(reason)
@@ -90,24 +75,7 @@ class Korobov:
     def frequencies(self, d: int, share: float, most: int = MOST_FREQUENCIES) -> NDArray[np.int64]:
         """List half a hyperbolic cross of frequencies; those outside hold less than a share of the energy.
 
-        Parameters
-        ----------
-        d : int
-            Dimension.
-        share : float
-            Share of the mean energy over f != 0 that may be left out, 0 < share < 1.
-        most : int
-            Longest list allowed.
-
-        Returns
-        -------
-        (m, d) int64
-            One of each pair f, -f.
-
-        Raises
-        ------
-        RefusalError
-            If more than ``most`` are needed, or the spectrum is not known in d dimensions.
+        Parameters, returns and errors are those of ``Family.frequencies``.
 
         Notes
         -----
@@ -122,7 +90,7 @@ class Korobov:
             limit = Decimal(share) * total
             largest = 1
             while True:
-                classes = _classes(d, largest)
+                classes = product_classes(d, largest)
                 ranked = sorted(classes, key=self._class_energy, reverse=True)
                 ranked.remove((0, 1))
                 left, number = total, 0
@@ -147,7 +115,7 @@ class Korobov:
             sum(classes[k] for k in chosen) / 2,
             most=most,
         )
-        return _cross(d, chosen)
+        return half_cross(d, chosen)
 
     def _exact_energy(self, key: tuple[int, int]) -> Decimal:
         return Decimal(self.weight) ** (2 * key[0]) / Decimal(key[1]) ** (2 * self.smoothness)
@@ -225,45 +193,3 @@ def _zeta(s: int) -> Decimal:
     """Riemann's zeta at 4, 8 and 12, in the digits of the context."""
     over, under = ZETA[s]
     return over * PI**s / under
-
-
-def _classes(d: int, most: int) -> dict[tuple[int, int], int]:
-    """Count integer vectors by (components that are not 0, product of their sizes), products up to most."""
-    classes = {(0, 1): 1}
-    for _ in range(d):
-        longer: defaultdict[tuple[int, int], int] = defaultdict(int)
-        for (j, product), count in classes.items():
-            longer[j, product] += count
-            for h in range(1, most // product + 1):
-                longer[j + 1, product * h] += 2 * count
-        classes = dict(longer)
-    return classes
-
-
-def _cross(d: int, classes: list[tuple[int, int]]) -> NDArray[np.int64]:
-    """Half the integer vectors of these classes, the first component that is not 0 being positive."""
-    most = max(product for _, product in classes)
-    wanted = np.zeros((d + 1, most + 1), dtype=bool)
-    for key in classes:
-        wanted[key] = True
-    # Whether a vector may still become one of a class: by nonzeros and product so far, axes to go.
-    open_to = [wanted]
-    for _ in range(d):
-        after = open_to[-1]
-        before = after.copy()
-        for h in range(1, most + 1):
-            reach = most // h
-            before[:-1, 1 : reach + 1] |= after[1:, h : reach * h + 1 : h]
-        open_to.append(before)
-    rows = np.zeros((1, 0), dtype=np.int64)
-    j, product = np.zeros(1, dtype=np.int64), np.ones(1, dtype=np.int64)
-    side = np.arange(-most, most + 1)
-    size = np.maximum(np.abs(side), 1)
-    for left in range(d - 1, -1, -1):
-        row, column = np.nonzero((product[:, None] * size <= most) & ((j > 0)[:, None] | (side >= 0)))
-        nonzeros, products = j[row] + (side[column] != 0), product[row] * size[column]
-        keep = open_to[left][nonzeros, products]
-        row, column = row[keep], column[keep]
-        rows = np.column_stack([rows[row], side[column]])
-        j, product = nonzeros[keep], products[keep]
-    return rows

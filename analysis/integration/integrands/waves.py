@@ -69,22 +69,7 @@ class Waves:
     def draw(self, d: int, rng: np.random.Generator) -> WaveSum:
         """Draw a sum by its frequencies and phases.
 
-        Parameters
-        ----------
-        d : int
-            Dimension.
-        rng : numpy.random.Generator
-            Source of the random numbers.
-
-        Returns
-        -------
-        WaveSum
-            With ``count`` waves.
-
-        Raises
-        ------
-        RefusalError
-            If ``refusal(d)`` has a reason.
+        Parameters, returns and errors are those of ``Family.draw``.
         """
         if reason := self.refusal(d):
             raise RefusalError(reason)
@@ -102,24 +87,7 @@ class Waves:
     def frequencies(self, d: int, share: float, most: int = MOST_FREQUENCIES) -> NDArray[np.int64]:
         """List one of each pair f, -f within the band; no share is left out.
 
-        Parameters
-        ----------
-        d : int
-            Dimension.
-        share : float
-            Share of the mean energy over f != 0 that may be left out, 0 < share < 1.
-        most : int
-            Longest list allowed.
-
-        Returns
-        -------
-        (m, d) int64
-            One of each pair f, -f.
-
-        Raises
-        ------
-        RefusalError
-            If more than ``most`` are needed, or the spectrum is not known in d dimensions.
+        Parameters, returns and errors are those of ``Family.frequencies``.
         """
         check_share(share, self.refusal(d))
         count = half_count(d, self.square(d))

@@ -127,6 +127,25 @@ class Evaluator(ABC):
         """Count what a request takes in multiply-adds, to compare exact evaluators without any timing."""
         return self.cost(request).flops / 2
 
+    def for_points(self, x: FloatArray, fmax: int, floor: float | None) -> Evaluator:
+        """Give the evaluator that shall take these points, once they are known.
+
+        Parameters
+        ----------
+        x : (sets, n, d) float64
+            Checked points.
+        fmax : int
+            Largest harmonic on each axis.
+        floor : float or None
+            Smallest power that must be known to 1%.
+
+        Returns
+        -------
+        Evaluator
+            Itself, or an exact one where these points make its errors larger than it stated.
+        """
+        return self
+
     @property
     def device(self) -> str:
         """Where it runs."""

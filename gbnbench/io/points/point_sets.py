@@ -12,6 +12,8 @@ from gbnbench.core.torus import FloatArray
 
 IntArray = NDArray[np.int64]
 
+NO_TORUS = "says that its box is no torus, and it is measured as one: what crosses the sides is not real"
+
 
 @dataclass(frozen=True)
 class PointSets:

@@ -73,9 +73,10 @@ def plain_rows(path: Path, data: bytes, columns: tuple[str, ...] | None) -> tupl
         second = _content_line(data, first.end + 1, first.number + 1)
     names = _names(first.text)
     width = len(_cells(first.text if not names or second is None else second.text))
-    numbered = bool(names) and (names[0] == "" or width == len(names) + 1)
-    if names and width == len(names) + 1 and names[0]:
+    if names and names[0] and width == len(names) + 1:  # R names the columns, not that of the row names
         names = ("", *names)
+    numbered = bool(names) and names[0] == ""
+    width = len(names) or width
     if columns is not None:
         kept = choose(path, columns, names, width)
         kept = [k for k, name in enumerate(names) if name.lower() in SET_NAMES and k not in kept] + kept
@@ -110,9 +111,15 @@ def _cells(line: bytes) -> list[bytes]:
             return [cell.strip() for cell in line.split(b",")]
         return line.split()
     if b"," in line:
-        (row,) = csv.reader([line.decode("latin-1")], skipinitialspace=True)
+        try:
+            (row,) = csv.reader([line.decode("latin-1")], skipinitialspace=True)
+        except csv.Error:  # a cell beyond its limit of size
+            return line.split(b",")
         return [cell.strip().encode("latin-1") for cell in row]
-    return [cell[1:-1] if cell[:1] == b'"' and len(cell) > 1 else cell for cell in _WORDS.findall(line)]
+    return [
+        cell[1:-1] if len(cell) > 1 and cell[:1] == cell[-1:] == b'"' else cell
+        for cell in _WORDS.findall(line)
+    ]
 
 
 def _names(line: bytes) -> tuple[str, ...]:

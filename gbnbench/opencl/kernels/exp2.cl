@@ -1,9 +1,9 @@
 /* 2^t for t <= 0; needs vector.cl. Good to 3e-16 (double) or 1e-7 (float) relative, and exactly 1 at 0.
  *
- * Below t = -1000 (-120 in float) the result stays at 2^-1000, which adds nothing to a sum and is no denormal. The
- * integer part is read off the low bits of a sum with a large constant, since vectors of doubles convert slowly.
- * (2^f - 1) / f on |f| <= 1/2 is interpolated at Chebyshev's nodes by a polynomial whose coefficients were computed in
- * 50 digits: within 2e-17 (double) and 6e-9 (float) of 2^f.
+ * Below t = -1000 (-120 in float) the result stays at 2^-1000, which adds nothing to a sum and is no
+ * denormal. The integer part is read off the low bits of a sum with a large constant, since vectors of
+ * doubles convert slowly. (2^f - 1) / f on |f| <= 1/2 is interpolated at Chebyshev's nodes by a polynomial
+ * whose coefficients were computed in 50 digits: within 2e-17 (double) and 6e-9 (float) of 2^f.
  */
 static REALV exp2_negative(REALV t)
 {

@@ -1,9 +1,9 @@
 /* Independent multiply-adds, by which opencl/peak_rate.py measures the peak rate of a device.
  *
- * Each work-item updates CHAINS accumulators of LANES values by y <- y a + b, steps times; no accumulator waits for
- * another. Chains start c / 16 apart. With a = 1 and b = 2^-20 they count steps exactly, and since a and b come from
- * memory the compiler can leave nothing out. Macros write the accumulators out, since an array of them would live
- * in memory. Needs vector.cl.
+ * Each work-item updates CHAINS accumulators of LANES values by y <- y a + b, steps times; no accumulator
+ * waits for another. Chains start c / 16 apart. With a = 1 and b = 2^-20 they count steps exactly, and since
+ * a and b come from memory the compiler can leave nothing out. Macros write the accumulators out, since an
+ * array of them would live in memory. Needs vector.cl.
  */
 #define FOUR_CHAINS(DO) DO(0) DO(1) DO(2) DO(3)
 #if CHAINS == 4

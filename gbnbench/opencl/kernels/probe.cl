@@ -1,5 +1,5 @@
-/* One of each operation that our kernels do on vectors: loads, integer phases, conversions, selects, sums, stores.
- * One work-item computes LANES values; opencl/width_probe.py compares them with the same in numpy. */
+/* One of each operation that our kernels do on vectors: loads, integer phases, conversions, selects, sums,
+ * stores. One work-item computes LANES values; opencl/width_probe.py compares them with the same in numpy. */
 __kernel void probe(__global const REAL *a, __global const TURN *b, __global REAL *out)
 {
     REALV x = LOADV(a, 0);

@@ -11,8 +11,9 @@
 #define RADIANS_REST (-1.7484556e-7f / 4294967296.0f)
 #endif
 
-/* Signed turns as reals, rounded once. No CPU before AVX-512 converts vectors of 64-bit integers: the high and the low
- * half are put behind the exponents of 2^84 and 2^52, which leaves one rounding, that of their sum. */
+/* Signed turns as reals, rounded once. No CPU before AVX-512 converts vectors of 64-bit integers: the high
+ * and the low half are put behind the exponents of 2^84 and 2^52, which leaves one rounding, that of their
+ * sum. */
 #if DOUBLE && LANES > 1
 static REALV real_of_turn(STURNV t)
 {
@@ -35,10 +36,12 @@ static void cos_sin_of_turn(TURNV phase, REALV *cosine, REALV *sine)
     REALV s = t - t * u * (1.0 / 6 - u * (1.0 / 120 - u * (1.0 / 5040 - u * (1.0 / 362880
         - u * (1.0 / 39916800 - u * (1.0 / 6227020800.0 - u * (1.0 / 1307674368000.0)))))));
     REALV c = 1.0 - u * (0.5 - u * (1.0 / 24 - u * (1.0 / 720 - u * (1.0 / 40320
-        - u * (1.0 / 3628800 - u * (1.0 / 479001600 - u * (1.0 / 87178291200.0 - u * (1.0 / 20922789888000.0))))))));
+        - u * (1.0 / 3628800 - u * (1.0 / 479001600
+        - u * (1.0 / 87178291200.0 - u * (1.0 / 20922789888000.0))))))));
 #else
     REALV s = t - t * u * (1.0f / 6 - u * (1.0f / 120 - u * (1.0f / 5040 - u * (1.0f / 362880))));
-    REALV c = 1.0f - u * (0.5f - u * (1.0f / 24 - u * (1.0f / 720 - u * (1.0f / 40320 - u * (1.0f / 3628800)))));
+    REALV c = 1.0f - u * (0.5f - u * (1.0f / 24 - u * (1.0f / 720
+        - u * (1.0f / 40320 - u * (1.0f / 3628800)))));
 #endif
     STURNV swapped = (quarter & (TURN)1) != (TURN)0;
     STURNV cosine_negative = ((quarter + (TURN)1) & (TURN)2) != (TURN)0;

@@ -1,10 +1,10 @@
 /* Types of a kernel by -D DOUBLE=0|1 and -D LANES=1|2|4|8|16: scalars, vectors of LANES, loads and stores.
  *
- * REAL a coordinate or a sum, TURN an unsigned fixed-point fraction of a turn of the same size, STURN its signed
- * twin; REALV, TURNV, STURNV are LANES of them. LOADV(p, i) and STOREV(v, p, i) move LANES scalars from p + i on,
- * wherever that is: a dereferenced vector pointer that is not aligned crashes, and vloadN is a call on the PoCL of
- * PyPI, around which every vector register is spilled. Compilers make one move of the components named one by one.
- * GATHER(p, step) has lane l from p[l * step], SPREAD(v, p, step) puts it there.
+ * REAL a coordinate or a sum, TURN an unsigned fixed-point fraction of a turn of the same size, STURN its
+ * signed twin; REALV, TURNV, STURNV are LANES of them. LOADV(p, i) and STOREV(v, p, i) move LANES scalars
+ * from p + i on, wherever that is: a dereferenced vector pointer that is not aligned crashes, and vloadN is a
+ * call on the PoCL of PyPI, around which every vector register is spilled. Compilers make one move of the
+ * components named one by one. GATHER(p, step) has lane l from p[l * step], SPREAD(v, p, step) puts it there.
  */
 #define JOIN2(a, b) a##b
 #define JOIN(a, b) JOIN2(a, b)

@@ -6,14 +6,13 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gbnbench.analysis.precision import Precision, padded
 from gbnbench.analysis.spectrum.digits import whole_axes
-from gbnbench.analysis.spectrum.error_model import BITS
 from gbnbench.analysis.spectrum.evaluators.frequency_tables import DevicePoints, whole_group_tables
 from gbnbench.analysis.spectrum.evaluators.gridded.cells import SortedPoints
-from gbnbench.analysis.spectrum.evaluators.gridded.kaiser_bessel import Window, nodes_for, window
+from gbnbench.analysis.spectrum.evaluators.gridded.node_tables import node_table
+from gbnbench.analysis.spectrum.evaluators.kaiser_bessel import Window, nodes_for, window
 from gbnbench.analysis.spectrum.evaluators.point_slots import Slots
 from gbnbench.analysis.spectrum.evaluators.table_product import multiply
 from gbnbench.core.torus import FloatArray
@@ -23,23 +22,6 @@ DEGREE = {"double": 18, "float": 11}  # degree of its polynomials
 CHUNK_BYTES = 4 << 20  # of the tables of points that are carried in one launch
 BATCH_BYTES = 8 << 20  # of a batch's tables
 GRIDS_A_TABLE = 16  # a batch's grids and amplitudes may be this many times larger than its tables
-
-
-@lru_cache(maxsize=8)
-def node_turns(nodes: int, bits: int) -> NDArray[np.uint64]:
-    """Give the multiples of 1/nodes as fixed-point turns.
-
-    Parameters
-    ----------
-    nodes, bits : int
-        Nodes of the grid, and bits of a turn.
-
-    Returns
-    -------
-    (nodes,) uint64
-        Units of 2^-bits.
-    """
-    return np.array([((m << (bits + 1)) // nodes + 1) >> 1 for m in range(nodes)], np.uint64)
 
 
 class Grid:
@@ -86,7 +68,7 @@ class Grid:
         self._point_size = per_point * self._chunk
         self._trailing_size = 2 * f.table_sizes(self._folded)[1]
         self._points = p.runtime.empty(self._point_size * self.sets * real)
-        self._leading = node_table(p, d, fmax)
+        self._leading = node_table(p, d, fmax, self.nodes)
         self._grid = p.runtime.empty(self._grid_size * self.sets * real)
         self._trailing = p.runtime.empty(self._trailing_size * self.sets * real)
         self.amplitude = p.runtime.empty(self.sets * pairs)
@@ -222,35 +204,6 @@ def window_buffer(p: Precision) -> Any:
     """Upload the coefficients of the window of this precision; the buffer is kept."""
     shape = window(WIDTH[p.name], DEGREE[p.name])
     return p.runtime.upload(padded_coefficients(shape, p.lanes).astype(p.real))
-
-
-@lru_cache(maxsize=4)
-def node_table(p: Precision, d: int, fmax: int) -> Any:
-    """Tabulate the first axis at the nodes, kept from call to call as a transform keeps its twiddle factors.
-
-    Parameters
-    ----------
-    p : Precision
-        Precision on the device.
-    d, fmax : int
-        Dimension, and largest harmonic on each axis.
-
-    Returns
-    -------
-    buffer
-        The leading table.
-    """
-    axes = whole_axes(d, fmax)
-    f = whole_group_tables(p, d, axes[:1], axes[1:])
-    nodes = nodes_for(fmax, p.lanes)
-    folded = padded(nodes // 2 + 1, p.lanes)
-    at_nodes = np.zeros((1, d, folded), p.turn)
-    at_nodes[0, 0] = node_turns(nodes, BITS[p.name])[:folded]
-    ones = p.runtime.upload(np.ones(folded, p.real))
-    points = DevicePoints(p.runtime.upload(at_nodes), ones, folded, 0)
-    table = p.runtime.empty(f.table_sizes(folded)[0] * np.dtype(p.real).itemsize)
-    f.tabulate(f.program(folded=True), (0, 1), points, (table, table), Slots(1, 1, folded), (0, 0), 1)
-    return table
 
 
 def padded_coefficients(shape: Window, lanes: int) -> FloatArray:

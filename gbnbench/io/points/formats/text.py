@@ -21,10 +21,13 @@ from gbnbench.io.points.text_columns import plain_rows
 # (first line, lines) of one set, as indices into Lexed.line
 Span = tuple[int, int]
 
+STRAY = 3  # bytes of a short text that no text has, such as a NUL or an old end-of-file mark
+
 
 def _recognises(file: PointFile) -> bool:
-    """Tell text by its bytes; a stray one among them is better named by its line."""
-    return 20 * len(file.head.translate(None, LEGIBLE)) < len(file.head)
+    """Tell text by its bytes; a few stray ones among them are better named by their line."""
+    strange = len(file.head.translate(None, LEGIBLE))
+    return 20 * strange < len(file.head) or (strange <= STRAY and 4 * strange < len(file.head))
 
 
 def read_text(file: PointFile) -> FileContent:

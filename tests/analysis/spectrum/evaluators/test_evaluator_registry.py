@@ -80,7 +80,7 @@ def test_an_evaluator_is_added_by_one_entry():
     assert radial.power[0] == pytest.approx(ours.power[[4, 6, 5, 5], [5, 5, 4, 6]].mean())
     with pytest.raises(InputError, match="fewer than 1,000 points"):
         periodogram(np.random.default_rng(2).random((1000, 2)), 5, method="plain")
-    with pytest.raises(InputError, match="one of product, gridded, numpy, nufft, plain for cube"):
+    with pytest.raises(InputError, match="one of product, gridded, numpy, nufft, fft, plain for cube"):
         periodogram(x, 5, method="fastest")
 
 
