@@ -60,16 +60,18 @@ def nearest_distances(points: FloatArray, window: Window) -> NearestDistances:
     Notes
     -----
     A point counts if its neighbour is nearer than the border, b_i > d_i, so that no neighbour is hidden, with
-    the weight 1 / prod_a (L_a - 2 d_i), which makes up for those that do not count: Hanisch (1984). The mean is
-    a ratio of two sums over points; its variance is the sum of the products of the points' parts in that ratio,
-    over pairs of points nearer than two mean spacings, beyond which distances are taken to be independent; it is
-    at least the sum of their squares.
+    the weight 1 / prod_a (L_a - 2 d_i), which makes up for those that do not count: Hanisch (1984). The mean
+    is a ratio of two sums over points; its variance is the sum of the products of the points' parts in that
+    ratio, over pairs of points nearer than two mean spacings, beyond which distances are taken to be
+    independent; it is at least the sum of their squares.
     """
     tree = cKDTree(points)
     distance = np.asarray(tree.query(points, k=2)[0])[:, 1]
     border = np.minimum(points - window.low, window.high - points).min(axis=1)
     counts = distance < border
-    weight = np.where(counts, 1 / np.prod(window.sides - 2 * np.minimum(distance, border)[:, None], axis=1), 0)
+    weight = np.where(
+        counts, 1 / np.prod(window.sides - 2 * np.minimum(distance, border)[:, None], axis=1), 0
+    )
     total = float(weight.sum())
     if total == 0.0:
         return NearestDistances(np.empty(0), np.empty(0), np.nan, np.nan, float(distance.min()))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import shlex
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -15,7 +16,10 @@ if TYPE_CHECKING:
     from gbnbench.core.torus import FloatArray
     from gbnbench.io.points import ReadingOptions
 
-NO_TORUS = "says that its box is no torus, and it is measured as one: what crosses the sides is not real"
+NO_TORUS = (
+    "says that its box is no torus, and it is measured as one: what crosses the sides is not real. "
+    "Estimates that hold in such a window: gbnbench analyze {} --window file"
+)
 
 
 def read_cube(path: Path, reading: ReadingOptions) -> list[FloatArray]:
@@ -45,7 +49,7 @@ def read_cube(path: Path, reading: ReadingOptions) -> list[FloatArray]:
     if (fault := unequal_sides(found.sides)) is not None:
         raise FormatError(path, fault)
     if found.toroidal is False:
-        click.echo(f"gbnbench: warning: {path}: {NO_TORUS}", err=True)
+        click.echo(f"gbnbench: warning: {path}: {NO_TORUS.format(shlex.quote(str(path)))}", err=True)
     return found.sets
 
 
