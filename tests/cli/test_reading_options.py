@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 from click.testing import CliRunner, Result
 
+from gbnbench.analysis.measures import measures
 from gbnbench.cli import gbnbench
 from gbnbench.cli.options import READING
-from gbnbench.io.points import ReadingOptions, save
+from gbnbench.io.points import ReadingOptions, load, save
 from gbnbench.runs.sources import resolve
 
 READERS = ("analyze", "spectrum", "compare", "convert", "integrate", "figures")
@@ -54,14 +55,14 @@ def test_spectrum_measures_fractions_of_the_box(pixels: tuple[Path, Path]) -> No
     assert json.loads(given.stdout)[0]["rows"] == json.loads(expected.stdout)[0]["rows"]
 
 
-@pytest.mark.parametrize("command", ["analyze", "spectrum", "compare"])
-def test_a_box_of_unequal_sides_is_refused_where_lengths_are_measured(
-    command: str, pixels: tuple[Path, Path], tmp_path: Path
-) -> None:
-    out = ["--out", tmp_path / "run"] if command == "compare" else []
-    done = run(command, pixels[0], "--period", "512,1024", *out)
-    assert done.exit_code != 0
-    assert "unequal sides, 512 x 1024" in done.output + str(done.exception)
+def test_analyze_measures_lengths_in_the_units_of_a_rectangle(pixels: tuple[Path, Path]) -> None:
+    there, unit = pixels
+    x = load(unit)
+    (given,) = json.loads(run("analyze", there, "--period", "512,1024", "--json").stdout)
+    halved = np.array(x) * [1, 0.5]
+    expected = measures(halved, sides=(512, 1024))
+    found = {name: np.nan if value is None else value for name, value in given["measures"].items()}
+    assert found == pytest.approx(dict(expected), nan_ok=True, rel=1e-12)
 
 
 def test_a_source_is_another_when_read_otherwise(pixels: tuple[Path, Path]) -> None:
