@@ -7,12 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gbnbench.core.sides import EQUAL
 from gbnbench.core.torus import FloatArray
 
 IntArray = NDArray[np.int64]
 
 NO_TORUS = "says that its box is no torus, and it is measured as one: what crosses the sides is not real"
-EQUAL = 1e-9  # of the largest side: sides that differ by no more are equal
 
 
 @dataclass(frozen=True)
@@ -115,5 +115,5 @@ def in_own_unit(x: PointSets) -> list[FloatArray]:
 
 
 def unequal_sides(sides: tuple[float, ...] | None) -> bool:
-    """Tell a box from a cube by its sides; None is the unit torus."""
+    """Tell whether a box is no cube; None is the unit torus."""
     return sides is not None and max(sides) - min(sides) > EQUAL * max(sides)
