@@ -125,6 +125,10 @@ def cube_powers(points: FloatArray, fmax: int) -> SetPowers:
         Checked points.
     fmax : int
         Checked by ``check_fmax``.
+
+    Returns
+    -------
+    SetPowers
     """
     powers, spectrum = each_power(points, fmax)
     shells = exact_shells(fmax, points.shape[2])
@@ -141,6 +145,10 @@ def ball_powers(points: FloatArray, most: int) -> SetPowers:
         Checked points.
     most : int
         Largest |f|^2.
+
+    Returns
+    -------
+    SetPowers
     """
     square, frequencies = half_ball(points.shape[2], most)
     powers, spectrum = each_listed_power(points, frequencies)
@@ -205,6 +213,10 @@ def set_powers(points: FloatArray, fmax: int | None, sides: Sides | None = None)
     sides : tuple of d floats, optional
         As ``as_sides`` returns them; a cube if not given.
 
+    Returns
+    -------
+    SetPowers
+
     Raises
     ------
     InputError
@@ -258,7 +270,20 @@ def _affordable(radius: float, sides: Sides, most: float) -> bool:
 
 
 def farther_powers(points: FloatArray, near: SetPowers) -> SetPowers | None:
-    """Evaluate the shells of a ball that reaches beyond a default cube; None where none is affordable."""
+    """Evaluate the shells of a ball that reaches beyond a default cube.
+
+    Parameters
+    ----------
+    points : (realizations, n, d) float64
+        Checked points.
+    near : SetPowers
+        Of the cube.
+
+    Returns
+    -------
+    SetPowers or None
+        None where no farther shell is affordable, and where sides are unequal.
+    """
     if near.spectrum.sides is not None:
         return None
     realizations, n, d = points.shape
