@@ -1,4 +1,4 @@
-"""Pair correlation g(r) of points seen in a window, with translation edge correction (Ohser & Stoyan 1981)."""
+"""Pair correlation g(r) of points in a window, with translation edge correction (Ohser & Stoyan 1981)."""
 
 from __future__ import annotations
 

@@ -33,6 +33,12 @@ LOW, BAND = 0.5, 0.05  # nu to which a box's own spectrum is shown, and of each 
     help="Also measure projections: 1 for every axis, 2 for every plane, 0+2 for one; parted by /.",
 )  # fmt: skip
 @click.option("--box", is_flag=True, help="Also measure sets of the box: density by depth, own spectrum.")
+@click.option(
+    "--window", metavar="ENDS",
+    help="The points are what a window shows that is no torus: estimates that hold there. Ends of each axis, "
+    "such as 0,512,0,256; 'file' takes the box that the file tells.",
+)  # fmt: skip
+@options.out_file("With --window: draw the estimates, as .png, .pdf or .svg.")
 @options.reading
 @options.json
 @options.device
@@ -42,12 +48,24 @@ def analyze(
     explain: bool,
     projections: str | None,
     box: bool,
+    window: str | None,
+    out: Path | None,
     reading: ReadingOptions,
 ) -> None:
     """Every measure of the sets in files, one row a set.
 
-    --json prints a list of {path, set, n, d, measures}.
+    --json prints a list of {path, set, n, d, measures}. With --window the points need no torus: structure
+    factor, pair correlation, hyperuniformity and distances, each with its standard error.
     """
+    if window is not None:
+        if explain or projections is not None or box:
+            raise click.UsageError("--window goes with none of --explain, --projections and --box")
+        from gbnbench.cli.analyze_window import analyze_window
+
+        analyze_window(files, window, reading, out, as_json=as_json)
+        return
+    if out is not None:
+        raise click.UsageError("--out draws what --window estimates: give --window too")
     if explain and as_json:
         raise click.UsageError("--explain and --json do not go together: leave one out")
     if explain:
