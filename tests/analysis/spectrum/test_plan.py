@@ -311,6 +311,6 @@ def test_a_rectangle_is_planned_as_its_box_and_its_shells_as_they_are_listed() -
     box = plan(64, 2, 20, sides=(3, 1))
     assert box.request.frequencies == periodogram(np.full((1, 2), 0.5), 20, sides=(3, 1)).power.size
     assert "box: 1,587 frequencies, |f_a| <= 34, 11" in box.explain()
-    assert plan(64, 12, 1, shells=True, sides=(3, *(1,) * 11)).method == "direct"
+    assert plan(64, 12, 2, shells=True, sides=(3, *(1,) * 11)).method == "direct"
     with pytest.raises(InputError, match="corners"):
         plan(64, 2, 20, corners=True, sides=(3, 1))
