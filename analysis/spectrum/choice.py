@@ -103,7 +103,7 @@ def planned(
     weighed = [
         replace(candidate, against=objection(candidate, only, floor, method)) for candidate in averaged
     ]
-    # Seconds are estimates that differ between machines; where all are exact, counted work decides as in choose.
+    # Seconds are estimates; where all are exact, counted work decides, as in ``choose``.
     fitting = sorted(
         (c for c in weighed if not c.against),
         key=lambda c: c.evaluator.work(request) if floor is None else c.cost.seconds,
