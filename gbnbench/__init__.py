@@ -11,7 +11,9 @@ The names below load their modules when first used, so that importing gbnbench c
 - ``periodogram(x, fmax)``: exact power at every integer frequency; ``radial(spectrum)``: its radial mean;
 - ``shells(x, fmax)``: radial power and anisotropy without the cube, in any dimension;
 - ``plan(n, d, fmax)``: which evaluation a spectrum gets, why, and what it costs;
-- ``measures(x)``: every scalar measure with its standard error.
+- ``measures(x)``: every scalar measure with its standard error;
+- ``in_window(points, low, high)``: spectrum, pair correlation and hyperuniformity of points seen in a window
+  that is no torus.
 """
 
 from __future__ import annotations
@@ -26,6 +28,7 @@ if TYPE_CHECKING:
     from gbnbench.analysis.spectrum.plan import plan
     from gbnbench.analysis.spectrum.shell_spectrum import shells
     from gbnbench.analysis.spectrum.spectrum_plan import SpectrumPlan
+    from gbnbench.analysis.window.estimates import WindowEstimates, in_window
     from gbnbench.api.compare import compare
     from gbnbench.api.comparison import Comparison
     from gbnbench.api.integration import Integration, integrate
@@ -45,8 +48,10 @@ __all__ = [
     "ShellSpectrum",
     "Spectrum",
     "SpectrumPlan",
+    "WindowEstimates",
     "compare",
     "generate",
+    "in_window",
     "integrate",
     "load",
     "measures",
@@ -66,8 +71,10 @@ _MODULES = {
     "ShellSpectrum": "gbnbench.core.results.radial",
     "Spectrum": "gbnbench.core.results.spectrum",
     "SpectrumPlan": "gbnbench.analysis.spectrum.spectrum_plan",
+    "WindowEstimates": "gbnbench.analysis.window.estimates",
     "compare": "gbnbench.api.compare",
     "generate": "gbnbench.generators.registry",
+    "in_window": "gbnbench.analysis.window.estimates",
     "integrate": "gbnbench.api.integration",
     "load": "gbnbench.io.points",
     "measures": "gbnbench.analysis.measures",

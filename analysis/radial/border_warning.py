@@ -39,10 +39,12 @@ def border_warnings(spectrum: Spectrum, radial: RadialPower) -> tuple[str, ...]:
     axes, diagonals = min(by_square[1], by_square[4]), (by_square[2] + by_square[5]) / 2
     if axes < max(EDGE_RATIO * diagonals, ROUNDING_POWER):
         return ()
+    window = ",".join(f"0,{side:g}" for side in spectrum.sides or (1.0,) * spectrum.d)
     return (
         f"not toroidal? power on the axes, {by_square[1]:.2g} at |f| = 1, is {axes / diagonals:.2g} times "
         "that of the diagonals beside them, as when points keep away from the border of a box: low-frequency "
-        "numbers then measure the border",
+        "numbers then measure the border. Points that a window shows of a larger pattern are estimated by "
+        f"gbnbench analyze FILE --window {window} (gbnbench.in_window), its ends in the file's unit",
     )
 
 

@@ -36,8 +36,8 @@ def relative_covariance(bins: list[Bin], k: FloatArray, s: FloatArray, tapers: S
     -----
     For amplitudes that are Gaussian with E J_p(k) conj J_q(k') ~ sqrt(S(k) S(k')) C_pq(k - k'), where C_pq is
     the transform of h_p h_q, it is the sum over k of the one bin, k' of the other, p and q of
-    S(k) S(k') |C_pq(k - k')|^2 over the product of the sums of S. C is summed over a few neighbours, beyond which
-    it is less than 1e-4. S is interpolated between the estimates.
+    S(k) S(k') |C_pq(k - k')|^2 over the product of the sums of S. C is summed over a few neighbours, beyond
+    which it is less than 1e-4. S is interpolated between the estimates.
     """
     d, number = len(tapers.sides), len(bins)
     steps = [np.arange(-r, r + 1) for r in (1 if count == 1 else count + 2 for count in tapers.counts)]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -35,7 +34,7 @@ class Window:
     @property
     def volume(self) -> float:
         """Volume, in the points' unit to the power d."""
-        return math.prod(self.sides.tolist())
+        return float(np.prod(self.sides))
 
     @property
     def d(self) -> int:
@@ -105,8 +104,9 @@ def check_window(points: ArrayLike, low: ArrayLike, high: ArrayLike) -> tuple[Fl
     if outside.any():
         i, a = (int(index) for index in np.argwhere(outside)[0])
         raise InputError(
-            f"points must lie in the window: coordinate {a} of point {i} is {float(x[i, a])!r}, and the window "
-            f"reaches from {least[a]:g} to {most[a]:g} there ({int(outside.any(axis=1).sum())} points of {n} "
+            f"points must lie in the window: coordinate {a} of point {i} is {float(x[i, a])!r}, and the "
+            f"window reaches from {least[a]:g} to {most[a]:g} there "
+            f"({int(outside.any(axis=1).sum())} points of {n} "
             "lie outside). Give a window that holds them all, or cut the set to the window first"
         )
     if (x == x[0]).all():

@@ -1,9 +1,10 @@
-"""Whether density fluctuations vanish at large distances: S at k -> 0, its ratio to the peak, its exponent.
+"""Density fluctuations at large distances: S at k -> 0, its ratio to the peak, and its exponent.
 
-H = S(0+) / S(peak) is Torquato's index, below about 1e-4 for what is called effectively hyperuniform; alpha, in
-S ~ k^alpha, tells the class (Torquato 2018; Hawat, Gautier, Bardenet & Lachièze-Rey 2023). Powers are
-exponential variables, so both are fitted by maximum likelihood as gamma regressions (Klatt, Last & Henze 2022 do
-so for S = s + t k^2); Mastrilli, Błaszczyszyn & Lavancier (2024) estimate alpha from tapers of several scales.
+H = S(0+) / S(peak) is Torquato's index, below about 1e-4 for what is called effectively hyperuniform; alpha,
+in S ~ k^alpha, tells the class (Torquato 2018; Hawat, Gautier, Bardenet & Lachièze-Rey 2023). Powers are
+exponential variables, so both are fitted by maximum likelihood as gamma regressions (Klatt, Last & Henze 2022
+do so for S = s + t k^2); Mastrilli, Błaszczyszyn & Lavancier (2024) estimate alpha from tapers of several
+scales.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 
 BAND = 0.5  # nu up to which both are fitted
 PEAK = (0.5, 2.0)  # nu between which the peak is sought
+LEAST_BINS = 3  # of a fit
 STEPS = 100
 
 
@@ -48,7 +50,8 @@ class Hyperuniformity:
     ratio : Value
         H = s_zero / s_peak.
     exponent : Value
-        alpha in S = c k^alpha exp(b k^2) up to nu = 0.5, the factor b standing for what follows the power law.
+        alpha in S = c k^alpha exp(b k^2) up to nu = 0.5, the factor b standing for what follows the power
+        law.
     """
 
     s_zero: Value
@@ -78,7 +81,11 @@ def hyperuniformity(spectrum: pd.DataFrame, covariance: FloatArray) -> Hyperunif
     amplitudes; what a formula misses of the true S in the band comes on top.
     """
     nu, resolved = spectrum["nu"].to_numpy(), spectrum["resolved"].to_numpy()
-    s_zero, exponent = _fits(*_chosen(spectrum, covariance, resolved & (nu <= BAND)))
+    low, nearby = _chosen(spectrum, covariance, resolved & (nu <= BAND))
+    if len(low) >= LEAST_BINS:
+        s_zero, exponent = _fits(low, nearby)
+    else:
+        s_zero = exponent = Value(math.nan, math.nan, _no_fit(spectrum[spectrum["nu"] <= BAND]))
     s_peak, nu_peak = _peak(*_chosen(spectrum, covariance, resolved & (nu >= PEAK[0]) & (nu <= PEAK[1])))
     ratio = Value(math.nan, math.nan, s_zero.reason or s_peak.reason)
     if not ratio.reason:
@@ -93,14 +100,23 @@ def _chosen(
     return spectrum[which], covariance[np.ix_(which, which)]
 
 
+def _no_fit(low: pd.DataFrame) -> str:
+    """Say why there is no fit: too few bins, or less power than side lobes bring."""
+    hidden = low[low["S"] <= 2 * low["leakage"]]
+    if len(low) >= LEAST_BINS and len(hidden):
+        return (
+            f"up to nu = {BAND:g} S is no more than what side lobes of the tapers bring, from "
+            f"{hidden['leakage'].min():.1g} on: it lies below, and only a larger window can tell how far"
+        )
+    return (
+        f"the window resolves {int(low['resolved'].sum())} bins of S up to nu = {BAND:g}, where a fit needs "
+        f"{LEAST_BINS}: more points are needed"
+    )
+
+
 def _fits(low: pd.DataFrame, covariance: FloatArray) -> tuple[Value, Value]:
     """Fit S at 0 and the exponent to the bins of the low band."""
     bins = len(low)
-    if bins < 3:
-        reason = (
-            f"the window resolves {bins} bins of S up to nu = {BAND:g}, where a fit needs 3: more points are needed"
-        )
-        return Value(math.nan, math.nan, reason), Value(math.nan, math.nan, reason)
     k, s = low["k"].to_numpy(), low["S"].to_numpy()
     u = (k / k[-1]) ** 2
     powers = np.stack([np.ones(bins), u, u**2], axis=1)
@@ -141,9 +157,9 @@ def gamma_regression(
 
     Notes
     -----
-    Fisher's scoring of sum over bins of (log mean + s / mean) / variance, a step halved until it does not rise.
+    Fisher's scoring of sum over bins of (log mean + s / mean) / variance, a step halved until it does not
+    rise.
     """
-
     degrees = 1 / np.diag(covariance)
 
     def means(coefficients: FloatArray) -> FloatArray:
@@ -188,4 +204,5 @@ def _peak(band: pd.DataFrame, covariance: FloatArray) -> tuple[Value, float]:
     top = slice(int(mean.argmax()), int(mean.argmax()) + 3)
     weight = degrees[top] / degrees[top].sum()
     part = weight * s[top]
-    return Value(float(part.sum()), math.sqrt(float(part @ covariance[top, top] @ part))), float(weight @ nu[top])
+    error = math.sqrt(float(part @ covariance[top, top] @ part))
+    return Value(float(part.sum()), error), float(weight @ nu[top])

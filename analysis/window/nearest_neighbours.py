@@ -60,10 +60,10 @@ def nearest_distances(points: FloatArray, window: Window) -> NearestDistances:
     Notes
     -----
     A point counts if its neighbour is nearer than the border, b_i > d_i, so that no neighbour is hidden, with
-    the weight 1 / prod_a (L_a - 2 d_i), which makes up for those that do not count: Hanisch (1984). The mean is
-    a ratio of two sums over points; its variance is the sum of the products of the points' parts in that ratio,
-    over pairs of points nearer than two mean spacings, beyond which distances are taken to be independent; it is
-    at least the sum of their squares.
+    the weight 1 / prod_a (L_a - 2 d_i), which makes up for those that do not count: Hanisch (1984). The mean
+    is a ratio of two sums over points; its variance is the sum of the products of the points' parts in that
+    ratio, over pairs of points nearer than two mean spacings, beyond which distances are taken to be
+    independent; it is at least the sum of their squares.
     """
     tree = cKDTree(points)
     distance = np.asarray(tree.query(points, k=2)[0])[:, 1]

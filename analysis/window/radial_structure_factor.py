@@ -1,4 +1,4 @@
-"""Structure factor averaged over directions, in bins of the wave number, with its errors from a single set."""
+"""Structure factor averaged over directions, in bins of the wave number, with errors from a single set."""
 
 from __future__ import annotations
 
@@ -65,9 +65,9 @@ def radial_structure_factor(
 
     Notes
     -----
-    S = sum of \|J_p(k)\|^2 over the bin and the tapers, over ``weight`` times the sum of the integrals of
-    \|g\|^2. ``degrees`` is 1 over the relative variance of ``relative_covariance``, and 2 degrees S_estimate / S
-    is taken to be chi-squared with 2 degrees.
+    S = sum of |J_p(k)|^2 over the bin and the tapers, over ``weight`` times the sum of the integrals of
+    |g|^2. ``degrees`` is 1 over the relative variance of ``relative_covariance``, and 2 degrees S_estimate
+    / S is taken to be chi-squared with 2 degrees.
     """
     import pandas as pd
 
@@ -79,9 +79,7 @@ def radial_structure_factor(
     progress.start(
         len(tapers.orders) * bool(whole) + sum(len(b.multiples) for b in sampled), 0, "structure factor"
     )
-    for group, sums_of in ((whole, _gridded), (sampled, _direct)):
-        if not group:
-            continue
+    for group, sums_of in [(whole, _gridded)] * bool(whole) + [(sampled, _direct)] * bool(sampled):
         multiples = np.concatenate([b.multiples for b in group])
         label = np.repeat(np.arange(len(group)), [len(b.multiples) for b in group])
         place = [i for i, b in enumerate(bins) if (b.share == 1) == (group is whole)]
@@ -93,11 +91,11 @@ def radial_structure_factor(
         s, k = totals[:, 0] / (seen.weight * totals[:, 1]), np.sqrt(totals[:, 2] / totals[:, 1])
     covariance = relative_covariance(bins, k, s, tapers)
     degrees = 1 / np.diag(covariance)
-    low, high = (2 * degrees / stats.chi2.ppf(q, 2 * degrees) for q in (
-        (1 + CONFIDENCE) / 2, (1 - CONFIDENCE) / 2
-    ))
+    low, high = (
+        2 * degrees / stats.chi2.ppf(q, 2 * degrees) for q in ((1 + CONFIDENCE) / 2, (1 - CONFIDENCE) / 2)
+    )
     middle = np.array([(b.low + b.high) / 2 for b in bins])
-    leaked = leakage(middle, s, tapers)
+    leaked = leakage(np.array([bins[0].low] + [b.high for b in bins]), s, tapers)
     table = pd.DataFrame(
         {
             "k": k,
@@ -116,7 +114,7 @@ def radial_structure_factor(
 
 
 def _bins(edges: FloatArray, sides: FloatArray, n: int, rng: np.random.Generator) -> list[Bin]:
-    """Fill bins with all their wave vectors as far as a grid goes, and beyond with as many as are affordable."""
+    """Fill bins with all their wave vectors as far as a grid goes, beyond with as many as are affordable."""
     d = len(sides)
     reached = [
         d <= GRID_DIMENSIONS and griddable(np.floor(high * sides / (2 * math.pi)).astype(np.int64))
@@ -129,8 +127,9 @@ def _bins(edges: FloatArray, sides: FloatArray, n: int, rng: np.random.Generator
         length = np.linalg.norm(2 * math.pi / sides * every, axis=1)
         order = np.argsort(length, kind="stable")
         cuts = np.searchsorted(length[order], edges[: on_grid + 1])
-        for i in range(on_grid):
-            found.append(Bin(edges[i], edges[i + 1], every[order[cuts[i] : cuts[i + 1]]], 1.0))
+        found = [
+            Bin(edges[i], edges[i + 1], every[order[cuts[i] : cuts[i + 1]]], 1.0) for i in range(on_grid)
+        ]
     most = max(LEAST_SAMPLE, int(PHASES / n / max(1, len(reached) - on_grid)))
     for low, high in zip(edges[on_grid:-1], edges[on_grid + 1 :], strict=True):
         drawn = _drawn(low, high, sides, most, rng)
@@ -142,8 +141,10 @@ def _bins(edges: FloatArray, sides: FloatArray, n: int, rng: np.random.Generator
 def _drawn(low: float, high: float, sides: FloatArray, most: int, rng: np.random.Generator) -> IntArray:
     if enumerable(high, sides):
         every = every_wave_vector(high, sides)
-        inside = every[np.linalg.norm(2 * math.pi / sides * every, axis=1) >= low]
-        return inside if len(inside) <= most else inside[np.sort(rng.choice(len(inside), most, replace=False))]
+        inside: IntArray = every[np.linalg.norm(2 * math.pi / sides * every, axis=1) >= low]
+        if len(inside) > most:
+            inside = inside[np.sort(rng.choice(len(inside), most, replace=False))]
+        return inside
     return some_wave_vectors(low, high, sides, most, rng)
 
 
@@ -161,31 +162,36 @@ def _direct(
     seen: TaperedPoints, multiples: IntArray, progress: Progress
 ) -> Iterator[tuple[slice, ComplexArray]]:
     """Sum all tapers at once, wave vector by wave vector."""
-    yield slice(None), direct_sums(
-        seen.u, seen.values, multiples.astype(np.float64), progress, "float"
-    )
+    yield slice(None), direct_sums(seen.u, seen.values, multiples.astype(np.float64), progress, "float")
 
 
-def leakage(k: FloatArray, s: FloatArray, tapers: SineTapers) -> FloatArray:
+def leakage(edges: FloatArray, s: FloatArray, tapers: SineTapers) -> FloatArray:
     """Estimate what side lobes of the tapers bring to low wave numbers from where S first reaches 1/2.
 
     Parameters
     ----------
-    k, s : (bins,) float64
-        Wave numbers and the structure factor there.
+    edges : (bins + 1,) float64
+        Edges of the bins, in radians a length.
+    s : (bins,) float64
+        The structure factor of each.
     tapers : SineTapers
         Tapers.
 
     Returns
     -------
     (bins,) float64
-        0 from there on. The energy of the tapers beyond that distance, summed over axes, times S = 1.
+        0 from there on. S times the energy of the tapers at the distance of each higher bin, over all axes,
+        along which nearly all of it lies; S is 1 beyond the last bin. Points that repeat along an axis of the
+        window, as those of a lattice, bring more.
     """
     risen = np.flatnonzero(s >= RISE)
-    found = np.zeros(len(k))
+    found = np.zeros(len(s))
     if len(risen) == 0:
         return found
-    away = k[risen[0]] - k[: risen[0]]
-    for axis in range(len(tapers.sides)):
-        found[: risen[0]] += tapers.energy_beyond(axis, away)
+    first = int(risen[0])
+    middle = (edges[1:] + edges[:-1]) / 2
+    for i in range(first):
+        away = edges[first:] - middle[i]
+        beyond = np.sum([tapers.energy_beyond(axis, away) for axis in range(len(tapers.sides))], axis=0)
+        found[i] = float(s[first:] @ (beyond[:-1] - beyond[1:])) + float(beyond[-1])
     return found

@@ -1,15 +1,15 @@
-"""Tapered sums over points, sum_j h_p(x_j) exp(-i k.x_j): at any wave vectors, and on the grid of all allowed.
+"""Tapered sums over points, sum_j h_p(x_j) exp(-i k.x_j), at any wave vectors and on the grid of all allowed.
 
 Any wave vectors are summed directly, a sine and a cosine for each point and wave vector, whatever the number
 of tapers. The allowed ones, multiples of 2 pi / L_a, come from one fast Fourier transform a taper of points
-carried to a grid by a Kaiser-Bessel window of 8 cells, in float; a sum is off by some 1e-6 sqrt(n), a power by
-1e-12 of that of Poisson points.
+carried to a grid by a Kaiser-Bessel window of 8 cells, in float; a sum is off by some 1e-6 sqrt(n), a power
+by 1e-12 of that of Poisson points.
 """
 
 from __future__ import annotations
 
 import math
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,7 +57,7 @@ def direct_sums(
     sqrt(n).
     """
     n, m = len(u), len(steps)
-    real = np.float64 if precision == "double" else np.float32
+    real: Any = np.float64 if precision == "double" else np.float32
     width = min(n, 1 << 12)
     height = max(1, BLOCK // width)
     total = np.zeros((len(values), m), np.complex128)
@@ -68,7 +68,8 @@ def direct_sums(
             turns = sum(np.outer(steps[rows, axis], u[chunk, axis]) for axis in range(u.shape[1]))
             turns -= np.rint(turns)
             turns *= 2 * math.pi
-            phase, weights = turns.astype(real, copy=False), values[:, chunk].astype(real)
+            phase: NDArray[Any] = turns.astype(real, copy=False)
+            weights: NDArray[Any] = values[:, chunk].astype(real)
             # No product of matrices: these are slim, and its threads would stand in each other's way.
             total.real[:, rows] += np.einsum("tn,mn->tm", weights, np.cos(phase))
             total.imag[:, rows] -= np.einsum("tn,mn->tm", weights, np.sin(phase))
@@ -88,7 +89,7 @@ def griddable(reach: IntArray) -> bool:
 
 
 class GriddedSums:
-    """Tapered sums at all multiples m of 2 pi / L_a with \\|m_a\\| <= reach[a].
+    """Tapered sums at all multiples m of 2 pi / L_a with |m_a| <= reach[a].
 
     Parameters
     ----------

@@ -11,6 +11,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -115,7 +116,7 @@ class SineTapers:
         return self._product(k * self.sides, _transform)
 
     def overlaps(self, k: FloatArray) -> ComplexArray:
-        """Integrate each taper times the first one times exp(-i k.x) over the window: (m, d) -> (tapers, m)."""
+        """Integrate each taper times the first times exp(-i k.x) over the window: (m, d) -> (tapers, m)."""
         return self._product(k * self.sides, lambda p, kappa: _overlap(p, 1, kappa))
 
     @cached_property
@@ -161,16 +162,14 @@ class SineTapers:
         (m,) float64
             Mean over the axis's tapers. It falls as (L_a away)^-3.
         """
-        kappa = math.pi * np.arange(LOBES)
+        kappa = math.pi * np.arange(float(LOBES))
         energy = np.mean([np.abs(_transform(p, kappa)) ** 2 for p in range(1, self.counts[axis] + 1)], axis=0)
-        beyond = np.cumsum(energy[::-1])[
-            ::-1
-        ]  # sampled every pi / L_a, which is exact for both signs together
+        beyond = np.cumsum(energy[::-1])[::-1]  # every pi / L_a: exact, of both signs together
         first = np.ceil(away * self.sides[axis] / math.pi).astype(np.intp)
         found: FloatArray = beyond[np.minimum(first, LOBES - 1)]
         return found
 
-    def _product(self, at: FloatArray, factor: Callable[[int, FloatArray], NDArray]) -> ComplexArray:  # type: ignore[type-arg]
+    def _product(self, at: FloatArray, factor: Callable[[int, FloatArray], NDArray[Any]]) -> ComplexArray:
         """Multiply a factor of (order, coordinate) over the axes, tabulated at the distinct coordinates."""
         total = np.ones((len(self.orders), len(at)), np.complex128)
         for axis, count in enumerate(self.counts):

@@ -57,7 +57,8 @@ def half_count(low: float, high: float, sides: FloatArray) -> float:
     """
     d = len(sides)
     ball = math.pi ** (d / 2) / math.gamma(d / 2 + 1)
-    return 0.5 * ball * (high**d - low**d) * math.prod((sides / (2 * math.pi)).tolist())
+    cells = float(np.prod(sides / (2 * math.pi)))
+    return float(0.5 * ball * (high**d - low**d) * cells)
 
 
 def bin_edges(kmax: float, sides: FloatArray) -> FloatArray:
@@ -87,7 +88,20 @@ def bin_edges(kmax: float, sides: FloatArray) -> FloatArray:
 
 
 def every_wave_vector(high: float, sides: FloatArray) -> IntArray:
-    """List the allowed wave vectors of a half space that are shorter than ``high``: (m, d)."""
+    """List the allowed wave vectors of a half space that are shorter than ``high``.
+
+    Parameters
+    ----------
+    high : float
+        Wave number, in radians a length.
+    sides : (d,) float64
+        Lengths of the window's sides.
+
+    Returns
+    -------
+    (m, d) int64
+        In units of 2 pi / L_a.
+    """
     reach = np.floor(high * sides / (2 * math.pi)).astype(np.int64)
     axes = [np.arange(-m, m + 1) for m in reach[:-1].tolist()] + [np.arange(reach[-1] + 1)]
     squares = np.zeros((1,) * len(sides))
@@ -100,7 +114,7 @@ def every_wave_vector(high: float, sides: FloatArray) -> IntArray:
 
 
 def in_half_space(multiples: IntArray) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
-    """Tell which of k and -k this is: whether the last coordinate that is not 0 is positive: (m, d) -> (m,)."""
+    """Tell whether the last coordinate that is not 0 is positive, as of one of k and -k: (m, d) -> (m,)."""
     chosen = np.zeros(len(multiples), bool)
     undecided = np.ones(len(multiples), bool)
     for column in multiples.T[::-1]:
@@ -110,8 +124,20 @@ def in_half_space(multiples: IntArray) -> np.ndarray[tuple[int], np.dtype[np.boo
 
 
 def enumerable(high: float, sides: FloatArray) -> bool:
-    """Tell whether the box around all wave vectors up to ``high`` is small enough to be listed."""
-    return math.prod((2 * np.floor(high * sides / (2 * math.pi)) + 1).tolist()) <= 2 * LISTED
+    """Tell whether the box around all wave vectors up to ``high`` is small enough to be listed.
+
+    Parameters
+    ----------
+    high : float
+        Wave number, in radians a length.
+    sides : (d,) float64
+        Lengths of the window's sides.
+
+    Returns
+    -------
+    bool
+    """
+    return float(np.prod(2 * np.floor(high * sides / (2 * math.pi)) + 1)) <= 2 * LISTED
 
 
 def some_wave_vectors(
@@ -139,7 +165,7 @@ def some_wave_vectors(
     for _ in range(20):
         direction = rng.normal(size=(4 * count, d))
         direction /= np.linalg.norm(direction, axis=1, keepdims=True)
-        # Uniform in a slightly larger shell and rounded to allowed ones, of which those in the shell are kept.
+        # Uniform in a slightly larger shell, and rounded to allowed ones; those in the shell are kept.
         margin = math.pi * math.sqrt(float((1 / sides**2).sum()))
         radius = rng.uniform(max(low - margin, 0.0) ** d, (high + margin) ** d, 4 * count) ** (1 / d)
         rounded = np.rint(direction * radius[:, None] * sides / (2 * math.pi)).astype(np.int64)

@@ -12,12 +12,12 @@ import click
 from gbnbench.cli import options
 from gbnbench.cli.point_files import naming, read_torus
 from gbnbench.core.errors import GbnbenchError, RefusalError
-from gbnbench.core.sides import Sides, as_sides, sides_text
 
 if TYPE_CHECKING:
     import pandas as pd
 
     from gbnbench.core.results.measures import Measures
+    from gbnbench.core.sides import Sides
     from gbnbench.core.torus import FloatArray
     from gbnbench.io.points import ReadingOptions
 
@@ -33,6 +33,12 @@ LOW, BAND = 0.5, 0.05  # nu to which a box's own spectrum is shown, and of each 
     help="Also measure projections: 1 for every axis, 2 for every plane, 0+2 for one; parted by /.",
 )  # fmt: skip
 @click.option("--box", is_flag=True, help="Also measure sets of the box: density by depth, own spectrum.")
+@click.option(
+    "--window", metavar="ENDS",
+    help="The points are what a window shows that is no torus: estimates that hold there. Ends of each axis, "
+    "such as 0,512,0,256; 'file' takes the box that the file tells.",
+)  # fmt: skip
+@options.out_file("With --window: draw the estimates, as .png, .pdf or .svg.")
 @options.reading
 @options.json
 @options.device
@@ -42,18 +48,31 @@ def analyze(
     explain: bool,
     projections: str | None,
     box: bool,
+    window: str | None,
+    out: Path | None,
     reading: ReadingOptions,
 ) -> None:
     """Every measure of the sets in files, one row a set.
 
-    --json prints a list of {path, set, n, d, measures}.
+    --json prints a list of {path, set, n, d, measures}. With --window the points need no torus: structure
+    factor, pair correlation, hyperuniformity and distances, each with its standard error.
     """
+    if window is not None:
+        if explain or projections is not None or box:
+            raise click.UsageError("--window goes with none of --explain, --projections and --box")
+        from gbnbench.cli.analyze_window import analyze_window
+
+        analyze_window(files, window, reading, out, as_json=as_json)
+        return
+    if out is not None:
+        raise click.UsageError("--out draws what --window estimates: give --window too")
     if explain and as_json:
         raise click.UsageError("--explain and --json do not go together: leave one out")
     if explain:
         _explain(files, reading)
         return
     from gbnbench.analysis.measures import measures
+    from gbnbench.core.sides import as_sides
 
     rows: list[tuple[Path, int, int, int, Measures]] = []
     more: list[dict[str, pd.DataFrame]] = []
@@ -129,6 +148,7 @@ def _tables(
 def _explain(files: tuple[Path, ...], reading: ReadingOptions) -> None:
     """Print, for each file, the plan of its sets' spectra."""
     from gbnbench.analysis.spectrum.settings import SpectrumSettings
+    from gbnbench.core.sides import as_sides
 
     failed = False
     for path in files:
@@ -151,6 +171,7 @@ def _explain(files: tuple[Path, ...], reading: ReadingOptions) -> None:
 def _table(rows: list[tuple[Path, int, int, int, Measures]], boxes: list[Sides | None]) -> None:
     """Print aligned columns: wide, so that each set keeps its line."""
     from gbnbench.analysis.measure_definitions import BY_NAME
+    from gbnbench.core.sides import sides_text
 
     told = any(sides is not None for sides in boxes)
     box = ["sides"] if told else []

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import shlex
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,6 +14,8 @@ from gbnbench.core.errors import FormatError, GbnbenchError
 
 if TYPE_CHECKING:
     from gbnbench.io.points import PointSets, ReadingOptions
+
+WINDOW = "Estimates that hold in such a window: gbnbench analyze {} --window file"
 
 
 def read_torus(path: Path, reading: ReadingOptions) -> PointSets:
@@ -40,7 +43,9 @@ def read_torus(path: Path, reading: ReadingOptions) -> PointSets:
 
     found = read_sets(path, reading)
     if found.toroidal is False:
-        click.echo(f"gbnbench: warning: {path}: {NO_TORUS}", err=True)
+        click.echo(
+            f"gbnbench: warning: {path}: {NO_TORUS}. {WINDOW.format(shlex.quote(str(path)))}", err=True
+        )
     return found
 
 

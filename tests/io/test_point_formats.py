@@ -190,6 +190,7 @@ BAD: list[tuple[str, str, bytes | str, int | None, str]] = [
         None,
         "an Office document, not points: save its sheet as .csv",
     ),
+    ("tar", "a.tar", bytes(257) + b"ustar" + bytes(250), None, "is a tar archive: unpack it first"),
     ("zstd", "a.zst", b"\x28\xb5\x2f\xfd" + bytes(9), None, "is compressed by zstd"),
     ("gzip, cut", "a.txt.gz", gzip.compress(b"0.5 0.25\n" * 99)[:-9], None, "its compression is damaged"),
     ("gzip, a wrong line", "a.txt.gz", gzip.compress(b"0.5 0.25\n0.5 x\n"), 2, "'x' is not a number"),
@@ -330,6 +331,7 @@ def test_columns_are_taken_by_name(tmp_path: Path) -> None:
     for name, data, columns, said in (
         ("a.csv", "x,y\n0.5,0.25\n", "x,z", "has no column 'z'; its columns are x, y"),
         ("a.csv", "x,y\n0.5,\n", "x,y", "line 2: an empty cell, in column 'y'"),
+        ("a.csv", "x,y\n0.5,0.25\n", "x,X", "columns x,X name one column twice"),
         ("a.txt", "0.5 0.25\n", "1,3", "without names its 2 columns are counted from 1"),
         ("a.txt", "0.5 0.25 a\n0.5 0.25\n", "1,2", "line 2: 2 columns where the lines before have 3"),
         ("a.dump", DUMP, "x,v", "has no axis 'v'; its axes are x, y, z"),

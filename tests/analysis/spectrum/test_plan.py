@@ -305,3 +305,12 @@ def test_requests_that_contradict_themselves_are_refused(arguments, says):
 
 def test_a_list_may_hold_any_frequency_of_64_bits():
     assert plan(10, 2, 2**63, frequencies=1).method == "direct"
+
+
+def test_a_rectangle_is_planned_as_its_box_and_its_shells_as_they_are_listed() -> None:
+    box = plan(64, 2, 20, sides=(3, 1))
+    assert box.request.frequencies == periodogram(np.full((1, 2), 0.5), 20, sides=(3, 1)).power.size
+    assert "box: 1,587 frequencies, |f_a| <= 34, 11" in box.explain()
+    assert plan(64, 12, 2, shells=True, sides=(3, *(1,) * 11)).method == "direct"
+    with pytest.raises(InputError, match="corners"):
+        plan(64, 2, 20, corners=True, sides=(3, 1))

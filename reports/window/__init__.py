@@ -1,0 +1,1 @@
+"""The picture of estimates in a window."""
