@@ -199,7 +199,7 @@ class SpectrumSettings:
                 x,
                 fmax,
                 self.precision,
-                band=self.shell_band(*x.shape[1:], sides),
+                band=self.shell_band(n, d, sides),
                 corners=self.corners,
                 weights=weights,
                 floor=self.floor,

@@ -72,8 +72,8 @@ def shells(
     Raises
     ------
     InputError
-        If x, fmax, band, weights or sides are not what they must be, the shells are too many frequencies where
-        (2*fmax+1)**d exceeds 2^63, or corners are asked for of a torus with unequal sides.
+        If x, fmax, band, weights or sides are not what they must be, the shells hold too many frequencies
+        where (2*fmax+1)**d exceeds 2^63, or corners are asked for of a torus with unequal sides.
     DeviceError
         If the OpenCL device lacks the precision.
 

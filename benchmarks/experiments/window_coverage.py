@@ -129,7 +129,9 @@ def markdown(table: pd.DataFrame) -> str:
             else "-"
             for name in names
         ]
-        lines.append(f"| {process} | {part['sets'].iloc[0]} | {part['n'].iloc[0]:.0f} | " + " | ".join(cells) + " |")
+        lines.append(
+            f"| {process} | {part['sets'].iloc[0]} | {part['n'].iloc[0]:.0f} | " + " | ".join(cells) + " |"
+        )
     return "\n".join(lines)
 
 

@@ -12,8 +12,8 @@ from gbnbench.core.errors import InputError
 
 FloatArray = NDArray[np.float64]
 
-# Determinants of the densest lattices known in d = 9 ... 24, scaled to a minimal squared length of 4: laminated
-# lattices, in d = 11 to 13 those of Coxeter and Todd's family (Conway & Sloane, Tables 1.3 and 6.1).
+# Determinants of the densest lattices known in d = 9 ... 24, scaled to a minimal squared length of 4: of
+# laminated lattices, in d = 11 to 13 of Coxeter and Todd's family (Conway & Sloane, Tables 1.3 and 6.1).
 DETERMINANTS = (512, 768, 972, 729, 972, 768, 512, 256, 256, 192, 128, 64, 32, 12, 4, 1)
 # Hermite's constant gamma_d: of the densest lattice for d <= 8 and d = 24, of the densest known between.
 HERMITE = (
