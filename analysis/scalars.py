@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from gbnbench.analysis.affordable_powers import farther_powers, set_powers
 from gbnbench.analysis.measure_definitions import DEFINITIONS
 from gbnbench.analysis.radial.anisotropy import anisotropy
 from gbnbench.analysis.radial.psa import spectral_statistics
-from gbnbench.analysis.set_powers import SetPowers, farther_powers, set_powers
+from gbnbench.analysis.set_powers import SetPowers
 from gbnbench.analysis.spatial.bond_order import bond_order, psi6
 from gbnbench.analysis.spatial.delaunay import Neighbours, neighbours
 from gbnbench.analysis.spatial.discrepancy import DiscrepancyResult, measure_discrepancies

@@ -12,12 +12,12 @@ import click
 from gbnbench.cli import options
 from gbnbench.cli.point_files import naming, read_torus
 from gbnbench.core.errors import GbnbenchError, RefusalError
-from gbnbench.core.sides import Sides, as_sides, sides_text
 
 if TYPE_CHECKING:
     import pandas as pd
 
     from gbnbench.core.results.measures import Measures
+    from gbnbench.core.sides import Sides
     from gbnbench.core.torus import FloatArray
     from gbnbench.io.points import ReadingOptions
 
@@ -72,6 +72,7 @@ def analyze(
         _explain(files, reading)
         return
     from gbnbench.analysis.measures import measures
+    from gbnbench.core.sides import as_sides
 
     rows: list[tuple[Path, int, int, int, Measures]] = []
     more: list[dict[str, pd.DataFrame]] = []
@@ -147,6 +148,7 @@ def _tables(
 def _explain(files: tuple[Path, ...], reading: ReadingOptions) -> None:
     """Print, for each file, the plan of its sets' spectra."""
     from gbnbench.analysis.spectrum.settings import SpectrumSettings
+    from gbnbench.core.sides import as_sides
 
     failed = False
     for path in files:
@@ -168,6 +170,7 @@ def _explain(files: tuple[Path, ...], reading: ReadingOptions) -> None:
 def _table(rows: list[tuple[Path, int, int, int, Measures]], boxes: list[Sides | None]) -> None:
     """Print aligned columns: wide, so that each set keeps its line."""
     from gbnbench.analysis.measure_definitions import BY_NAME
+    from gbnbench.core.sides import sides_text
 
     told = any(sides is not None for sides in boxes)
     box = ["sides"] if told else []

@@ -9,12 +9,13 @@ from typing import ClassVar
 from gbnbench.analysis.spectrum.error_model import UNIT, Errors, rms_for, rounded_at_worst
 from gbnbench.analysis.spectrum.evaluators.cube_product import CubeProduct
 from gbnbench.analysis.spectrum.evaluators.device_evaluator import DeviceEvaluator
+from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.bands import bin_counts, bins, run_count
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.errors import WINDOW_TYPICAL, fft_errors, usual_crowd
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import AXES, real_grid
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.powers import fft_powers, sets_together
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.transform import shape_of_harmonics
-from gbnbench.analysis.spectrum.evaluators.protocol import EvaluationCost, Evaluator
+from gbnbench.analysis.spectrum.evaluators.protocol import Evaluator
 from gbnbench.analysis.spectrum.evaluators.work_model import device_cost
 from gbnbench.analysis.spectrum.limits import BYTES, MEMORY_SHARE
 from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest

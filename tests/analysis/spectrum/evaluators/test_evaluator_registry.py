@@ -11,7 +11,8 @@ import pytest
 from gbnbench.analysis.spectrum import candidates as candidates_module
 from gbnbench.analysis.spectrum import choice as choice_module
 from gbnbench.analysis.spectrum.error_model import Errors
-from gbnbench.analysis.spectrum.evaluators.protocol import EvaluationCost, Evaluator
+from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
+from gbnbench.analysis.spectrum.evaluators.protocol import Evaluator
 from gbnbench.analysis.spectrum.evaluators.registry import EVALUATORS, Method, title_of
 from gbnbench.analysis.spectrum.evaluators.set_by_set import set_by_set
 from gbnbench.analysis.spectrum.periodogram import periodogram
