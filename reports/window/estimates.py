@@ -18,7 +18,20 @@ MOST_POINTS = 20_000  # that are drawn
 
 
 def figure_name(path: Path, index: int, sets: int) -> Path:
-    """Name the picture of one of several sets: ``name-0.png``, ``name-1.png``; of one, the name itself."""
+    """Name the picture of one of several sets.
+
+    Parameters
+    ----------
+    path : Path
+        What the user named.
+    index, sets : int
+        Which set, and of how many.
+
+    Returns
+    -------
+    Path
+        ``name-0.png``, ``name-1.png``; of a single set the name itself.
+    """
     return path if sets == 1 else path.with_name(f"{path.stem}-{index}{path.suffix}")
 
 

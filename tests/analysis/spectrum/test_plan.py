@@ -188,3 +188,12 @@ def test_what_is_chosen_fits_in_the_devices_buffers(n, d, fmax):
         grid = nodes_for(fmax, 1) * half_size(whole_axes(d, fmax)[1:]) * 2 * 8
         assert grid <= runtime().largest_buffer
         assert found.bytes >= 8 * (2 * fmax + 1) ** d + 2 * grid  # the grid and it folded
+
+
+def test_a_rectangle_is_planned_as_its_box_and_its_shells_as_they_are_listed() -> None:
+    box = plan(64, 2, 20, sides=(3, 1))
+    assert box.request.frequencies == periodogram(np.full((1, 2), 0.5), 20, sides=(3, 1)).power.size
+    assert "box: 1,587 frequencies, |f_a| <= 34, 11" in box.explain()
+    assert plan(64, 12, 2, shells=True, sides=(3, *(1,) * 11)).method == "direct"
+    with pytest.raises(InputError, match="corners"):
+        plan(64, 2, 20, corners=True, sides=(3, 1))
