@@ -1,4 +1,4 @@
-"""What a command says whose results are whole, but whose pictures could not be made."""
+"""The error of a command whose results are whole, but whose pictures could not be made."""
 
 from __future__ import annotations
 

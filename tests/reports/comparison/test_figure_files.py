@@ -174,7 +174,8 @@ def test_plane_of_cubes_and_lists() -> None:
     some = spectrum.plane(Spectrum(np.array([7.0, 8.0, 9.0]), 8, 3, 1, 2, listed))
     assert some is not None
     assert (some[3, 2], some[2, 0]) == (7.0, 8.0)
-    assert np.isfinite(some).sum() == 2
+    assert (some[1, 2], some[2, 4]) == (7.0, 8.0)  # of -f
+    assert np.isfinite(some).sum() == 4
     assert spectrum.plane(Spectrum(np.array([9.0]), 8, 3, 1, 2, listed[2:])) is None
 
 
