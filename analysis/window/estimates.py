@@ -133,7 +133,7 @@ def in_window(
     -----
     The page "Points in a window" has the formulas and sources, and how often the stated errors hold against
     closed forms. Errors are those of Gaussian fluctuations of density: they are too small for strongly
-    clustered sets. Cost: 100,000 points take 7 CPU seconds in 2D, 20 in 3D, and 400 MB.
+    clustered sets. Cost: 100,000 points take 7 CPU seconds in 2D, 20 in 3D, and 500 MB.
 
     Examples
     --------

@@ -153,8 +153,8 @@ def _gridded(
 ) -> Iterator[tuple[slice, ComplexArray]]:
     """Sum one taper after another on the grid."""
     grid = GriddedSums(seen.u, np.abs(multiples).max(axis=0))
-    for row, values in enumerate(seen.values):
-        yield slice(row, row + 1), grid.at(values, multiples)[None]
+    for row, sums in enumerate(grid.of(seen.values, multiples)):
+        yield slice(row, row + 1), sums[None]
         progress.advance("structure factor")
 
 
