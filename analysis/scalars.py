@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from gbnbench.analysis.affordable_powers import farther_powers, set_powers
 from gbnbench.analysis.measure_definitions import DEFINITIONS
 from gbnbench.analysis.radial.anisotropy import anisotropy
 from gbnbench.analysis.radial.psa import spectral_statistics
-from gbnbench.analysis.set_powers import SetPowers, farther_powers, set_powers
+from gbnbench.analysis.set_powers import SetPowers
 from gbnbench.analysis.spatial.bond_order import bond_order, psi6
 from gbnbench.analysis.spatial.delaunay import Neighbours, neighbours
 from gbnbench.analysis.spatial.discrepancy import DiscrepancyResult, measure_discrepancies
@@ -96,7 +97,9 @@ class Scalars:
         import pandas as pd
 
         rings = anisotropy(far.shell_spectrum())
-        return pd.concat([near, rings[rings.frequency > near.frequency.max()]], ignore_index=True)
+        farther: pd.DataFrame = rings[rings.frequency > near.frequency.max()]
+        found: pd.DataFrame = pd.concat([near, farther], ignore_index=True)
+        return found
 
     def _evaluated_far(self) -> SetPowers | None:
         """Return the farther shells if a measure needed them."""

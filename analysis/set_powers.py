@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -11,34 +10,16 @@ from numpy.typing import NDArray
 
 from gbnbench.analysis.radial.radial_power import mean_over_groups, shells_of
 from gbnbench.analysis.spectrum.ball_power import half_band
-from gbnbench.analysis.spectrum.box_shells import harmonics_within, listed_box_shells, pooled
-from gbnbench.analysis.spectrum.limits import (
-    LARGEST_NU,
-    MOST_FREQUENCIES,
-    MOST_KEPT,
-    check_fmax,
-    check_positive,
-    cube_fits,
-    default_fmax,
-    default_radius,
-)
+from gbnbench.analysis.spectrum.box_shells import listed_box_shells, pooled
 from gbnbench.analysis.spectrum.listed_shells import (
-    MOST_COORDINATES,
-    MOST_TERMS,
-    affordable_square,
     half_ball,
-    largest_square,
 )
 from gbnbench.analysis.spectrum.periodogram import each_listed_power, each_power
 from gbnbench.analysis.spectrum.shells import Shells, exact_shells, listed_shells, squared_radius
-from gbnbench.core.errors import InputError
 from gbnbench.core.results.radial import RadialPower, ShellSpectrum
 from gbnbench.core.results.spectrum import Spectrum
 from gbnbench.core.sides import Sides, squared_lengths
 from gbnbench.core.torus import FloatArray
-
-SHORTER = 0.9  # factor by which the radius of a ball is lowered until its frequencies are affordable
-MOST_CUBE = 1 << 28  # powers of all sets together: 2 GB; beyond it a ball is listed
 
 
 @dataclass(frozen=True)
@@ -125,6 +106,10 @@ def cube_powers(points: FloatArray, fmax: int) -> SetPowers:
         Checked points.
     fmax : int
         Checked by ``check_fmax``.
+
+    Returns
+    -------
+    SetPowers
     """
     powers, spectrum = each_power(points, fmax)
     shells = exact_shells(fmax, points.shape[2])
@@ -141,6 +126,10 @@ def ball_powers(points: FloatArray, most: int) -> SetPowers:
         Checked points.
     most : int
         Largest |f|^2.
+
+    Returns
+    -------
+    SetPowers
     """
     square, frequencies = half_ball(points.shape[2], most)
     powers, spectrum = each_listed_power(points, frequencies)
@@ -191,76 +180,3 @@ def box_ball_powers(points: FloatArray, radius: float, sides: Sides) -> SetPower
     frequencies, square = half_band((0.0, radius), sides)
     powers, spectrum = each_listed_power(points, frequencies, sides=sides)
     return SetPowers(powers, spectrum, listed_box_shells(square), radius**2)
-
-
-def set_powers(points: FloatArray, fmax: int | None, sides: Sides | None = None) -> SetPowers:
-    """Evaluate the cube of every set where that is affordable, and the shells of a ball where it is not.
-
-    Parameters
-    ----------
-    points : (realizations, n, d) float64
-        Checked points.
-    fmax : int or None
-        Largest harmonic on each axis, or radius of the ball; None for the default.
-    sides : tuple of d floats, optional
-        As ``as_sides`` returns them; a cube if not given.
-
-    Raises
-    ------
-    InputError
-        If fmax is no positive integer, or neither its cube nor its ball can be held.
-    """
-    realizations, n, d = points.shape
-    if sides is not None:
-        return _box_or_ball(points, fmax, sides)
-    if fmax is None:
-        cube = default_fmax(n, d, realizations)
-        if realizations * (2 * cube + 1) ** d <= MOST_CUBE and cube_fits(cube, d):
-            return cube_powers(points, cube)
-        return ball_powers(points, affordable_square(n, d, realizations))
-    f = check_positive(fmax)
-    if cube_fits(f, d):
-        return cube_powers(points, f)
-    if largest_square(d, 2 * MOST_COORDINATES // d, f * f) < f * f:
-        check_fmax(f, d)  # says what would fit
-    return ball_powers(points, f * f)
-
-
-def _box_or_ball(points: FloatArray, fmax: int | None, sides: Sides) -> SetPowers:
-    """Evaluate the box round the ball |k| <= fmax, or the ball alone where that reaches farther."""
-    realizations, n, d = points.shape
-    if fmax is not None:
-        radius = check_positive(fmax)
-        if realizations * _box_size(radius, sides) <= MOST_CUBE:
-            return box_powers(points, radius, sides)
-        return box_ball_powers(points, float(radius), sides)
-    radius = default_radius(n, d, realizations, sides)
-    boxed = realizations * _box_size(radius, sides) <= MOST_CUBE and radius > math.pow(n, 1 / d)
-    if boxed and _box_size(radius, sides) <= MOST_FREQUENCIES:
-        return box_powers(points, radius, sides)
-    lowest = 1 / max(sides)
-    most = min(MOST_COORDINATES / d, MOST_TERMS / (n * d), MOST_KEPT / realizations)
-    reach = LARGEST_NU * math.pow(n, 1 / d) + 1
-    while reach > lowest and not _affordable(reach, sides, most):
-        reach *= SHORTER
-    return box_ball_powers(points, max(reach, lowest), sides)
-
-
-def _box_size(radius: float, sides: Sides) -> int:
-    return math.prod(2 * f + 1 for f in harmonics_within(radius, sides))
-
-
-def _affordable(radius: float, sides: Sides, most: float) -> bool:
-    try:
-        return len(half_band((0.0, radius), sides, int(most))[1]) <= most
-    except InputError:  # more than are listed
-        return False
-
-
-def farther_powers(points: FloatArray, near: SetPowers) -> SetPowers | None:
-    """Evaluate the shells of a ball that reaches beyond a default cube; None where none is affordable."""
-    if near.spectrum.sides is not None:
-        return None
-    realizations, n, d = points.shape
-    most = affordable_square(n, d, realizations)
-    return ball_powers(points, most) if most > max(near.most, near.spectrum.fmax**2) else None

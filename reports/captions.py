@@ -7,6 +7,7 @@ from functools import lru_cache
 
 from matplotlib.font_manager import findfont, get_font
 
+from gbnbench.core.sides import sides_text
 from gbnbench.reports.source_groups import Group, groups, members
 from gbnbench.runs.comparison_result import Run, SourceResult
 
@@ -65,11 +66,12 @@ def name(source: SourceResult, run: Run, width: int = 26) -> str:
     Returns
     -------
     str
-        The label, followed by n and d where they vary in the run.
+        The label, followed by n and d where they vary in the run, and by the ratio of unequal sides.
     """
     every = groups(run)
     marks = [f"n={source.n}"] if len({n for n, _ in every}) > 1 else []
     marks += [f"d={source.d}"] if len({d for _, d in every}) > 1 else []
+    marks += [f"sides {sides_text(source.sides)}"] if source.sides is not None else []
     return shown(source.label, width) + (f" ({', '.join(marks)})" if marks else "")
 
 

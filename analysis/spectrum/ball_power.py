@@ -88,32 +88,67 @@ def ball_power(
     InputError
         If no frequency lies in the band, or it has too many.
     """
-    sets, n, d = x.shape
-    harmonics = harmonics_within(band[1], sides)
-    ball = math.pi ** (d / 2) / math.gamma(d / 2 + 1)
-    count = max(2, math.ceil(ball * (band[1] ** d - band[0] ** d)))
-    listed = SpectrumRequest("listed", n, d, max(harmonics), sets, count)
-    in_list, in_box = choose(listed, precision, floor), None
-    with suppress(InputError):  # too large for memory
-        box = box_request(n, d, harmonics, sets)
-        in_box = choose(box, precision, floor)
-    if in_box is not None and in_box.work(box) <= in_list.work(listed):
-        power, errors = in_box.box(x, box, weights, mean=True)
-        square = squared_lengths(harmonics, sides).ravel()
+    _, n, d = x.shape
+    request = cheapest_request(n, d, len(x), band, sides, precision, floor)
+    evaluator = choose(request, precision, floor)
+    if request.what == "cube":
+        power, errors = evaluator.box(x, request, weights, mean=True)
+        square = squared_lengths(harmonics_within(band[1], sides), sides).ravel()
         wanted = _within(square, band)
         wanted[: len(wanted) // 2 + 1] = False  # one half space
         _refuse_none(wanted.any(), band)
-        return BallPower(square[wanted], power.ravel()[wanted], in_box, errors)
+        return BallPower(square[wanted], power.ravel()[wanted], evaluator, errors)
     frequencies, square = half_band(band, sides)
     _refuse_none(len(square) > 0, band)
     power, rms, bound = np.empty(len(square)), 0.0, 0.0
     for begin in range(0, len(square), CHUNK):
         some = slice(begin, begin + CHUNK)
-        power[some], errors = in_list.listed(x, frequencies[some], weights)
+        power[some], errors = evaluator.listed(x, frequencies[some], weights)
         rms, bound = max(rms, errors.rms), max(bound, errors.bound)
         if progress is not None:
             progress(min(1.0, (begin + CHUNK) / len(square)))
-    return BallPower(square, power, in_list, Errors(rms, bound))
+    return BallPower(square, power, evaluator, Errors(rms, bound))
+
+
+def cheapest_request(
+    n: int,
+    d: int,
+    realizations: int,
+    band: tuple[float, float],
+    sides: Sides,
+    precision: PrecisionName,
+    floor: float | None,
+) -> SpectrumRequest:
+    """Make the request for a band: listed, or as the box that holds it, whichever takes less work.
+
+    Parameters
+    ----------
+    n, d, realizations : int
+        Points in a set, dimension, number of sets.
+    band : (float, float)
+        Smallest and largest |k|.
+    sides : tuple of d floats
+        As ``as_sides`` returns them.
+    precision : {"double", "float"}
+        As in ``gbnbench.periodogram``.
+    floor : float or None
+        Smallest power that must be known to 1%.
+
+    Returns
+    -------
+    SpectrumRequest
+        Of a box, or of listed frequencies, whose number is estimated by the volume of the band.
+    """
+    harmonics = harmonics_within(band[1], sides)
+    ball = math.pi ** (d / 2) / math.gamma(d / 2 + 1)
+    count = max(1, math.ceil(ball * (band[1] ** d - band[0] ** d) / 2))
+    listed = SpectrumRequest("listed", n, d, max(harmonics), realizations, count)
+    with suppress(InputError):  # too large for memory
+        box = box_request(n, d, harmonics, realizations)
+        work = choose(box, precision, floor).work(box)
+        if work <= choose(listed, precision, floor).work(listed):
+            return box
+    return listed
 
 
 def half_band(

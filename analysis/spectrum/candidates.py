@@ -6,7 +6,8 @@ import difflib
 from dataclasses import dataclass
 
 from gbnbench.analysis.spectrum.error_model import Errors
-from gbnbench.analysis.spectrum.evaluators.protocol import EvaluationCost, Evaluator
+from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
+from gbnbench.analysis.spectrum.evaluators.protocol import Evaluator
 from gbnbench.analysis.spectrum.evaluators.registry import EVALUATORS
 from gbnbench.analysis.spectrum.request import SpectrumRequest
 from gbnbench.core.errors import InputError

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -20,7 +21,8 @@ from gbnbench.analysis.spectrum.evaluators.registry import EVALUATORS
 from gbnbench.analysis.spectrum.request import SpectrumRequest
 from gbnbench.analysis.spectrum.spectrum_plan import SpectrumPlan
 from gbnbench.core.errors import InputError
-from gbnbench.opencl import devices_present
+from gbnbench.opencl import devices_present, runtime
+from gbnbench.opencl.device import Device
 
 
 def choose(
@@ -53,11 +55,22 @@ def choose(
     if floor is not None or method is not None:
         return planned(request, precision, floor, method).chosen.evaluator
     check_precision(precision)
-    if devices_present():
+    return _cheapest(request, precision, EVALUATORS, runtime().device if devices_present() else None)
+
+
+@lru_cache(maxsize=256)
+def _cheapest(
+    request: SpectrumRequest, precision: str, kinds: tuple[type[Evaluator], ...], device: Device | None
+) -> Evaluator:
+    """Choose the exact evaluator of least work; what was chosen before is known at once.
+
+    The device is that of the process now. It is an argument since another one may choose otherwise.
+    """
+    if device is not None:
         precision_of(precision)  # says what the device lacks
     exact = [
         evaluator
-        for kind in EVALUATORS
+        for kind in kinds
         if not kind.approximate and (evaluator := kind.offer(request, precision)) is not None
     ]
     if not exact:
@@ -90,7 +103,11 @@ def planned(
     weighed = [
         replace(candidate, against=objection(candidate, only, floor, method)) for candidate in averaged
     ]
-    fitting = sorted((c for c in weighed if not c.against), key=lambda c: c.cost.seconds)
+    # Seconds are estimates; where all are exact, counted work decides, as in ``choose``.
+    fitting = sorted(
+        (c for c in weighed if not c.against),
+        key=lambda c: c.evaluator.work(request) if floor is None else c.cost.seconds,
+    )
     if not fitting:
         if floor is None or only not in {None, *(c.evaluator.precision for c in weighed)}:
             if devices_present():

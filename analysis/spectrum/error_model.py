@@ -43,6 +43,10 @@ class Errors:
         """Smallest power that is typically known to 1%."""
         return resolvable_power(self.rms)
 
+    def or_larger(self, other: Errors) -> Errors:
+        """Give errors that hold for what both are stated of."""
+        return Errors(max(self.rms, other.rms), max(self.bound, other.bound))
+
     def averaged(self, sets: int, n: int) -> Errors:
         """Give the errors of the mean power of several sets.
 

@@ -14,6 +14,7 @@ from gbnbench.analysis.spectrum.choice import choose
 from gbnbench.analysis.spectrum.error_model import Errors
 from gbnbench.analysis.spectrum.evaluators.protocol import Evaluator
 from gbnbench.analysis.spectrum.evaluators.registry import Method
+from gbnbench.analysis.spectrum.input_checks import check_frequencies, check_weights
 from gbnbench.analysis.spectrum.limits import check_fmax, check_harmonic
 from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest, box_request
 from gbnbench.core.errors import InputError
@@ -115,6 +116,8 @@ def periodogram(
     f, request = _cube_request(n, d, fmax, sets, lengths, half=half)
     with use_device(device):
         evaluator = choose(request, precision, floor, method)
+        if method is None:
+            evaluator = evaluator.for_points(points, request.fmax, floor)
         power, errors = evaluator.box(points, request, w, mean=True)
         errors = errors.averaged(sets, n)
         return _spectrum(
@@ -163,7 +166,7 @@ def each_power(
     """
     sets, n, d = x.shape
     f, request = _cube_request(n, d, fmax, sets, sides)
-    evaluator = choose(request, precision, None)
+    evaluator = choose(request, precision, None).for_points(x, request.fmax, None)
     powers, errors = evaluator.box(x, request, None, mean=False)
     mean, averaged = powers.mean(axis=0), errors.averaged(sets, n)
     return powers, _spectrum(mean, request, evaluator, averaged, fmax=f, sides=sides)
@@ -243,73 +246,3 @@ def _spectrum(
         error_bound=errors.bound,
         **{"fmax": request.fmax, **more},
     )
-
-
-def check_weights(weights: ArrayLike | None, sets: int, n: int) -> FloatArray | None:
-    """Check weights, and divide each set's by its largest, so that their squares cannot overflow.
-
-    Parameters
-    ----------
-    weights : (n,) or (sets, n) array_like, or None
-        What the user gave.
-    sets, n : int
-        Number of sets, and of points in each.
-
-    Returns
-    -------
-    (1 or sets, n) float64, or None
-        None where there are no weights.
-
-    Raises
-    ------
-    InputError
-        If they are not finite numbers, one for each point, or all 0 in some set.
-    """
-    if weights is None:
-        return None
-    try:
-        given = np.asarray(weights)
-        if given.dtype.kind not in "fiub" or isinstance(weights, np.ma.MaskedArray):
-            raise TypeError
-        w = np.ascontiguousarray(given, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise InputError("weights must be real numbers, one for each point, none of them masked") from None
-    if w.shape not in ((n,), (sets, n)):
-        raise InputError(f"weights must be ({n},) or ({sets}, {n}), one for each point; got shape {w.shape}")
-    w = w.reshape(-1, n)
-    if not np.isfinite(w).all():
-        raise InputError(f"weights must be finite; got {float(w[~np.isfinite(w)][0])!r}")
-    largest = np.abs(w).max(axis=1, keepdims=True)
-    if (largest == 0).any():
-        raise InputError("weights are all 0 in a set; at least one point must count")
-    scaled: FloatArray = w / largest  # power does not change, and squares cannot overflow
-    return scaled
-
-
-def check_frequencies(frequencies: ArrayLike, d: int) -> NDArray[np.int64]:
-    """Check listed frequencies.
-
-    Parameters
-    ----------
-    frequencies : (m, d) array_like
-        What the user gave; floats are taken if they are whole.
-    d : int
-        Dimension.
-
-    Returns
-    -------
-    (m, d) int64
-
-    Raises
-    ------
-    InputError
-        If they are not integers of 64 bits, or not (m, d) with m at least 1.
-    """
-    f = np.asarray(frequencies)
-    if f.ndim != 2 or f.shape[1] != d or len(f) == 0:
-        raise InputError(f"frequencies must be (m, {d}), one row a frequency, m >= 1; got shape {f.shape}")
-    if f.dtype.kind == "f" and np.array_equal(f, np.rint(f)) and np.abs(f).max() < 2.0**63:
-        f = f.astype(np.int64)
-    if f.dtype.kind not in "iu" or (f.dtype.kind == "u" and f.max() >= 2**63):
-        raise InputError(f"frequencies must be integers of 64 bits (cycles per unit length); got {f.dtype}")
-    return f.astype(np.int64)

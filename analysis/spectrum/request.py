@@ -65,7 +65,8 @@ class SpectrumRequest:
             if self.what == "shells"
             else f"|f_a| <= {', '.join(map(str, self.harmonics or (self.fmax,)))}"
         )
-        return f"{self.what}: {self.frequencies:,} {noun}, {reach}, of {self.n:,} points, d={self.d}{sets}"
+        what = self.what.replace("cube", "box") if self.harmonics else self.what
+        return f"{what}: {self.frequencies:,} {noun}, {reach}, of {self.n:,} points, d={self.d}{sets}"
 
 
 def box_request(

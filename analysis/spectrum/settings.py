@@ -10,13 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.analysis.precision import PrecisionName
-from gbnbench.analysis.spectrum.limits import default_fmax, default_shell_fmax
+from gbnbench.analysis.spectrum.limits import default_fmax, default_radius, default_shell_fmax
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.plan import plan
 from gbnbench.analysis.spectrum.shell_spectrum import shells
 from gbnbench.analysis.spectrum.spectrum_plan import SpectrumPlan
 from gbnbench.core.results.radial import ShellSpectrum
 from gbnbench.core.results.spectrum import Spectrum
+from gbnbench.core.sides import Sides
 from gbnbench.core.torus import FloatArray
 
 
@@ -53,13 +54,15 @@ class SpectrumSettings:
     floor: float | None = None
     sigma: float | None = None
 
-    def largest_harmonic(self, n: int, d: int) -> int:
-        """Return the largest harmonic on each axis for sets of n points in d dimensions.
+    def largest_harmonic(self, n: int, d: int, sides: Sides | None = None) -> int:
+        """Return the largest harmonic on each axis, or |k|, for sets of n points in d dimensions.
 
         Parameters
         ----------
         n, d : int
             Points in a set, and dimension.
+        sides : tuple of d floats, optional
+            As ``as_sides`` returns them; a cube if not given.
 
         Returns
         -------
@@ -71,15 +74,19 @@ class SpectrumSettings:
             return self.fmax
         if self.band is not None:
             return max(1, math.ceil(self.band[1]))
+        if sides is not None:
+            return default_radius(n, d, 1, sides)
         return default_shell_fmax(n, d) if self.shells else default_fmax(n, d)
 
-    def plan(self, n: int, d: int, realizations: int) -> SpectrumPlan:
+    def plan(self, n: int, d: int, realizations: int, sides: Sides | None = None) -> SpectrumPlan:
         """Choose the evaluator, before there are any points.
 
         Parameters
         ----------
         n, d, realizations : int
             Points in a set, dimension, and number of sets.
+        sides : tuple of d floats, optional
+            As ``as_sides`` returns them; a cube if not given.
 
         Returns
         -------
@@ -93,7 +100,7 @@ class SpectrumSettings:
         return plan(
             n,
             d,
-            self.largest_harmonic(n, d),
+            self.largest_harmonic(n, d, sides),
             self.precision,
             realizations=realizations,
             frequencies=None if self.frequencies is None else len(self.frequencies),
@@ -102,6 +109,7 @@ class SpectrumSettings:
             band=self.band,
             corners=self.corners,
             floor=self.floor,
+            sides=sides,
         )
 
     def evaluate(
@@ -109,6 +117,7 @@ class SpectrumSettings:
         x: FloatArray,
         weights: FloatArray | None = None,
         progress: Callable[[float], None] | None = None,
+        sides: Sides | None = None,
     ) -> Spectrum | ShellSpectrum:
         """Evaluate the spectrum of given points.
 
@@ -120,16 +129,22 @@ class SpectrumSettings:
             Weights of the points.
         progress : callable, optional
             Called now and then with the share done, of shells.
+        sides : tuple of d floats, optional
+            As ``as_sides`` returns them; a cube if not given.
 
         Returns
         -------
         Spectrum, or ShellSpectrum for shells
         """
-        spectrum = self._unfiltered(x, weights, progress)
+        spectrum = self._unfiltered(x, weights, progress, sides)
         return spectrum if self.sigma is None else spectrum.filtered(self.sigma)
 
     def _unfiltered(
-        self, x: FloatArray, weights: FloatArray | None, progress: Callable[[float], None] | None
+        self,
+        x: FloatArray,
+        weights: FloatArray | None,
+        progress: Callable[[float], None] | None,
+        sides: Sides | None,
     ) -> Spectrum | ShellSpectrum:
         """Evaluate the spectrum of the points as they are."""
         if self.frequencies is not None:
@@ -139,8 +154,10 @@ class SpectrumSettings:
                 frequencies=self.frequencies,
                 weights=weights,
                 floor=self.floor,
+                sides=sides,
             )
-        fmax = self.largest_harmonic(*x.shape[1:])
+        _, n, d = x.shape
+        fmax = self.largest_harmonic(n, d, sides)
         if self.shells:
             return shells(
                 x,
@@ -151,5 +168,8 @@ class SpectrumSettings:
                 weights=weights,
                 floor=self.floor,
                 progress=progress,
+                sides=sides,
             )
-        return periodogram(x, fmax, self.precision, weights=weights, half=self.half, floor=self.floor)
+        return periodogram(
+            x, fmax, self.precision, weights=weights, half=self.half, floor=self.floor, sides=sides
+        )

@@ -12,8 +12,8 @@ from gbnbench.analysis.precision import PrecisionName
 from gbnbench.analysis.spectrum.ball_power import ball_power
 from gbnbench.analysis.spectrum.box_shells import equal_lengths
 from gbnbench.analysis.spectrum.choice import choose
+from gbnbench.analysis.spectrum.input_checks import check_weights
 from gbnbench.analysis.spectrum.limits import check_harmonic, default_radius, default_shell_fmax
-from gbnbench.analysis.spectrum.periodogram import check_weights
 from gbnbench.analysis.spectrum.request import check_band, shell_request
 from gbnbench.core.errors import InputError
 from gbnbench.core.results.radial import ShellSpectrum

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 
-from gbnbench.analysis.spectrum.evaluators.gridded.kaiser_bessel import OVERSAMPLING, window
+from gbnbench.analysis.spectrum.evaluators.kaiser_bessel import OVERSAMPLING, window
 from gbnbench.analysis.window.tapers import ComplexArray, IntArray
 from gbnbench.core.torus import FloatArray
 from gbnbench.execution.progress import Progress

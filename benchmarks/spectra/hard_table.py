@@ -16,6 +16,7 @@ import pandas as pd
 
 from gbnbench.analysis.precision import PrecisionName
 from gbnbench.analysis.spectrum.evaluators.gridded.product import griddable
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import AXES
 from gbnbench.analysis.spectrum.evaluators.nufft import transform as nufft
 from gbnbench.analysis.spectrum.evaluators.nufft.limits import DIMENSIONS
 from gbnbench.analysis.spectrum.evaluators.registry import Method, title_of
@@ -104,6 +105,8 @@ def _evaluations(
     methods: list[Method] = ["product"] if has else []
     if has and griddable(case.d, case.reach, precision):
         methods.append("gridded")
+    if has and case.d <= AXES and runtime().device.is_cpu:
+        methods.append("fft")
     methods.append("numpy")
     if precision == "double" and case.d <= DIMENSIONS and nufft.available():
         methods.append("nufft")

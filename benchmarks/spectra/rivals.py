@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,17 +16,15 @@ from numpy.typing import NDArray
 from gbnbench.analysis.precision import PrecisionName
 from gbnbench.analysis.spectrum.evaluators.cube_product import CubeProduct
 from gbnbench.analysis.spectrum.evaluators.direct_sum import DirectSum
-from gbnbench.analysis.spectrum.evaluators.nufft import transform as nufft
-from gbnbench.analysis.spectrum.evaluators.nufft.limits import DIMENSIONS
 from gbnbench.analysis.spectrum.evaluators.numpy_product.evaluator import NumpyProduct
 from gbnbench.analysis.spectrum.evaluators.protocol import Evaluator
 from gbnbench.analysis.spectrum.evaluators.registry import title_of
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.plan import plan
+from gbnbench.benchmarks.spectra.transform_libraries import squared, transform_calls
 from gbnbench.core.torus import FloatArray
 from gbnbench.opencl import runtime
 
-TOLERANCES = (1e-3, 1e-6, 1e-9, 1e-12, 1e-14)
 NAIVE_RATE = 2e8  # sines and cosines a second at least, to leave out what takes too long
 ZGEMM_FROM = 4  # dimensions from which the product alone, its tables ready, is a rival
 Power = Callable[[], FloatArray]
@@ -104,10 +101,9 @@ def rivals(n: int, d: int, fmax: int, sets: int, longest: float) -> Iterator[Riv
     yield Rival("numpy separable", "numpy separable", "double", _set_by_set(separable))
     if d >= ZGEMM_FROM:
         yield Rival("zgemm on ready tables", "zgemm on ready tables", "double", _ready)
-    if d <= DIMENSIONS and nufft.available():
-        for tolerance in TOLERANCES:
-            transform = _set_by_set(partial(finufft, tolerance=tolerance))
-            yield Rival(f"FINUFFT {tolerance:.0e}".replace("e-0", "e-"), "FINUFFT", "double", transform)
+    for library, tolerance, transform in transform_calls(d):
+        name = f"{library} {tolerance:.0e}".replace("e-0", "e-")
+        yield Rival(name, library, "double", _set_by_set(transform))
 
 
 def half_space(fmax: int, d: int) -> NDArray[np.int64]:
@@ -167,40 +163,7 @@ def separable(x: FloatArray, fmax: int) -> FloatArray:
     (2*fmax+1,)*d float64
     """
     a, b = tables(x, fmax)
-    return _squared(a.T @ b, len(x)).reshape((2 * fmax + 1,) * x.shape[1])
-
-
-def finufft(x: FloatArray, fmax: int, tolerance: float) -> FloatArray:
-    """Compute power by FINUFFT's type 1 transform on one thread, one call for each set.
-
-    Parameters
-    ----------
-    x : (n, d) float64
-        Points.
-    fmax : int
-        Largest harmonic on each axis.
-    tolerance : float
-        FINUFFT's eps.
-
-    Returns
-    -------
-    (2*fmax+1,)*d float64
-    """
-    import finufft as library
-
-    transform: Any = getattr(library, f"nufft{x.shape[1]}d1")
-    modes: Any = (2 * fmax + 1,) * x.shape[1]
-    turns = [np.multiply(2 * np.pi, coordinate) for coordinate in np.ascontiguousarray(x.T)]
-    ones = np.ones(len(x), complex)
-    amplitude = transform(
-        *turns, ones, modes if len(modes) > 1 else modes[0], eps=tolerance, isign=-1, nthreads=1
-    )
-    return _squared(amplitude, len(x))
-
-
-def _squared(amplitude: NDArray[np.complex128], n: int) -> FloatArray:
-    power: FloatArray = (amplitude.real**2 + amplitude.imag**2) / n
-    return power
+    return squared(a.T @ b, len(x)).reshape((2 * fmax + 1,) * x.shape[1])
 
 
 def _set_by_set(method: Callable[[FloatArray, int], FloatArray]) -> Callable[[FloatArray, int], Power]:
@@ -243,7 +206,7 @@ def _ready(x: FloatArray, fmax: int) -> Power:
     shape = (2 * fmax + 1,) * x.shape[2]
 
     def call() -> FloatArray:
-        mean = sum(_squared(a.T @ b, x.shape[1]) for a, b in ready) / len(ready)
+        mean = sum(squared(a.T @ b, x.shape[1]) for a, b in ready) / len(ready)
         return np.asarray(mean).reshape(shape)
 
     return call

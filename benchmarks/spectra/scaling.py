@@ -1,4 +1,4 @@
-"""How the cost of the periodogram grows along sweeps of its size, and the slopes of that growth."""
+"""Growth of the periodogram's cost along sweeps of its size, and the slopes of that growth."""
 
 from __future__ import annotations
 

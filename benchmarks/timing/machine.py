@@ -14,7 +14,7 @@ from typing import Any, Self
 from gbnbench.opencl import runtime
 from gbnbench.opencl.peak_rate import fma_peak
 
-PACKAGES = ("gbnbench", "numpy", "pyopencl", "pocl-binary-distribution", "finufft")
+PACKAGES = ("gbnbench", "numpy", "pyopencl", "pocl-binary-distribution", "finufft", "ducc0")
 REPEATS = 3
 Row = dict[str, Any]  # of a table, by column
 

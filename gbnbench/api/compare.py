@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
+from numpy.typing import ArrayLike
+
 from gbnbench.api.comparison import Comparison, draw
 from gbnbench.api.source_arguments import SourceLike, as_sources
 from gbnbench.execution import progress
@@ -27,6 +29,7 @@ def compare(
     quiet: bool = False,
     device: str | None = None,
     reading: ReadingOptions = DEFAULT_READING,
+    sides: ArrayLike | None = None,
     pictures: bool = False,
     command: str = "gbnbench.compare",
 ) -> Comparison:
@@ -58,6 +61,9 @@ def compare(
         Part of the name of the OpenCL device, or its position, as in ``GBNBENCH_DEVICE``, which it overrides.
     reading : ReadingOptions
         How files are read: columns, box and so on, as ``load`` takes them; the same for all.
+    sides : (d,) array_like, optional
+        Lengths of the sides of the torus on which the arrays lie, whose ratios count; a cube if not given.
+        Files tell their own, or ``reading`` does; generators make cubes.
     pictures : bool
         Also write report.html and the figures into the folder; ``Comparison.report`` makes them later.
     command : str
@@ -93,7 +99,7 @@ def compare(
     True
     """
     with use_device(device):
-        found, skipped = as_sources(sources, n, d, realizations, reading)
+        found, skipped = as_sources(sources, n, d, realizations, reading, sides)
         with progress.choose(quiet) as shown:
             done = run_comparison(
                 found,

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from gbnbench.core.errors import InputError
 from gbnbench.generators.protocol import Generator
@@ -23,6 +24,7 @@ def as_sources(
     d: int | Sequence[int],
     realizations: int,
     reading: ReadingOptions = DEFAULT_READING,
+    sides: ArrayLike | None = None,
 ) -> tuple[tuple[Source, ...], tuple[str, ...]]:
     """Turn what Python was given into sources, in the order given.
 
@@ -37,6 +39,8 @@ def as_sources(
         Sets of each generator.
     reading : ReadingOptions
         How files are read.
+    sides : (d,) array_like, optional
+        Lengths of the sides of the torus on which arrays lie; a cube if not given.
 
     Returns
     -------
@@ -57,10 +61,13 @@ def as_sources(
         sources: list[Source] = []
         skipped: list[str] = []
         for label, item in given.items():
-            found, refused = resolve([_source(item, str(label))], sizes, dimensions, realizations, reading)
+            found, left_out = resolve(
+                [_source(item, str(label), sides)], sizes, dimensions, realizations, reading
+            )
             sources += [replace(source, label=str(label)) for source in found]
-            skipped += refused
+            skipped += left_out
         found, _ = resolve(sources, sizes, dimensions, realizations)
+        _check_used(reading, found)
         return found, tuple(skipped)
     items = [given] if _is_one(given) else list(given)
     arrays = sum(_is_array(item) for item in items)
@@ -69,15 +76,26 @@ def as_sources(
     for item in items:
         count += _is_array(item)
         label = "array" if arrays == 1 else f"array {count}"
-        named.append(_source(item, label))
-    return resolve(named, sizes, dimensions, realizations, reading)
+        named.append(_source(item, label, sides))
+    found, refused = resolve(named, sizes, dimensions, realizations, reading)
+    _check_used(reading, found)
+    return found, refused
 
 
-def _source(item: SourceLike, label: str) -> str | Path | Generator | Source:
+def _check_used(reading: ReadingOptions, sources: Iterable[Source]) -> None:
+    """Refuse options of reading where no source is read."""
+    given = reading.record()
+    if given and not any(source.kind == "files" for source in sources):
+        raise InputError(
+            f"{', '.join(given)} say how files are read, and no source is a file: leave them out"
+        )
+
+
+def _source(item: SourceLike, label: str, sides: ArrayLike | None) -> str | Path | Generator | Source:
     """Return an item as ``resolve`` takes it: an array becomes a source with this label."""
     if isinstance(item, (str, Path, Source)):
         return item
-    return array_source(item, label) if _is_array(item) else item
+    return array_source(item, label, sides) if _is_array(item) else item
 
 
 def _is_one(given: object) -> bool:

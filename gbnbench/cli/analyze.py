@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING
 import click
 
 from gbnbench.cli import options
-from gbnbench.cli.point_files import naming, read_cube
-from gbnbench.core.errors import GbnbenchError
+from gbnbench.cli.point_files import naming, read_torus
+from gbnbench.core.errors import GbnbenchError, RefusalError
 
 if TYPE_CHECKING:
     import pandas as pd
 
     from gbnbench.core.results.measures import Measures
+    from gbnbench.core.sides import Sides
     from gbnbench.core.torus import FloatArray
     from gbnbench.io.points import ReadingOptions
 
@@ -71,17 +72,22 @@ def analyze(
         _explain(files, reading)
         return
     from gbnbench.analysis.measures import measures
+    from gbnbench.core.sides import as_sides
 
     rows: list[tuple[Path, int, int, int, Measures]] = []
     more: list[dict[str, pd.DataFrame]] = []
+    boxes: list[Sides | None] = []
     failed = False
     for path in files:
         try:
-            for index, x in enumerate(read_cube(path, reading)):
+            read = read_torus(path, reading)
+            for index, x in enumerate(read.sets):
                 with naming(path, index):
-                    tables = _tables(x, projections, box)
-                    rows.append((path, index, x.shape[0], x.shape[1], measures(x)))
+                    sides = as_sides(read.sides, x.shape[1])
+                    tables = _tables(x, projections, box, sides)
+                    rows.append((path, index, x.shape[0], x.shape[1], measures(x, sides=sides)))
                     more.append(tables)
+                    boxes.append(sides)
         except GbnbenchError as error:
             failed = True
             click.echo(f"gbnbench: error: {error}", err=True)
@@ -92,14 +98,15 @@ def analyze(
                 "set": index,
                 "n": n,
                 "d": d,
+                **({} if sides is None else {"sides": list(sides)}),
                 "measures": {name: v if math.isfinite(v) else None for name, v in found.items()},
                 **{name: json.loads(table.to_json(orient="records")) for name, table in tables.items()},
             }
-            for (path, index, n, d, found), tables in zip(rows, more, strict=True)
+            for (path, index, n, d, found), tables, sides in zip(rows, more, boxes, strict=True)
         ]
         click.echo(json.dumps(listed, indent=2, allow_nan=False))
     elif rows:
-        _table(rows)
+        _table(rows, boxes)
         for (path, index, *_), tables in zip(rows, more, strict=True):
             for name, table in tables.items():
                 click.echo(f"\n{path}, set {index}, {name}:")
@@ -108,7 +115,9 @@ def analyze(
         click.get_current_context().exit(2)
 
 
-def _tables(x: FloatArray, projections: str | None, box: bool) -> dict[str, pd.DataFrame]:
+def _tables(
+    x: FloatArray, projections: str | None, box: bool, sides: Sides | None
+) -> dict[str, pd.DataFrame]:
     """Tables beside the measures of one set, by name."""
     n, d = x.shape
     tables: dict[str, pd.DataFrame] = {}
@@ -116,9 +125,11 @@ def _tables(x: FloatArray, projections: str | None, box: bool) -> dict[str, pd.D
         from gbnbench.analysis.radial import projections as projected
         from gbnbench.generators.gbn.projective import subsets
 
-        found = projected.frame(projected.projections(x, subsets(projections, d)))
+        found = projected.frame(projected.projections(x, subsets(projections, d), sides=sides))
         tables["projections"] = found.dropna(axis=1, how="all")  # a single set has no standard errors
     if box:
+        if sides is not None:
+            raise RefusalError("--box measures cubes alone, and this box has unequal sides: leave it out")
         import numpy as np
 
         from gbnbench.analysis.spatial.edge_density import edge_density
@@ -137,15 +148,17 @@ def _tables(x: FloatArray, projections: str | None, box: bool) -> dict[str, pd.D
 def _explain(files: tuple[Path, ...], reading: ReadingOptions) -> None:
     """Print, for each file, the plan of its sets' spectra."""
     from gbnbench.analysis.spectrum.settings import SpectrumSettings
+    from gbnbench.core.sides import as_sides
 
     failed = False
     for path in files:
         try:
-            shapes = [x.shape for x in read_cube(path, reading)]
+            read = read_torus(path, reading)
+            shapes = [x.shape for x in read.sets]
             for n, d in dict.fromkeys(shapes):
                 times = shapes.count((n, d))
                 with naming(path, shapes.index((n, d))):
-                    plan = SpectrumSettings().plan(n, d, 1)
+                    plan = SpectrumSettings().plan(n, d, 1, as_sides(read.sides, d))
                 click.echo(f"{path}{f', {times} sets, each' * (times > 1)}:\n{plan}")
         except GbnbenchError as error:
             failed = True
@@ -154,15 +167,19 @@ def _explain(files: tuple[Path, ...], reading: ReadingOptions) -> None:
         click.get_current_context().exit(2)
 
 
-def _table(rows: list[tuple[Path, int, int, int, Measures]]) -> None:
+def _table(rows: list[tuple[Path, int, int, int, Measures]], boxes: list[Sides | None]) -> None:
     """Print aligned columns: wide, so that each set keeps its line."""
     from gbnbench.analysis.measure_definitions import BY_NAME
+    from gbnbench.core.sides import sides_text
 
-    heads = ["file", "set", "n", "d", *(BY_NAME[name].title for name in rows[0][4])]
+    told = any(sides is not None for sides in boxes)
+    box = ["sides"] if told else []
+    heads = ["file", "set", "n", "d", *box, *(BY_NAME[name].title for name in rows[0][4])]
     cells = [heads]
-    for path, index, n, d, found in rows:
+    for (path, index, n, d, found), sides in zip(rows, boxes, strict=True):
         numbers = ["-" if math.isnan(v) else f"{v:.4g}" for v in found.values()]
-        cells.append([str(path), str(index), str(n), str(d), *numbers])
+        box = ["-" if sides is None else sides_text(sides)] if told else []
+        cells.append([str(path), str(index), str(n), str(d), *box, *numbers])
     widths = [max(len(row[i]) for row in cells) for i in range(len(heads))]
     for row in cells:
         first, *rest = (cell.rjust(width) for cell, width in zip(row, widths, strict=True))

@@ -43,7 +43,7 @@ bench.add_command(gbn)
 @options.quiet
 @options.device
 def periodogram(out: Path, quick: bool, as_json: bool, quiet: bool) -> None:
-    """Speed against error of the spectrum beside numpy and FINUFFT, hard cases, and how the cost grows.
+    """Speed against error of the spectrum beside numpy, FINUFFT, ducc0, hard cases, and how the cost grows.
 
     All methods run in one process, in turn; times are CPU time over all threads, and ratios are taken round
     by round. Tables are kept as they come, so a run that is stopped leaves what it has measured.
@@ -106,8 +106,9 @@ def _report(outcome: SpectrumTables) -> Iterator[str]:
                 for row in part.itertuples()
             ],
         )  # fmt: skip
-    if "FINUFFT" not in set(outcome.speed.family):
-        yield "\nFINUFFT is not installed: pip install finufft to add it"
+    for library in ("FINUFFT", "ducc0"):
+        if not any(str(family).startswith(library) for family in set(outcome.speed.family)):
+            yield f"\n{library} is not installed: pip install {library.lower()} to add it"
     first = outcome.speed.method.iloc[0]
     yield f"\nratio: CPU time over that of {first}, the median over rounds; P to 1%: least power known to 1%"
     yield "\nSlope of CPU time against work, from 1e7 operations; share of peak of the plain product"

@@ -13,17 +13,13 @@ import click
 from gbnbench.core.errors import FormatError, GbnbenchError
 
 if TYPE_CHECKING:
-    from gbnbench.core.torus import FloatArray
-    from gbnbench.io.points import ReadingOptions
+    from gbnbench.io.points import PointSets, ReadingOptions
 
-NO_TORUS = (
-    "says that its box is no torus, and it is measured as one: what crosses the sides is not real. "
-    "Estimates that hold in such a window: gbnbench analyze {} --window file"
-)
+WINDOW = "Estimates that hold in such a window: gbnbench analyze {} --window file"
 
 
-def read_cube(path: Path, reading: ReadingOptions) -> list[FloatArray]:
-    """Read the sets of a file whose box has equal sides, and warn where the file says that it is no torus.
+def read_torus(path: Path, reading: ReadingOptions) -> PointSets:
+    """Read the sets of a file with the sides of their torus, and warn where the file says that it is none.
 
     Parameters
     ----------
@@ -34,23 +30,23 @@ def read_cube(path: Path, reading: ReadingOptions) -> list[FloatArray]:
 
     Returns
     -------
-    list of (n_i, d) float64
-        Fractions of the box.
+    PointSets
+        Fractions of the box, and its sides.
 
     Raises
     ------
     FormatError
-        If the file cannot be read, or its box has unequal sides.
+        If the file cannot be read.
     """
     from gbnbench.io.points import read_sets
-    from gbnbench.io.points.point_sets import unequal_sides
+    from gbnbench.io.points.point_sets import NO_TORUS
 
     found = read_sets(path, reading)
-    if (fault := unequal_sides(found.sides)) is not None:
-        raise FormatError(path, fault)
     if found.toroidal is False:
-        click.echo(f"gbnbench: warning: {path}: {NO_TORUS.format(shlex.quote(str(path)))}", err=True)
-    return found.sets
+        click.echo(
+            f"gbnbench: warning: {path}: {NO_TORUS}. {WINDOW.format(shlex.quote(str(path)))}", err=True
+        )
+    return found
 
 
 @contextlib.contextmanager

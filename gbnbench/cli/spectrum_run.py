@@ -13,10 +13,11 @@ import numpy as np
 
 from gbnbench.analysis.spectrum.settings import SpectrumSettings
 from gbnbench.cli.json_text import json_text
-from gbnbench.cli.point_files import naming, read_cube
+from gbnbench.cli.point_files import naming, read_torus
 from gbnbench.cli.spectrum_output import check_format, places, write
 from gbnbench.cli.spectrum_text import as_record, as_text
 from gbnbench.core.errors import InputError
+from gbnbench.core.sides import Sides, as_sides
 from gbnbench.core.torus import FloatArray
 from gbnbench.execution import progress
 from gbnbench.io.lists import read_weights
@@ -38,11 +39,14 @@ class LabelledSets:
         The files, and which of their sets.
     x : (realizations, n, d) float64
         Points.
+    sides : tuple of d floats or None
+        Sides of their torus, of volume 1; None for a cube.
     """
 
     label: str
     sources: tuple[str, ...]
     x: FloatArray
+    sides: Sides | None = None
 
 
 def read_sets(files: Sequence[Path], reading: ReadingOptions, *, each: bool) -> list[LabelledSets]:
@@ -66,24 +70,34 @@ def read_sets(files: Sequence[Path], reading: ReadingOptions, *, each: bool) -> 
     FormatError
         If a file cannot be read.
     InputError
-        If sets that are to be averaged differ in n or d.
+        If sets that are to be averaged differ in n, d or the sides of their torus.
     """
     names: list[str] = []
     sets: list[FloatArray] = []
+    boxes: list[Sides | None] = []
     for path in files:
-        found = read_cube(path, reading)
+        read = read_torus(path, reading)
+        found = read.sets
         names += [f"{path}, set {k}" if len(found) > 1 else str(path) for k in range(len(found))]
         sets += found
+        boxes += [as_sides(read.sides, x.shape[1]) for x in found]
     if each or not sets:
-        return [LabelledSets(name, (name,), x[None]) for name, x in zip(names, sets, strict=True)]
-    for name, x in zip(names, sets, strict=True):
+        return [
+            LabelledSets(name, (name,), x[None], box) for name, x, box in zip(names, sets, boxes, strict=True)
+        ]
+    for name, x, box in zip(names, sets, boxes, strict=True):
+        if box != boxes[0]:
+            raise InputError(
+                f"only sets of one torus are averaged: the box of {name} has other sides than that of "
+                f"{names[0]}; --each gives a spectrum of each"
+            )
         if x.shape != sets[0].shape:
             raise InputError(
                 f"only sets of one size are averaged: {names[0]} has n={len(sets[0])}, d={sets[0].shape[1]}, "
                 f"{name} has n={len(x)}, d={x.shape[1]}; --each gives a spectrum of each"
             )
     more = f" and {len(files) - 1} more" if len(files) > 1 else ""
-    return [LabelledSets(f"{files[0]}{more}", tuple(names), np.stack(sets))]
+    return [LabelledSets(f"{files[0]}{more}", tuple(names), np.stack(sets), boxes[0])]
 
 
 def explain(settings: SpectrumSettings, sets: Sequence[LabelledSets], weights: Path | None) -> None:
@@ -104,12 +118,12 @@ def explain(settings: SpectrumSettings, sets: Sequence[LabelledSets], weights: P
         If the weights do not fit, or no evaluator can do it.
     """
     _weights(weights, sets)
-    alike: dict[tuple[int, ...], list[LabelledSets]] = {}
+    alike: dict[tuple[tuple[int, ...], Sides | None], list[LabelledSets]] = {}
     for one in sets:
-        alike.setdefault(one.x.shape, []).append(one)
-    for (realizations, n, d), same in alike.items():
+        alike.setdefault((one.x.shape, one.sides), []).append(one)
+    for ((realizations, n, d), sides), same in alike.items():
         more = f" and {len(same) - 1} more, each" if len(same) > 1 else ""
-        click.echo(f"{same[0].label}{more}:\n{settings.plan(n, d, realizations)}")
+        click.echo(f"{same[0].label}{more}:\n{settings.plan(n, d, realizations, sides)}")
 
 
 def compute(
@@ -146,7 +160,7 @@ def compute(
     GbnbenchError
         If something is wrong with any of it, before the first is found where that can be told.
     """
-    plans = [settings.plan(one.x.shape[1], one.x.shape[2], len(one.x)) for one in sets]
+    plans = [settings.plan(one.x.shape[1], one.x.shape[2], len(one.x), one.sides) for one in sets]
     if out is not None:
         for plan in plans:
             check_format(out, plan)
@@ -163,7 +177,7 @@ def compute(
             if settings.sigma is not None:
                 one = replace(one, label=f"{one.label} filtered by a Gaussian of {settings.sigma:g} spacings")
             with naming(Path(one.label)), _bar(plan.request.frequencies, quiet) as tell:
-                result = settings.evaluate(one.x, w, tell)
+                result = settings.evaluate(one.x, w, tell, one.sides)
             if paths:
                 write(paths[k], result, one.label, one.sources)
                 written += 1

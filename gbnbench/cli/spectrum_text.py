@@ -16,6 +16,7 @@ from gbnbench.core.errors import RefusalError
 from gbnbench.core.results.radial import ShellSpectrum
 from gbnbench.core.results.resolution import resolvable_power
 from gbnbench.core.results.spectrum import Spectrum
+from gbnbench.core.sides import sides_text
 from gbnbench.runs.spectrum_files import columns
 
 ROWS = 16  # printed
@@ -74,6 +75,8 @@ def as_record(result: Spectrum | ShellSpectrum, label: str) -> dict[str, Any]:
 
     names = ("n", "d", "realizations", "fmax", "precision", "method", "device", "error_rms", "error_bound")
     about = {name: getattr(result, name) for name in names}
+    if result.sides is not None:
+        about["sides"] = list(result.sides)
     if isinstance(result, Spectrum) and result.frequencies is None:
         result = shells_from_cube(result)
     return {"label": label, **about, "rows": records(pd.DataFrame(columns(result)))}
@@ -86,7 +89,8 @@ def _of_note(shells: ShellSpectrum, result: Spectrum | ShellSpectrum) -> list[st
     profile, said = shells.radial(), []
     try:
         said += [f"noise floor {_power(noise_floor(profile), result)}"]
-        said += [f"P(|f|=1) {_power(power_at_1(profile), result)}"]
+        lowest = "P(|f|=1)" if shells.sides is None else "P at the lowest |k|"
+        said += [f"{lowest} {_power(power_at_1(profile), result)}"]
         height, nu = peak(profile)
         said += [f"peak {_power(height, result)} at nu = {nu:.3g}"]
     except RefusalError:  # these shells do not reach so far
@@ -110,17 +114,23 @@ def headline(result: Spectrum | ShellSpectrum, label: str) -> str:
         Such as ``cube |f_a| <= 64, 16,641 frequencies, of mine.txt (n=1,024, d=2)``.
     """
     mean = f", mean of {result.realizations:,} sets" if result.realizations > 1 else ""
-    return f"{_content(result)} of {label} (n={result.n:,}, d={result.d}{mean})"
+    box = f", sides {sides_text(result.sides)}" if result.sides is not None else ""
+    return f"{_content(result)} of {label} (n={result.n:,}, d={result.d}{box}{mean})"
 
 
 def _content(result: Spectrum | ShellSpectrum) -> str:
     if isinstance(result, ShellSpectrum):
         low, high = result.frequency[[0, -1]]
         many = "s" * (len(result.frequency) > 1)
-        return f"{len(result.frequency):,} shell{many}, |f| from {low:.4g} to {high:.4g},"
+        length = "|f|" if result.sides is None else "|k|"
+        return f"{len(result.frequency):,} shell{many}, {length} from {low:.4g} to {high:.4g},"
     if result.frequencies is not None:
         return f"{len(result):,} listed frequenc{'y' if len(result) == 1 else 'ies'}"
-    return f"{'half ' if result.half else ''}cube |f_a| <= {result.fmax}, {result.power.size:,} frequencies,"
+    half = "half " if result.half else ""
+    if result.sides is not None:
+        reach = f"|f_a| <= {', '.join(map(str, result.harmonics))}"
+        return f"{half}box {reach} round |k| <= {result.fmax}, {result.power.size:,} frequencies,"
+    return f"{half}cube |f_a| <= {result.fmax}, {result.power.size:,} frequencies,"
 
 
 def exactness(result: Spectrum | ShellSpectrum) -> str:

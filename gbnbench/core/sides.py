@@ -17,7 +17,7 @@ from gbnbench.core.torus import FloatArray
 
 Sides = tuple[float, ...]
 
-EQUAL = 1e-12  # relative difference at or below which sides are those of a cube
+EQUAL = 1e-9  # of the longest side: sides that differ by no more are those of a cube
 MOST_UNEQUAL = 1e6  # longest side over the shortest
 
 
@@ -66,7 +66,7 @@ def as_sides(sides: ArrayLike | None, d: int) -> Sides | None:
     shortest, longest = float(lengths.min()), float(lengths.max())
     if longest / shortest > MOST_UNEQUAL:
         raise InputError(f"sides must lie within a factor of {MOST_UNEQUAL:g} of one another; got {sides!r}")
-    if longest <= shortest * (1 + EQUAL):
+    if longest - shortest <= EQUAL * longest:
         return None
     ratios = lengths / longest
     unit = math.exp(float(np.log(ratios).mean()))

@@ -1,7 +1,8 @@
 """OpenCL made safe: the choice of a device, proven vector widths, programs built once, buffers held."""
 
 from gbnbench.opencl.device import DEVICE_VARIABLE, Device, choose, devices, devices_present, use_device
-from gbnbench.opencl.runtime import Program, Runtime, runtime
+from gbnbench.opencl.program import Program
+from gbnbench.opencl.runtime import Runtime, runtime
 
 __all__ = [
     "DEVICE_VARIABLE",

@@ -9,7 +9,8 @@ import numpy as np
 
 from gbnbench.core.cache_folder import recall, remember
 from gbnbench.core.errors import DeviceError, InputError
-from gbnbench.opencl.runtime import Program, Runtime
+from gbnbench.opencl.program import Program
+from gbnbench.opencl.runtime import Runtime
 from gbnbench.opencl.runtime import runtime as open_runtime
 
 CHAINS = 10  # two multiply-adds a cycle, each four or five cycles long

@@ -6,8 +6,6 @@ import os
 import warnings
 from collections.abc import Mapping, Sequence
 from functools import cache, cached_property
-from importlib import resources
-from threading import Lock
 from typing import Any
 
 import numpy as np
@@ -16,37 +14,11 @@ from numpy.typing import NDArray
 from gbnbench.core.cache_folder import cache_folder
 from gbnbench.core.errors import DeviceError
 from gbnbench.opencl.device import Device, choose, handle, import_pyopencl
+from gbnbench.opencl.program import Program, source
 from gbnbench.opencl.width_probe import VectorWidths, vector_widths
 
 # Safe everywhere it was tried; -cl-fast-relaxed-math and -cl-unsafe-math-optimizations give wrong gradients.
 OPTIONS = ("-cl-std=CL1.2", "-cl-mad-enable", "-cl-finite-math-only")
-
-
-# A kernel object holds its arguments from the moment they are set until it is enqueued: one thread at a time.
-LAUNCH = Lock()
-
-
-class Program:
-    """A built program, which holds one kernel object for each entry point."""
-
-    def __init__(self, owner: Runtime, built: Any) -> None:
-        self._runtime = owner
-        self._kernels = {kernel.function_name: kernel for kernel in built.all_kernels()}
-
-    def run(self, name: str, global_size: Sequence[int], local_size: Sequence[int], *args: Any) -> None:
-        """Enqueue a kernel.
-
-        Parameters
-        ----------
-        name : str
-            Entry point.
-        global_size, local_size : sequences of int
-            Work-items. The local size is always given, since without it PoCL uses one core.
-        *args
-            Buffers and numpy scalars of the kernel's own types.
-        """
-        with LAUNCH:
-            self._kernels[name](self._runtime.queue, tuple(global_size), tuple(local_size), *args)
 
 
 class Runtime:
@@ -138,7 +110,7 @@ class Runtime:
             try:
                 with warnings.catch_warnings():
                     warnings.simplefilter("ignore", self._cl.CompilerWarning)
-                    built = self._cl.Program(self.context, _source(package, tuple(files))).build(
+                    built = self._cl.Program(self.context, source(package, tuple(files))).build(
                         options, cache_dir=str(cache_folder() / "pyopencl")
                     )
             except self._cl.RuntimeError as error:
@@ -165,6 +137,21 @@ class Runtime:
                 f"{nbytes} were needed"
             )
         return self._cl.Buffer(self.context, self._cl.mem_flags.READ_WRITE, max(int(nbytes), 1))
+
+    def shared(self, array: NDArray[Any]) -> Any:
+        """Make a buffer of a host array's own memory, which a CPU device reads and writes in place.
+
+        Parameters
+        ----------
+        array : array
+            C-contiguous; it must live as long as the buffer.
+
+        Returns
+        -------
+        pyopencl.Buffer
+        """
+        flags = self._cl.mem_flags.READ_WRITE | self._cl.mem_flags.USE_HOST_PTR
+        return self._cl.Buffer(self.context, flags, hostbuf=array)
 
     def download(self, buffer: Any, out: NDArray[Any]) -> NDArray[Any]:
         """Copy the beginning of a buffer to the host, after the kernels before it have ended.
@@ -213,16 +200,6 @@ class Runtime:
     def finish(self) -> None:
         """Wait for all that was enqueued."""
         self.queue.finish()
-
-
-@cache
-def _source(package: str, files: tuple[str, ...]) -> str:
-    parts = []
-    for name in files:
-        home = "gbnbench.opencl" if name.startswith("/") else package
-        text = (resources.files(home) / "kernels" / name.lstrip("/")).read_text()
-        parts.append(f'#line 1 "{name.lstrip("/")}"\n{text}')
-    return "\n".join(parts)
 
 
 @cache

@@ -66,6 +66,9 @@ def judge(run: Run, baseline: Run) -> tuple[tuple[Change, ...], tuple[str, ...]]
     for row, source in new.items():
         if row not in old:
             continue
+        if source.sides != old[row].sides:
+            notes.append(f"{_say(row)}: no verdict, its torus has other sides than in the baseline")
+            continue
         if min(source.realizations, old[row].realizations) < 2:
             notes.append(f"{_say(row)}: no verdict from a single realization")
             continue

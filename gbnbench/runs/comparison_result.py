@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from gbnbench.analysis.measures import Analysis
+from gbnbench.core.sides import Sides
 from gbnbench.core.torus import FloatArray
 
 
@@ -39,6 +40,11 @@ class SourceResult(Analysis):
     realizations: int
     points: FloatArray
     cpu_seconds: float
+
+    @property
+    def sides(self) -> Sides | None:
+        """Sides of the torus, of volume 1; None for a cube."""
+        return self.spectrum.sides
 
 
 @dataclass(frozen=True)

@@ -60,6 +60,8 @@ def encode(result: SourceResult) -> dict[str, bytes]:
     spectra: dict[str, NDArray[Any]] = {"power": spectrum.power}
     if spectrum.frequencies is not None:
         spectra["frequencies"] = spectrum.frequencies
+    if spectrum.sides is not None:
+        spectra["sides"] = np.array(spectrum.sides)
     spectra |= {name: np.asarray(getattr(spectrum, name)) for name in SPECTRUM_SCALARS}
     about = {
         **{name: getattr(result, name) for name in SOURCE},
@@ -122,6 +124,7 @@ def decode(folder: Path) -> SourceResult:
             spectrum=Spectrum(
                 power=spectra["power"],
                 frequencies=spectra.get("frequencies"),
+                sides=tuple(spectra["sides"].tolist()) if "sides" in spectra else None,
                 **{name: kind(spectra[name]) for name, kind in SPECTRUM_SCALARS.items()},
             ),
             radial=RadialPower(*(radial[name].to_numpy() for name in ("frequency", "nu", "power", "count"))),

@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 import difflib
 import hashlib
-import json
 import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
@@ -16,13 +15,14 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gbnbench.core.errors import FormatError, InputError, RefusalError
+from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.settings import specification
+from gbnbench.core.sides import as_sides
 from gbnbench.core.torus import FloatArray, as_realizations
 from gbnbench.generators.protocol import Generator
 from gbnbench.generators.registry import GENERATORS, find, of_instance
-from gbnbench.io.points import ReadingOptions, read_sets
-from gbnbench.io.points.formats.registry import FOLDER_SUFFIXES, in_folders
+from gbnbench.io.points import ReadingOptions
+from gbnbench.runs.file_sets import read_groups
 
 DEFAULT_READING = ReadingOptions()
 DEFAULT_SOURCES = ("random", "jittered", "sobol", "lloyd", "fpo", "gbn")
@@ -51,7 +51,7 @@ class Source:
     reading : mapping
         What the user said of how the files are read, as ``ReadingOptions.record`` writes it.
     sides : tuple of float or None
-        Sides of the box in the files' unit; None where they tell none.
+        Sides of the box, in the files' unit or in that of the caller; None where nobody told any.
     toroidal : bool or None
         Whether the box is a torus, where the files or the user say so.
     """
@@ -76,7 +76,8 @@ class Source:
         }  # fmt: skip
         if self.generator is None:
             read = {"reading": dict(self.reading)} if self.reading else {}
-            return {**same, "kind": self.kind, "sha256": self.digest, **read}
+            box = {} if as_sides(self.sides, self.d) is None else {"sides": list(self.sides or ())}
+            return {**same, "kind": self.kind, "sha256": self.digest, **read, **box}
         kind = type(self.generator)
         own = {} if GENERATORS.get(kind.name) is kind else {"class": f"{kind.__module__}.{kind.__qualname__}"}
         return {
@@ -88,7 +89,7 @@ class Source:
         }
 
 
-def array_source(x: ArrayLike, label: str = "array") -> Source:
+def array_source(x: ArrayLike, label: str = "array", sides: ArrayLike | None = None) -> Source:
     """Return points that are in memory as a source, known by a checksum of their values.
 
     Parameters
@@ -97,6 +98,8 @@ def array_source(x: ArrayLike, label: str = "array") -> Source:
         Points on the unit torus.
     label : str
         What the user reads.
+    sides : (d,) array_like, optional
+        Lengths of the torus's sides, whose ratios count; a cube if not given.
 
     Returns
     -------
@@ -106,13 +109,15 @@ def array_source(x: ArrayLike, label: str = "array") -> Source:
     Raises
     ------
     InputError
-        If x is no array of points in [0, 1)^d, or the label is empty.
+        If x is no array of points in [0, 1)^d, the label is empty, or sides are not d lengths.
     """
     if not label:
         raise InputError("a source needs a name; got an empty one")
     sets = as_realizations(x)
     digest = hashlib.sha256(repr(sets.shape).encode() + sets.tobytes()).hexdigest()
-    return Source("", label, sets.shape[1], sets.shape[2], len(sets), sets=sets, digest=digest, kind="array")
+    realizations, n, d = sets.shape
+    told = None if as_sides(sides, d) is None else tuple(np.asarray(sides, dtype=np.float64).tolist())
+    return Source("", label, n, d, realizations, sets=sets, digest=digest, kind="array", sides=told)
 
 
 def resolve(
@@ -209,46 +214,12 @@ def _title(path: Path) -> str:
 
 def _read(path: Path, title: str, reading: ReadingOptions) -> list[Source]:
     """Read the sets of a file or folder, a source for each (n, d) among them."""
-    files = [path]
-    if path.is_dir():
-        files = sorted(
-            (f for f in path.iterdir() if f.is_file() and in_folders(f)),
-            key=lambda f: [(part.isdigit(), int(part) if part.isdigit() else 0, part)
-                           for part in re.split(r"(\d+)", f.name)],
-        )  # fmt: skip
-        if not files:
-            raise InputError(f"{path} holds no point sets; files are known by {', '.join(FOLDER_SUFFIXES)}")
-    groups: dict[tuple[int, int], list[FloatArray]] = {}
-    digests: dict[tuple[int, int], list[str]] = {}
-    boxes: dict[tuple[int, int], tuple[tuple[float, ...] | None, bool | None]] = {}
-    for file in files:
-        digest = _sha256(file)
-        found = read_sets(file, reading)
-        for x in found.sets:
-            shape = (x.shape[0], x.shape[1])
-            groups.setdefault(shape, []).append(x)
-            digests.setdefault(shape, []).append(digest)
-            if boxes.setdefault(shape, (found.sides, found.toroidal)) != (found.sides, found.toroidal):
-                raise FormatError(file, f"its box is not that of the files before: {_box(*boxes[shape])}")
-    said = reading.record()
-    more = json.dumps(said) if said else ""
     return [
-        Source("", title, n, d, len(sets), sets=np.stack(sets), kind="files", reading=said,
-               digest=hashlib.sha256(("".join(digests[n, d]) + more).encode()).hexdigest(),
-               sides=boxes[n, d][0], toroidal=boxes[n, d][1])
-        for (n, d), sets in groups.items()
+        Source("", title, found.sets.shape[1], found.sets.shape[2], len(found.sets), sets=found.sets,
+               digest=found.digest, kind="files", reading=reading.record(), sides=found.sides,
+               toroidal=found.toroidal)
+        for found in read_groups(path, reading)
     ]  # fmt: skip
-
-
-def _box(sides: tuple[float, ...] | None, toroidal: bool | None) -> str:
-    """Describe a box in an error."""
-    size = "the unit torus" if sides is None else "sides " + " x ".join(f"{side:g}" for side in sides)
-    return f"{size}, no torus" if toroidal is False else size
-
-
-def _sha256(path: Path) -> str:
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def _distinct(sources: list[Source]) -> tuple[Source, ...]:

@@ -13,10 +13,12 @@ from numpy.typing import NDArray
 from gbnbench import __version__
 from gbnbench.analysis.radial.anisotropy import ROUNDING_VARIANCE, anisotropy
 from gbnbench.analysis.radial.profile_measures import ROUNDING_POWER
+from gbnbench.analysis.spectrum.box_shells import pooled_spectrum
 from gbnbench.core.errors import InputError
 from gbnbench.core.results.radial import ShellSpectrum
 from gbnbench.core.results.resolution import resolvable_power
 from gbnbench.core.results.spectrum import Spectrum
+from gbnbench.core.sides import wave_numbers
 from gbnbench.io import data_files
 from gbnbench.runs.source_files import SPECTRUM_SCALARS
 
@@ -87,6 +89,8 @@ def rings_of(shells: ShellSpectrum) -> pd.DataFrame:
     powers are all equal, as those of a single point are.
     """
     rings = anisotropy(shells)
+    if shells.sides is not None:
+        shells = pooled_spectrum(shells)
     ring = np.searchsorted(rings["frequency"].to_numpy(), np.rint(shells.frequency).astype(np.int64))
     mean = np.bincount(ring, shells.count * shells.power) / np.bincount(ring, shells.count)
     equal = rings["anisotropy_db"].to_numpy() <= 10 * math.log10(ROUNDING_VARIANCE)
@@ -108,20 +112,23 @@ def columns(result: Spectrum | ShellSpectrum) -> dict[str, NDArray[Any]]:
     if isinstance(result, ShellSpectrum):
         rings = rings_of(result)
         ring = np.rint(result.frequency).astype(np.int64)
-        decibel = rings["anisotropy_db"].to_numpy()[np.searchsorted(rings["frequency"].to_numpy(), ring)]
+        # The shells of unequal sides are pooled in rings, whose first may lie above the first shell.
+        decibel = rings.set_index("frequency")["anisotropy_db"].reindex(ring).to_numpy()
         return {**{name: getattr(result, name) for name in _SHELL}, "ring": ring, "anisotropy_db": decibel}
     if result.frequencies is None:
-        first = np.arange(0 if result.half else -result.fmax, result.fmax + 1)
-        rest = np.arange(-result.fmax, result.fmax + 1)
-        grid = np.meshgrid(first, *[rest] * (result.d - 1), indexing="ij")
+        axes = [np.arange(-f, f + 1) for f in result.harmonics]
+        axes[0] = axes[0][result.harmonics[0] :] if result.half else axes[0]
+        grid = np.meshgrid(*axes, indexing="ij")
         return {**{f"f{a}": axis.ravel() for a, axis in enumerate(grid)}, "power": result.power.ravel()}
     found = {f"f{a}": result.frequencies[:, a] for a in range(result.d)}
-    radius = np.sqrt((result.frequencies.astype(np.float64) ** 2).sum(axis=1))
+    radius = wave_numbers(result.frequencies, result.sides)
     return {**found, "frequency": radius, "nu": radius * result.spacing, "power": result.power}
 
 
 def _arrays(result: Spectrum | ShellSpectrum, sources: Sequence[str]) -> dict[str, NDArray[Any]]:
     about = {name: np.asarray(getattr(result, name)) for name in SPECTRUM_SCALARS}
+    if result.sides is not None:
+        about["sides"] = np.array(result.sides)
     about |= {"version": np.asarray(__version__), "sources": np.asarray(list(sources), dtype=np.str_)}
     if isinstance(result, ShellSpectrum):
         rings = rings_of(result)

@@ -14,7 +14,6 @@ import numpy as np
 from gbnbench import __version__
 from gbnbench.core.errors import InputError
 from gbnbench.execution.progress import Progress
-from gbnbench.io.points.point_sets import unequal_sides
 from gbnbench.opencl import choose
 from gbnbench.runs import comparison_folder
 from gbnbench.runs.baseline import Change, judge
@@ -115,9 +114,6 @@ def run_comparison(
         raise InputError(f"jobs must be at least 1; got {jobs}")
     if seed < 0:
         raise InputError(f"seed must not be negative; got {seed}")
-    for source in sources:
-        if (fault := unequal_sides(source.sides)) is not None:
-            raise InputError(f"{source.label} (n={source.n}, d={source.d}): {fault}")
     earlier = None if baseline is None else comparison_folder.read_run(baseline)
     if earlier is not None:
         _require_common(sources, earlier, baseline)

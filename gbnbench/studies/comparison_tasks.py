@@ -11,6 +11,7 @@ import numpy as np
 from gbnbench.analysis.measures import Analysis, analyse
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import Generator, checked_draw, realization_rng
+from gbnbench.io.points.point_sets import NO_TORUS
 from gbnbench.runs.comparison_folder import Realization, realization_key
 from gbnbench.runs.comparison_result import SourceResult
 from gbnbench.runs.resumable import Task
@@ -57,7 +58,7 @@ def comparison_tasks(sources: Sequence[Source], seed: int, jobs: int) -> list[Ta
             source.key,
             f"{row}, measuring it",
             analyse if source.generator is None else analyse_realizations,
-            (source.sets,) if source.generator is None else (),
+            (source.sets, None, source.sides) if source.generator is None else (),
             tuple(draw.key for draw in draws),
             partial(source_result, source),
             f"measured {done}",
@@ -123,8 +124,9 @@ def source_result(source: Source, analysis: Analysis, realizations: Sequence[Rea
     -------
     SourceResult
     """
+    told = (f"the file {NO_TORUS}",) if source.toroidal is False else ()
     return SourceResult(
-        **vars(analysis),
+        **{**vars(analysis), "warnings": (*told, *analysis.warnings)},
         key=source.key,
         label=source.label,
         n=source.n,

@@ -22,6 +22,8 @@ LOOKS: dict[str, tuple[str, str, Any]] = {
     "gbnbench": (style.COLOURS[1], "o", "-"),
     "two-group product": (style.COLOURS[4], "v", (0, (1, 1.2))),
     "FINUFFT": (style.COLOURS[0], "s", (0, (4, 1.5))),
+    "ducc0, half": (style.COLOURS[7], "<", (0, (3, 1, 1, 1))),
+    "ducc0, all": (style.COLOURS[7], ">", (0, (1, 1))),
     "gbnbench without a device": (style.COLOURS[5], "p", ""),
     "naive kernel": (style.COLOURS[6], "X", ""),
     "numpy separable": (style.COLOURS[2], "^", ""),
@@ -55,11 +57,11 @@ def figure(speed: pd.DataFrame, machine: Mapping[str, Any]) -> Figure:
     cases = list(dict.fromkeys(speed.case))
     drawn = speed[speed.error_rms.notna()]
     families = [f for f in [*LOOKS, *sorted(set(drawn.family) - set(LOOKS))] if f in set(drawn.family)]
-    names = dict.fromkeys(drawn[drawn.family == "FINUFFT"].method)
     caption = CAPTION
-    if names:
-        tolerances = ", ".join(name.removeprefix("FINUFFT ") for name in names)
-        caption += f"FINUFFT, one thread, tolerances from right to left: {tolerances}. "
+    for library in ("FINUFFT", "ducc0, half", "ducc0, all"):
+        if names := list(dict.fromkeys(drawn[drawn.family == library].method)):
+            tolerances = ", ".join(name.removeprefix(f"{library} ") for name in names)
+            caption += f"{library}, one thread, tolerances from right to left: {tolerances}. "
     sheet = layout.sheet(
         "What a spectrum costs, and how exact it is",
         caption + machine_line(machine),
@@ -170,5 +172,7 @@ def machine_line(machine: Mapping[str, Any]) -> str:
     versions = machine.get("versions", {})
     parts = [f"{machine.get('processor', 'unknown processor')}, {machine.get('cores', '?')} cores"]
     parts.append(str(machine.get("device", "unknown device")))
-    parts += [f"{name} {versions[name]}" for name in ("finufft", "numpy", "gbnbench") if versions.get(name)]
+    parts += [
+        f"{name} {versions[name]}" for name in ("finufft", "ducc0", "numpy", "gbnbench") if versions.get(name)
+    ]
     return " · ".join(parts)

@@ -15,8 +15,14 @@ MOST = 16384  # beyond this many points in the plane a panel would be solid ink:
 VECTOR = 4096  # a PDF holds so many points as vectors, more as a picture
 
 
+def extent(source: SourceResult) -> tuple[float, ...]:
+    """Return the sides of the torus as a picture draws them, the longest being 1."""
+    sides = source.sides or (1.0,) * source.d
+    return tuple(side / max(sides[:2]) for side in sides)
+
+
 def window(source: SourceResult) -> float:
-    """Return the side of the corner square that a picture shows, below 1 for very large plane sets."""
+    """Return the share of each side that a picture shows, a corner: below 1 for very large plane sets."""
     return 1.0 if source.n <= MOST or source.d > 2 else math.sqrt(4096 / source.n)
 
 
@@ -28,7 +34,13 @@ def note(source: SourceResult) -> str:
         shown = f" of the first {MOST:,} points" if source.n > MOST else ""
         return f"First two of {source.d} coordinates{shown}."
     side = window(source)
-    return "" if side == 1.0 else f"Lower left corner of side {side:.3g}."
+    if side == 1.0:
+        return ""
+    return (
+        f"Lower left corner of side {side:.3g}."
+        if source.sides is None
+        else f"Lower left corner, {side:.3g} of each side."
+    )
 
 
 def panel(ax: Axes, source: SourceResult) -> None:
@@ -44,14 +56,17 @@ def panel(ax: Axes, source: SourceResult) -> None:
     layout.frame(ax)
     x = source.points[0]
     side = window(source)
-    ax.set_xlim(0, side)
+    right, *above = (side * length for length in extent(source))
+    ax.set_xlim(0, right)
     if source.d == 1:
         ax.set_ylim(0, 1)
         ax.vlines(x[:, 0], 0.35, 0.65, color=style.INK, linewidth=0.7, rasterized=len(x) > VECTOR)
         return
-    ax.set_ylim(0, side)
+    ax.set_ylim(0, above[0])
     ax.set_aspect("equal")
     x = x[(x[:, 0] <= side) & (x[:, 1] <= side)][:MOST]
+    if source.sides is not None:
+        x = x * extent(source)
     inches = ax.get_position().width * ax.figure.get_figwidth()  # type: ignore[union-attr]
     size = min(max(0.36 * 72 * inches / math.sqrt(max(len(x), 1)), 0.7), 5.0)
     ax.plot(
@@ -77,9 +92,8 @@ def figure(run: Run, group: Group | None = None) -> Figure:
     """
     sources = members(run, group)
     notes = " ".join(dict.fromkeys(filter(None, map(note, sources))))
-    caption = f"First realization of each source in the unit square, x right, y up. {notes} ".replace(
-        "  ", " "
-    )
+    place = "its rectangle or square" if any(s.sides is not None for s in sources) else "the unit square"
+    caption = f"First realization of each source in {place}, x right, y up. {notes} ".replace("  ", " ")
     sheet = layout.sheet(
         "Points", caption + captions.settings(run, group), len(sources), 2.5, [2.5], columns=3, left=0.2
     )

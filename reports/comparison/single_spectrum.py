@@ -12,9 +12,11 @@ from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
 from gbnbench import __version__
 from gbnbench.analysis.radial.radial_power import shells_from_cube
+from gbnbench.analysis.spectrum.box_shells import pooled_spectrum
 from gbnbench.core.results.measures import Measures
 from gbnbench.core.results.radial import ShellSpectrum
 from gbnbench.core.results.spectrum import Spectrum
+from gbnbench.core.sides import sides_text
 from gbnbench.reports import captions, layout, style
 from gbnbench.reports.comparison import radial, spectrum
 from gbnbench.reports.comparison.loglog import ZERO
@@ -43,10 +45,12 @@ def figure(result: Spectrum | ShellSpectrum, label: str) -> Figure:
     source = _source(result, label)
     run = Run({"device": result.device.split(" (")[0], "version": __version__}, (source,))
     square = isinstance(result, Spectrum) and result.d == 2
-    caption = (
-        "Mean power over each exact shell |f| against nu = |f| n^(-1/d), DC excluded; the line at 1 is white "
-        "noise. "
-    )
+    shell = "exact shell |f| against nu = |f| n^(-1/d)"
+    if source.sides is not None:
+        shell = (
+            f"pooled shell |k| of the torus with sides {sides_text(source.sides)} against nu = |k| n^(-1/d)"
+        )
+    caption = f"Mean power over each {shell}, DC excluded; the line at 1 is white noise. "
     limits = radial.decibel_limits([source])
     decibel = source.anisotropy["anisotropy_db"].to_numpy(dtype=float)
     if np.isfinite(decibel).any():
@@ -147,7 +151,8 @@ def _source(result: Spectrum | ShellSpectrum, label: str) -> SourceResult:
     else:
         none = np.empty((0, result.d), np.int64)
         n, d, sets, fmax = result.n, result.d, result.realizations, result.fmax
-        whole, shells = Spectrum(np.empty(0), n, d, sets, fmax, none, result.precision), result
+        whole = Spectrum(np.empty(0), n, d, sets, fmax, none, result.precision, sides=result.sides)
+        shells = result
     return SourceResult(
         key="spectrum",
         label=label,
@@ -156,7 +161,7 @@ def _source(result: Spectrum | ShellSpectrum, label: str) -> SourceResult:
         realizations=result.realizations,
         points=np.empty((result.realizations, 0, result.d)),
         spectrum=whole,
-        radial=shells.radial(),
+        radial=(shells if shells.sides is None else pooled_spectrum(shells)).radial(),
         anisotropy=rings_of(shells),
         rdf=None,
         valence=None,

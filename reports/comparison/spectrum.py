@@ -30,14 +30,16 @@ def plane(spectrum: Spectrum) -> FloatArray | None:
     -------
     (2*fmax+1, 2*fmax+1) float64 or None
         The whole spectrum in 2D; in higher dimensions the slice where all other frequencies are 0; in 1D a
-        single column, (2*fmax+1, 1). Frequencies that were not evaluated are nan. None where a list of
-        frequencies has none in that plane.
+        single column, (2*fmax+1, 1). Of a torus with unequal sides the box, (2*f_0+1, 2*f_1+1). Frequencies
+        that were not evaluated are nan. None where a list of frequencies has none in that plane.
     """
     f, d = spectrum.fmax, spectrum.d
     wide = (2 * f + 1, 2 * f + 1 if d > 1 else 1)
     if spectrum.frequencies is None:
-        cut = spectrum.power[(slice(None), slice(None)) + (f,) * (d - 2)] if d > 1 else spectrum.power
-        return np.array(cut, dtype=np.float64).reshape(wide)
+        first, *others = spectrum.power.shape
+        centre = tuple(size // 2 for size in others[1:])
+        cut = spectrum.power[:, :, *centre] if d > 1 else spectrum.power
+        return np.array(cut, dtype=np.float64).reshape(first, -1)
     listed = np.asarray(spectrum.frequencies)
     flat = np.all(listed[:, 2:] == 0, axis=1) & np.all(np.abs(listed) <= f, axis=1)
     if not flat.any():
@@ -106,7 +108,11 @@ def panel(ax: Axes, source: SourceResult, scale: LogNorm | None, *, ticks: bool 
         layout.empty(ax, "no frequency of the plane was evaluated")
         return
     reach = (source.spectrum.fmax + 0.5) * source.spectrum.spacing
-    extent = (-reach, reach, -reach, reach)
+    sides = source.sides or (1.0, 1.0)
+    right, up = (
+        source.spectrum.spacing * (size / 2) / side for size, side in zip(image.shape, sides, strict=False)
+    )
+    extent = (-reach, reach, -reach, reach) if source.sides is None else (-right, right, -up, up)
     if scale is None:
         ax.imshow(
             tone_map(image).T, cmap="gray", vmin=0, vmax=1, origin="lower", extent=extent, aspect="equal"
@@ -115,6 +121,9 @@ def panel(ax: Axes, source: SourceResult, scale: LogNorm | None, *, ticks: bool 
         safe = np.maximum(without_dc(image), float(scale.vmin or LOWEST))
         ax.imshow(safe.T, cmap=palette(), norm=scale, origin="lower", extent=extent, aspect="equal")
     layout.frame(ax)
+    if source.sides is not None:  # the same square of nu as for others
+        ax.set_xlim(-reach, reach)
+        ax.set_ylim(-reach, reach)
     if ticks:
         whole = math.floor(reach)
         marks = [-whole, 0, whole] if whole else [0]

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from gbnbench.analysis.measure_definitions import DEFINITIONS, Definition, comparable_value
 from gbnbench.core.errors import InputError
 from gbnbench.core.number_text import error_number, number
+from gbnbench.core.sides import sides_text
 from gbnbench.reports.source_groups import Group, groups, members
 from gbnbench.runs.comparison_result import Run, SourceResult
 
@@ -144,11 +145,12 @@ def row_label(source: SourceResult, run: Run) -> str:
     Returns
     -------
     str
-        Label of the source in one line, with n and d where the run has several.
+        Label of the source in one line, with n and d where the run has several, and unequal sides.
     """
     every = groups(run)
     marks = [f"n={source.n}"] if len({n for n, _ in every}) > 1 else []
     marks += [f"d={source.d}"] if len({d for _, d in every}) > 1 else []
+    marks += [f"sides {sides_text(source.sides)}"] if source.sides is not None else []
     label = "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in source.label)
     return " ".join([label, *marks])
 

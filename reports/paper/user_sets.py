@@ -7,6 +7,7 @@ import difflib
 from collections.abc import Sequence
 
 from gbnbench.core.errors import InputError
+from gbnbench.core.sides import as_sides
 from gbnbench.generators.registry import GENERATORS
 from gbnbench.reports.paper.figure import FigureOptions, PaperFigure
 from gbnbench.reports.paper.method_styles import NAMES
@@ -30,7 +31,8 @@ def check_sets(figures: Sequence[PaperFigure], options: FigureOptions) -> None:
     ------
     InputError
         If a method has a generator here, if its name is close to that of a method of the paper, if none
-        of the figures shows the method, or if they show it in other dimensions than those of its sets.
+        of the figures shows the method, if they show it in other dimensions than those of its sets, or if its
+        torus has unequal sides.
     """
     for name, path in options.sets.items():
         if name in GENERATORS:
@@ -49,7 +51,13 @@ def check_sets(figures: Sequence[PaperFigure], options: FigureOptions) -> None:
             raise InputError(
                 f"--sets {name}: figure {asked} shows no sets of it; figures 1, 8 and 9 show any method"
             )
-        found = sorted({source.d for source in resolve([path], (1,), (1,), 1, options.reading)[0]})
+        sources = resolve([path], (1,), (1,), 1, options.reading)[0]
+        if any(as_sides(source.sides, source.d) is not None for source in sources):
+            raise InputError(
+                f"--sets {name}: its box has unequal sides, and the figures show sets of the unit torus; "
+                "gbnbench compare measures and draws it"
+            )
+        found = sorted({source.d for source in sources})
         fits = (2, 3, 8) if set(shows) & set(ANY_DIMENSION) else (2,)
         if not set(found) & set(fits):
             raise InputError(

@@ -159,3 +159,35 @@ def test_n_must_be_whole_numbers(n, tmp_path):
 def test_a_device_that_is_not_there_is_named(tmp_path):
     with pytest.raises(gbnbench.GbnbenchError, match="'no such device' fits no device"):
         compare("random", tmp_path, device="no such device")
+
+
+def test_arrays_of_a_rectangle_are_measured_saved_drawn_and_told_apart(tmp_path: Path) -> None:
+    made = compare({"mine": MINE, "other": "random"}, tmp_path / "out", sides=(200, 100), pictures=True)
+    mine, other = made.sources
+    assert mine.sides == pytest.approx((2**0.5, 0.5**0.5))
+    assert other.sides is None
+    expected = gbnbench.measures(MINE, sides=(2, 1))
+    assert dict(mine.measures) == pytest.approx(dict(expected), nan_ok=True)
+    again = gbnbench.Comparison.read(tmp_path / "out").sources[0]
+    assert again.sides == mine.sides
+    np.testing.assert_array_equal(again.spectrum.power, mine.spectrum.power)
+    assert "mine sides 2:1" in str(made)
+    assert "mine sides 2:1" in made.to_markdown()
+    assert "mine sides 2:1" in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    settings = json.loads((tmp_path / "out" / "settings.json").read_text())
+    assert "[200.0, 100.0]" in json.dumps(settings)
+    for name in ("points", "valence"):
+        axes = made.figure(name).axes[0]
+        assert axes.get_xlim()[1] / axes.get_ylim()[1] == pytest.approx(2)
+        assert axes.get_aspect() in ("equal", 1.0)
+    with pytest.raises(InputError, match=r"sides of mine is \[200.0, 100.0\] there, None here"):
+        compare({"mine": MINE, "other": "random"}, tmp_path / "out", sides=(100, 100))
+    with pytest.raises(InputError, match="sides must be 2 lengths"):
+        compare(MINE, tmp_path / "wrong", sides=(1, 2, 3))
+
+
+def test_a_baseline_of_other_sides_gives_no_verdict(tmp_path: Path) -> None:
+    square = compare({"mine": MINE}, tmp_path / "square")
+    told = compare({"mine": MINE}, tmp_path / "told", sides=(2, 1), baseline=square.folder)
+    assert told.changes == ()
+    assert any("other sides" in note for note in told.notes)

@@ -8,6 +8,7 @@ import pytest
 from gbnbench.core import cache_folder
 from gbnbench.core.errors import DeviceError
 from gbnbench.doctor import kernel_checks, numpy_references, trust
+from tests.oracles.discrepancy import squares
 from tests.oracles.power import direct_power
 
 
@@ -29,6 +30,23 @@ def test_its_numpy_twins_are_right_themselves():
             step = np.zeros_like(u)
             step[k, a] = 1e-5
             assert gradient[k, a] == pytest.approx((energy(u + step) - energy(u - step)) / 2e-5, abs=1e-8)
+
+
+def test_its_discrepancies_are_those_of_exact_fractions():
+    x = np.random.default_rng(2).random((9, 3))
+    exact = squares(x)
+    assert numpy_references.numpy_centred_square(x) == pytest.approx(float(exact["CD"]), rel=1e-13)
+    assert numpy_references.numpy_star_square(x) == pytest.approx(float(exact["L2-star"]), rel=1e-12)
+    assert numpy_references.numpy_periodic_square(x) == pytest.approx(float(exact["L2-periodic"]), rel=1e-12)
+
+
+@pytest.mark.parametrize("form", ["centred", "star", "periodic"])
+def test_a_wrong_sum_over_pairs_is_named(form, monkeypatch):
+    name = f"numpy_{form}_square"
+    right = getattr(kernel_checks, name)
+    monkeypatch.setattr(kernel_checks, name, lambda x: right(x) * (1 + 1e-9))
+    failed = {check.kernel for check in kernel_checks._discrepancies(83, 5, "double") if not check.passed}
+    assert failed == {f"discrepancy, {form}"}
 
 
 @pytest.mark.slow

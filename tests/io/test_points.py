@@ -178,6 +178,7 @@ BAD: list[tuple[str, str, bytes, int | None, str]] = [
     ("u and v", "a.txt", b"u v\n0.5 0.25\n", 1, "column 'u' is no coordinate"),
     ("an index that does not count", "a.csv", b",x,y\n7,0.5,0.25\n9,0.1,0.2\n", 2, "'7' where 1 would stand"),
     ("an index that stops counting", "a.csv", b",x,y\n0,0.5,0.25\n2,0.1,0.2\n", 3, "'2' where 1 would stand"),
+    ("an index without names", "a.csv", b"0,0.5,0.2\n1,0.1,0.2\n2,0.3,0.4\n", 1, "the first column numbers"),
     ("commas at the ends", "a.csv", b"0.5,0.25,\n0.1,0.2,\n", 1, "after the last comma: remove it"),
     ("thousands or decimals", "a.csv", b"x;y\n1,234;5,678\n", 2, "'1,234' may have a decimal comma or"),
     ("blanks and decimal commas", "a.txt", b"0,5 0,25\n", 1, "where semicolons or tabs part cells"),

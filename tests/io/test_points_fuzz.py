@@ -16,7 +16,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gbnbench.core.errors import FormatError
-from gbnbench.io.points import read, save
+from gbnbench.io.points import PointSets, ReadingOptions, read, read_sets, save
 
 pytestmark = pytest.mark.slow  # thousands of damaged files
 
@@ -532,3 +532,54 @@ def test_wrong_count(folder: Path, count: int) -> None:
     else:
         with pytest.raises(FormatError, match=r"line [1-6]: "):
             read(path)
+
+
+BOXED = (".extxyz", ".lammpstrj", ".edat", ".json", ".npz")
+SUFFIXES = (".ply", ".xyz", *BOXED, ".csv.gz", ".txt.xz", ".ply.b")
+OPTIONS = [
+    ReadingOptions(),
+    ReadingOptions(columns=("x", "y")),
+    ReadingOptions(columns=("2", "1")),
+    ReadingOptions(period=(2.0,)),
+    ReadingOptions(bounds=(-1.0, 2.0), wrap=True),
+    ReadingOptions(array="points"),
+    ReadingOptions(raw="float32,3"),
+    ReadingOptions(wrap=True),
+]
+
+
+def other_seed(suffix: str, k: int, folder: Path) -> bytes:
+    """A file of another format: of the unit torus, or in a box of its own where it can hold one."""
+    if suffix == ".ply.b":
+        head = b"ply\nformat binary_%s_endian 1.0\nelement vertex 4\n" % (b"little", b"big")[k]
+        rows = Y[0, :, :12].reshape(-1, 3)[:4].astype("<f8" if k == 0 else ">f8").tobytes()
+        return head + b"property double x\nproperty double y\nproperty double z\nend_header\n" + rows
+    x = Y[:, :, :3] if suffix != ".ply" else Y[:1, :, :3]
+    box = suffix in BOXED and k == 1
+    return written(suffix, PointSets(list(x), (2.0,) * 3, (-1.0,) * 3, True) if box else x, folder)
+
+
+@pytest.mark.parametrize("suffix", SUFFIXES)
+@pytest.mark.parametrize("k", range(2))
+def test_damaged_files_of_other_formats(suffix: str, k: int, folder: Path) -> None:
+    """Whatever is damaged, however it is to be read: points of [0, 1), or one line that names the file."""
+    seed = other_seed(suffix, k, folder)
+    path = folder / f"other{suffix.removesuffix('.b')}"
+
+    @FUZZ
+    @given(DAMAGE, st.sampled_from(OPTIONS), st.booleans())
+    def check(edits: bytes, options: ReadingOptions, binary: bool) -> None:
+        path.write_bytes(damaged(seed, edits, binary))
+        said = ""
+        try:
+            found = read_sets(path, options)
+        except FormatError as error:
+            said = str(error)
+        if said:
+            assert said.startswith(str(path))
+            assert "\n" not in said
+            return
+        assert all(((x >= 0) & (x < 1)).all() for x in found.sets)
+        assert found.sides is None or len(found.sides) == found.sets[0].shape[1]
+
+    check()

@@ -106,6 +106,14 @@ def test_raw_numbers_are_read_by_their_layout(tmp_path: Path) -> None:
         load(path, raw="float32,3")
 
 
+def test_row_numbers_are_no_coordinate(tmp_path: Path) -> None:
+    path = text(tmp_path, "1 20.5 30.5\n2 10.5 40.5\n3 25.0 35.0\n")
+    with pytest.raises(FormatError, match="line 1: the first column numbers the rows: take the others by"):
+        load(path, period=512)
+    assert load(path, period=512, columns="2,3").tolist()[0] == [20.5 / 512, 30.5 / 512]  # type: ignore[union-attr]
+    assert np.shape(load(path, period=512, columns="1,2,3")) == (3, 3)
+
+
 def test_whole_numbers_in_other_units_are_points_not_headers(tmp_path: Path) -> None:
     pixels = text(tmp_path, "115 376\n130 272\n")
     assert load(pixels, period=512).tolist() == [[115 / 512, 376 / 512], [130 / 512, 272 / 512]]  # type: ignore[union-attr]

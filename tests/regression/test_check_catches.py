@@ -25,12 +25,12 @@ met = []
 def alter(pattern, replacement):
     '''Change the first place in every program's text that the pattern meets.'''
     runtime = importlib.import_module("gbnbench.opencl.runtime")
-    source = runtime._source
+    source = runtime.source
     def altered(package, files):
         text, count = re.subn(pattern, replacement, source(package, files), count=1)
         met.append(count)
         return text
-    runtime._source = altered
+    runtime.source = altered
 
 def wrap(module, name, make):
     '''Replace a function by one made of it.'''

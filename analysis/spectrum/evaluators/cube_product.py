@@ -20,6 +20,7 @@ from gbnbench.analysis.spectrum.digits import (
 from gbnbench.analysis.spectrum.error_model import Errors, coordinates, rounded_at_worst
 from gbnbench.analysis.spectrum.evaluators.cube_writer import CubeWriter
 from gbnbench.analysis.spectrum.evaluators.device_evaluator import DeviceEvaluator
+from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
 from gbnbench.analysis.spectrum.evaluators.frequency_group import Group
 from gbnbench.analysis.spectrum.evaluators.point_slots import (
     AMPLITUDE_BYTES,
@@ -28,7 +29,6 @@ from gbnbench.analysis.spectrum.evaluators.point_slots import (
     choose_slots,
     tile_rows,
 )
-from gbnbench.analysis.spectrum.evaluators.protocol import EvaluationCost
 from gbnbench.analysis.spectrum.evaluators.two_group_product import TwoGroupProduct, norms_of, product_errors
 from gbnbench.analysis.spectrum.evaluators.work_model import ENTRY, TILE, WRITTEN, device_cost
 from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest

@@ -17,7 +17,7 @@ from gbnbench.analysis.spectrum.error_model import (
     sum_errors,
 )
 from gbnbench.analysis.spectrum.evaluators.device_evaluator import DeviceEvaluator
-from gbnbench.analysis.spectrum.evaluators.protocol import EvaluationCost
+from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
 from gbnbench.analysis.spectrum.evaluators.two_group_product import norms_of
 from gbnbench.analysis.spectrum.evaluators.work_model import COSINE, device_cost
 from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest

@@ -19,30 +19,12 @@ from numpy.typing import NDArray
 
 from gbnbench.analysis.precision import Precision, precision_of
 from gbnbench.analysis.spectrum.error_model import Errors
+from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
 from gbnbench.analysis.spectrum.limits import cube_fits
 from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest
 from gbnbench.analysis.spectrum.shell_moments import ShellMoments, moments_of_cube
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
-
-
-@dataclass(frozen=True)
-class EvaluationCost:
-    """Work, memory and time of an evaluation.
-
-    Attributes
-    ----------
-    flops : float
-        Additions and multiplications of all that it does.
-    bytes : int
-        Memory where it needs most.
-    seconds : float
-        Expected time on all cores of the device.
-    """
-
-    flops: float
-    bytes: int
-    seconds: float
 
 
 @dataclass(frozen=True)
@@ -127,6 +109,25 @@ class Evaluator(ABC):
         """Count what a request takes in multiply-adds, to compare exact evaluators without any timing."""
         return self.cost(request).flops / 2
 
+    def for_points(self, x: FloatArray, fmax: int, floor: float | None) -> Evaluator:
+        """Give the evaluator that shall take these points, once they are known.
+
+        Parameters
+        ----------
+        x : (sets, n, d) float64
+            Checked points.
+        fmax : int
+            Largest harmonic on each axis.
+        floor : float or None
+            Smallest power that must be known to 1%.
+
+        Returns
+        -------
+        Evaluator
+            Itself, or an exact one where these points make its errors larger than it stated.
+        """
+        return self
+
     @property
     def device(self) -> str:
         """Where it runs."""
@@ -179,37 +180,22 @@ class Evaluator(ABC):
     ) -> tuple[FloatArray, Errors]:
         """Evaluate the power of a cube, or of a box: the cube of its largest harmonic, cut, if not better.
 
-        Parameters
-        ----------
-        x : (sets, n, d) float64
-            Checked points.
-        request : SpectrumRequest
-            A request for a cube or box, or its half.
-        weights : (sets or 1, n) float64 or None
-            As in ``cube``.
-        mean : bool
-            As in ``cube``.
-
-        Returns
-        -------
-        power : (2*f_a+1, ...) float64
-            As ``cube`` has it, f_a being the largest harmonic on axis a.
-        errors : Errors
-            As in ``cube``.
+        Parameters and returns are those of ``Evaluator.cube``, with the request in place of ``fmax`` and
+        ``half``; power is (2*f_a+1, ...), f_a being the largest harmonic on axis a.
         """
         half, f = request.what == "half cube", request.fmax
-        if request.harmonics and not cube_fits(f, request.d):
+        if not request.harmonics:
+            return self.cube(x, f, weights, half=half, mean=mean)
+        if not cube_fits(f, request.d):
             raise InputError(
                 f"{request} are evaluated as a cube where there is no OpenCL device, and that does not fit "
                 "in memory; ask for a smaller fmax"
             )
         power, errors = self.cube(x, f, weights, half=half, mean=mean)
-        if request.harmonics:
-            inner: list[Any] = [slice(f - h, f + h + 1) for h in request.harmonics]
-            if half:
-                inner[0] = slice(0, request.harmonics[0] + 1)
-            power = np.ascontiguousarray(power[(..., *inner)])
-        return power, errors
+        inner: list[Any] = [slice(f - h, f + h + 1) for h in request.harmonics]
+        if half:
+            inner[0] = slice(0, request.harmonics[0] + 1)
+        return np.ascontiguousarray(power[(..., *inner)]), errors
 
     def listed(
         self, x: FloatArray, frequencies: NDArray[np.int64], weights: FloatArray | None

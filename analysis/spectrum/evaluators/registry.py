@@ -12,7 +12,7 @@ from typing import Literal, get_args
 
 from gbnbench.analysis.spectrum.evaluators.protocol import Evaluator
 
-Method = Literal["product", "gridded", "direct", "shells", "numpy", "nufft"]
+Method = Literal["product", "gridded", "direct", "shells", "numpy", "nufft", "fft"]
 
 _PACKAGE = __name__.rpartition(".")[0]
 

@@ -18,9 +18,9 @@ from gbnbench.analysis.precision import Precision
 from gbnbench.analysis.spectrum.error_model import Errors, coordinates, rounded_at_worst
 from gbnbench.analysis.spectrum.evaluators.cube_product import CubeProduct, product_slots
 from gbnbench.analysis.spectrum.evaluators.device_evaluator import DeviceEvaluator
+from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
 from gbnbench.analysis.spectrum.evaluators.frequency_group import Group
 from gbnbench.analysis.spectrum.evaluators.point_slots import TABLE_BYTES, tile_rows
-from gbnbench.analysis.spectrum.evaluators.protocol import EvaluationCost
 from gbnbench.analysis.spectrum.evaluators.two_group_product import TwoGroupProduct, norms_of, product_errors
 from gbnbench.analysis.spectrum.evaluators.work_model import ENTRY, SHELL, TILE, device_cost
 from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from gbnbench.analysis.precision import Precision
-from gbnbench.analysis.spectrum.evaluators.protocol import EvaluationCost
+from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
 from gbnbench.analysis.spectrum.request import SpectrumRequest
 from gbnbench.opencl.peak_rate import launch_seconds, peak
 

@@ -160,8 +160,11 @@ def read_sets(
         If the file cannot be read as points.
     """
     path = Path(path)
-    file = open_point_file(path, size_limit(max_bytes), options)
-    return fractions_of_box(path, _content(file), options)
+    try:
+        file = open_point_file(path, size_limit(max_bytes), options)
+        return fractions_of_box(path, _content(file), options)
+    except MemoryError:
+        raise FormatError(path, "needs more memory than there is; split it, or free some") from None
 
 
 def _content(file: PointFile) -> FileContent:

@@ -54,6 +54,8 @@ def choose(path: Path, wanted: Sequence[str], names: Sequence[str], width: int) 
             )
         else:
             found.append(int(name) - 1)
+    if len({*found}) < len(found):
+        raise FormatError(path, f"columns {','.join(wanted)} name one column twice")
     return found
 
 

@@ -195,6 +195,10 @@ def _fault(cell: bytes, line: bytes) -> str:
         if line.rstrip().endswith(b","):
             return "an empty cell after the last comma: remove it, or take columns, such as --columns 1,2"
         return "an empty cell between commas"
+    if b'"' in cell:
+        return (
+            f"{shown(cell)} is not a number; quotes may hold one, without blanks, commas or parted thousands"
+        )
     if re.fullmatch(rb"[0-9]+[ \t]+[+-]?[0-9]+", cell):
         return f"{shown(cell)} is not a number; decimal commas are read where semicolons or tabs part cells"
     return f"{shown(cell)} is not a number"

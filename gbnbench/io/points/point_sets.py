@@ -7,11 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gbnbench.core.sides import EQUAL
 from gbnbench.core.torus import FloatArray
 
 IntArray = NDArray[np.int64]
 
-EQUAL = 1e-9  # of the largest side: sides that differ by no more are equal
+NO_TORUS = "says that its box is no torus, and it is measured as one: what crosses the sides is not real"
 
 
 @dataclass(frozen=True)
@@ -113,23 +114,6 @@ def in_own_unit(x: PointSets) -> list[FloatArray]:
     return [np.array(x.low) + s * np.array(x.sides) for s in x.sets]
 
 
-def unequal_sides(sides: tuple[float, ...] | None) -> str | None:
-    """Say that lengths cannot be measured in a box of unequal sides, or return None for a cube.
-
-    Parameters
-    ----------
-    sides : tuple of float or None
-        Of the box; None for the unit torus.
-
-    Returns
-    -------
-    str or None
-        A sentence for an error.
-    """
-    if sides is None or max(sides) - min(sides) <= EQUAL * max(sides):
-        return None
-    shown = " x ".join(f"{side:g}" for side in sides)
-    return (
-        f"its box has unequal sides, {shown}: as fractions of it lengths would come out wrong along some "
-        "axes; only boxes of equal sides are measured"
-    )
+def unequal_sides(sides: tuple[float, ...] | None) -> bool:
+    """Tell whether a box is no cube; None is the unit torus."""
+    return sides is not None and max(sides) - min(sides) > EQUAL * max(sides)

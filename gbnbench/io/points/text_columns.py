@@ -147,9 +147,8 @@ def _is_tabbed(line: bytes) -> bool:
 
 def _with_points(path: Path, data: bytes) -> bytes:
     """Write decimal points for commas, and commas for semicolons, where it is sure what commas mean."""
-    found = list(_COMMA.finditer(data))
-    if found and all(_THOUSANDS.fullmatch(match.group()) for match in found):
-        at = found[0]
+    at = _COMMA.search(data)
+    if at is not None and all(_THOUSANDS.fullmatch(match.group()) for match in _COMMA.finditer(data)):
         raise FormatError(
             path,
             f"{shown(at.group())} may have a decimal comma or parted thousands: write decimal points",

@@ -107,7 +107,7 @@ def lost_box(path: Path, x: PointSets) -> str | None:
     if format_.keeps_box:
         return None
     keepers = ", ".join(dict.fromkeys(suffix for suffix, other in WRITTEN.items() if other.keeps_box))
-    if unequal_sides(x.sides) is not None and x.sides is not None:
+    if x.sides is not None and unequal_sides(x.sides):
         sides = " x ".join(f"{side:g}" for side in x.sides)
         return f"{format_.name} cannot hold a box of unequal sides, {sides}; {keepers} do"
     if x.toroidal is False:

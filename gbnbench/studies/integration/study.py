@@ -20,6 +20,7 @@ from gbnbench.analysis.integration.integrands.registry import find as find_famil
 from gbnbench.analysis.integration.variance import Variance, variance_of
 from gbnbench.core.errors import DeviceError, InputError, RefusalError
 from gbnbench.core.settings import specification
+from gbnbench.core.sides import as_sides
 from gbnbench.core.torus import as_realizations
 from gbnbench.execution.progress import Progress
 from gbnbench.opencl import choose
@@ -164,7 +165,8 @@ def run_integration_study(
     InputError
         If a name or number is wrong, or the folder holds something else.
     RefusalError
-        If nothing remains of the sources or a family has no integrand in one of the dimensions.
+        If nothing remains of the sources, a family has no integrand in one of the dimensions, or points lie
+        on a torus with unequal sides.
     UnfinishedError
         If pieces failed; every other piece is kept.
     """
@@ -181,6 +183,11 @@ def run_integration_study(
         given.extend(found)
         skipped = (*skipped, *refused)
     for source in given:
+        if as_sides(source.sides, source.d) is not None:
+            raise RefusalError(
+                f"{source.label} (n={source.n}, d={source.d}): the integrands are functions of a cube, and "
+                "its box has unequal sides; gbnbench convert --fractions writes its points as those of a cube"
+            )
         for family in families:
             _refuse(family, source.d)
     settings: dict[str, Any] = {

@@ -12,16 +12,16 @@ from gbnbench.analysis.spectrum.digits import half_size, whole_axes
 from gbnbench.analysis.spectrum.error_model import Errors, rounded_at_worst
 from gbnbench.analysis.spectrum.evaluators.cube_product import CubeProduct
 from gbnbench.analysis.spectrum.evaluators.device_evaluator import DeviceEvaluator
+from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
 from gbnbench.analysis.spectrum.evaluators.gridded.grid import DEGREE, WIDTH
-from gbnbench.analysis.spectrum.evaluators.gridded.kaiser_bessel import nodes_for
 from gbnbench.analysis.spectrum.evaluators.gridded.product import (
     griddable,
     gridded_errors,
     gridded_powers,
     least_gridded,
 )
+from gbnbench.analysis.spectrum.evaluators.kaiser_bessel import nodes_for
 from gbnbench.analysis.spectrum.evaluators.point_slots import TABLE_BYTES
-from gbnbench.analysis.spectrum.evaluators.protocol import EvaluationCost
 from gbnbench.analysis.spectrum.evaluators.work_model import ENTRY, TILE, WRITTEN, device_cost
 from gbnbench.analysis.spectrum.limits import BYTES, MEMORY_SHARE
 from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest

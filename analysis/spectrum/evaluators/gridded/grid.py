@@ -11,8 +11,8 @@ from gbnbench.analysis.precision import Precision, padded
 from gbnbench.analysis.spectrum.digits import whole_axes
 from gbnbench.analysis.spectrum.evaluators.frequency_tables import DevicePoints, whole_group_tables
 from gbnbench.analysis.spectrum.evaluators.gridded.cells import SortedPoints
-from gbnbench.analysis.spectrum.evaluators.gridded.kaiser_bessel import Window, nodes_for, window
 from gbnbench.analysis.spectrum.evaluators.gridded.node_tables import node_table
+from gbnbench.analysis.spectrum.evaluators.kaiser_bessel import Window, nodes_for, window
 from gbnbench.analysis.spectrum.evaluators.point_slots import Slots
 from gbnbench.analysis.spectrum.evaluators.table_product import multiply
 from gbnbench.core.torus import FloatArray

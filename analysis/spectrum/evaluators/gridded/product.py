@@ -20,7 +20,7 @@ from gbnbench.analysis.spectrum.evaluators.cube_product import cube_powers
 from gbnbench.analysis.spectrum.evaluators.cube_writer import CubeWriter
 from gbnbench.analysis.spectrum.evaluators.gridded.cells import sorted_by_cell
 from gbnbench.analysis.spectrum.evaluators.gridded.grid import DEGREE, WIDTH, Grid, window_transform
-from gbnbench.analysis.spectrum.evaluators.gridded.kaiser_bessel import nodes_for, window
+from gbnbench.analysis.spectrum.evaluators.kaiser_bessel import nodes_for, window
 from gbnbench.analysis.spectrum.evaluators.two_group_product import norms_of
 from gbnbench.core.torus import FloatArray
 

@@ -7,12 +7,13 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from gbnbench.analysis.spectrum.error_model import Errors, rms_for
+from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
 from gbnbench.analysis.spectrum.evaluators.nufft import transform
 from gbnbench.analysis.spectrum.evaluators.nufft.cost import nufft_bytes, nufft_seconds
 from gbnbench.analysis.spectrum.evaluators.nufft.errors import nufft_errors, nufft_tolerance
 from gbnbench.analysis.spectrum.evaluators.nufft.limits import DIMENSIONS, TIGHTEST
 from gbnbench.analysis.spectrum.evaluators.nufft.transform import nufft_power
-from gbnbench.analysis.spectrum.evaluators.protocol import EvaluationCost, Evaluator
+from gbnbench.analysis.spectrum.evaluators.protocol import Evaluator
 from gbnbench.analysis.spectrum.evaluators.set_by_set import set_by_set
 from gbnbench.analysis.spectrum.evaluators.work_model import CALL_SECONDS, NUMPY_RATE
 from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest

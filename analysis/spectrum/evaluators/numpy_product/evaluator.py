@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.analysis.spectrum.error_model import Errors
+from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
 from gbnbench.analysis.spectrum.evaluators.numpy_product.errors import numpy_errors
 from gbnbench.analysis.spectrum.evaluators.numpy_product.product import numpy_listed_power, numpy_power
-from gbnbench.analysis.spectrum.evaluators.protocol import EvaluationCost, Evaluator
+from gbnbench.analysis.spectrum.evaluators.protocol import Evaluator
 from gbnbench.analysis.spectrum.evaluators.set_by_set import set_by_set
 from gbnbench.analysis.spectrum.evaluators.work_model import CALL_SECONDS, NUMPY_RATE
 from gbnbench.analysis.spectrum.limits import cube_fits

@@ -58,6 +58,8 @@ def foreign(file: PointFile) -> str | None:
             return f"is {what}, not points: {instead}"
     if head.startswith((b"\xff\xfe", b"\xfe\xff")) and b"\0" in head[2:4]:
         return "is UTF-16 text; save it as UTF-8 or ASCII"
+    if head[257:262] == b"ustar":
+        return "is a tar archive: unpack it first"
     if _looks_like_utf16(head):
         return "looks like UTF-16 text without a byte-order mark; save it as UTF-8 or ASCII"
     return None

@@ -55,7 +55,9 @@ def _parsed(path: Path, data: bytes) -> Any:
         return json.loads(text, parse_constant=_no_constant, object_pairs_hook=_no_twice)
     except json.JSONDecodeError as error:
         raise FormatError(
-            path, f"is no JSON: {error.msg.lower()} in column {error.colno}", error.lineno
+            path,
+            f"begins as JSON does and is none: {error.msg.lower()} in column {error.colno}",
+            error.lineno,
         ) from None
     except UnicodeDecodeError:
         raise FormatError(path, "is no JSON: it is not UTF-8") from None

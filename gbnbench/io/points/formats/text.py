@@ -21,10 +21,13 @@ from gbnbench.io.points.text_columns import plain_rows
 # (first line, lines) of one set, as indices into Lexed.line
 Span = tuple[int, int]
 
+STRAY = 3  # bytes of a short text that no text has, such as a NUL or an old end-of-file mark
+
 
 def _recognises(file: PointFile) -> bool:
-    """Tell text by its bytes; a stray one among them is better named by its line."""
-    return 20 * len(file.head.translate(None, LEGIBLE)) < len(file.head)
+    """Tell text by its bytes; a few stray ones among them are better named by their line."""
+    strange = len(file.head.translate(None, LEGIBLE))
+    return 20 * strange < len(file.head) or (strange <= STRAY and 4 * strange < len(file.head))
 
 
 def read_text(file: PointFile) -> FileContent:
@@ -61,7 +64,23 @@ def read_text(file: PointFile) -> FileContent:
         if any(name in SET_NAMES for name in names):
             return FileContent(_by_column(path, text, names))
         spans = _parted(path, text)
-    return FileContent([_coordinates(text, begin, span) for span in spans])
+    sets = [_coordinates(text, begin, span) for span in spans]
+    if not form and not names and options.columns is None:
+        _refuse_row_numbers(path, sets[0])
+    return FileContent(sets)
+
+
+def _refuse_row_numbers(path: Path, one: Coordinates) -> None:
+    """Refuse a first column that counts the rows: it would become a coordinate."""
+    n, d = one.points.shape
+    first = one.points[:, 0]
+    if n > 2 and d > 1 and first[0] in (0, 1) and np.array_equal(first, first[0] + np.arange(n)):
+        wanted = ",".join(str(k) for k in range(2, d + 1))
+        raise FormatError(
+            path,
+            f"the first column numbers the rows: take the others by --columns {wanted}, or name all",
+            None if one.lines is None else int(one.lines[0]),
+        )
 
 
 def _refuse_hidden(path: Path, text: Lexed) -> None:

@@ -34,7 +34,7 @@ def _recognises(file: PointFile) -> bool:
     numbered = (
         file.suffix in _SUFFIXES and len(cells) > 3 and cells[0].isdigit() and not _all_numbers(lines[1])
     )
-    return symbol or numbered or b"Lattice=" in lines[1]
+    return symbol or numbered or b"Lattice=" in lines[1] or b"Properties=" in lines[1]
 
 
 def _all_numbers(line: bytes) -> bool:

@@ -11,7 +11,8 @@ import pytest
 from gbnbench.analysis.spectrum import candidates as candidates_module
 from gbnbench.analysis.spectrum import choice as choice_module
 from gbnbench.analysis.spectrum.error_model import Errors
-from gbnbench.analysis.spectrum.evaluators.protocol import EvaluationCost, Evaluator
+from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
+from gbnbench.analysis.spectrum.evaluators.protocol import Evaluator
 from gbnbench.analysis.spectrum.evaluators.registry import EVALUATORS, Method, title_of
 from gbnbench.analysis.spectrum.evaluators.set_by_set import set_by_set
 from gbnbench.analysis.spectrum.periodogram import periodogram
@@ -80,7 +81,7 @@ def test_an_evaluator_is_added_by_one_entry():
     assert radial.power[0] == pytest.approx(ours.power[[4, 6, 5, 5], [5, 5, 4, 6]].mean())
     with pytest.raises(InputError, match="fewer than 1,000 points"):
         periodogram(np.random.default_rng(2).random((1000, 2)), 5, method="plain")
-    with pytest.raises(InputError, match="one of product, gridded, numpy, nufft, plain for cube"):
+    with pytest.raises(InputError, match="one of product, gridded, numpy, nufft, fft, plain for cube"):
         periodogram(x, 5, method="fastest")
 
 

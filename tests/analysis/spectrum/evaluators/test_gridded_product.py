@@ -10,9 +10,11 @@ from gbnbench.analysis.spectrum.evaluators.cube_product import cube_powers
 from gbnbench.analysis.spectrum.evaluators.gridded import grid
 from gbnbench.analysis.spectrum.evaluators.gridded import product as gridded_product
 from gbnbench.analysis.spectrum.evaluators.gridded.cells import sorted_by_cell
+from gbnbench.analysis.spectrum.evaluators.gridded.evaluator import GriddedProduct
 from gbnbench.analysis.spectrum.evaluators.gridded.node_tables import node_turns
 from gbnbench.analysis.spectrum.evaluators.gridded.product import griddable, gridded_powers
 from gbnbench.analysis.spectrum.periodogram import periodogram
+from gbnbench.analysis.spectrum.request import SpectrumRequest
 from gbnbench.core.errors import InputError
 from tests.devices import gpu_form
 from tests.oracles.power import direct_power
@@ -121,10 +123,11 @@ def test_cells_and_places_are_exact():
     assert [int(t) for t in turns] == [round(m * 2**32 / 7) for m in range(7)]
 
 
-def test_it_is_chosen_where_it_is_cheaper_and_by_name():
+def test_it_is_offered_where_it_is_cheaper_than_the_product_and_taken_by_name():
     rng = np.random.default_rng(7)
     x = rng.random((4096, 2))
-    assert periodogram(x, 128).method == "gridded"
+    assert GriddedProduct.offer(SpectrumRequest("cube", 4096, 2, 128, 1, 257**2), "double") is not None
+    assert GriddedProduct.offer(SpectrumRequest("cube", 100, 2, 20, 1, 41**2), "double") is None
     assert periodogram(x[:100], 20).method == "product"
     assert periodogram(x[:100], 20, method="gridded").method == "gridded"
     assert not griddable(1, 1000, "double")

@@ -6,7 +6,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from gbnbench.analysis.spectrum.evaluators.gridded.kaiser_bessel import OVERSAMPLING, nodes_for, window
+from gbnbench.analysis.spectrum.evaluators.kaiser_bessel import OVERSAMPLING, nodes_for, window
 
 
 @pytest.mark.parametrize(("width", "degree", "allowed"), [(16, 18, 3e-16), (8, 11, 3e-8)])

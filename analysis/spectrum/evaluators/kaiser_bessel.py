@@ -103,7 +103,7 @@ def nodes_for(fmax: int, step: int) -> int:
 
 
 @lru_cache(maxsize=4)
-def window(width: int, degree: int) -> Window:
+def window(width: int, degree: int, oversampling: float = OVERSAMPLING) -> Window:
     """Fit the polynomials: exact at the Chebyshev nodes of each cell, in 40 digits, then rounded.
 
     Parameters
@@ -112,12 +112,14 @@ def window(width: int, degree: int) -> Window:
         Cells of the support, even.
     degree : int
         Degree of the polynomials.
+    oversampling : float
+        Nodes of the grid for each frequency -fmax .. fmax.
 
     Returns
     -------
     Window
     """
-    beta = decimal.Decimal(math.pi * width * (1 - 0.5 / OVERSAMPLING) * 0.99)
+    beta = decimal.Decimal(math.pi * width * (1 - 0.5 / oversampling) * 0.99)
     places = [decimal.Decimal(0.5 * math.cos(math.pi * (k + 0.5) / (degree + 1))) for k in range(degree + 1)]
     with decimal.localcontext() as context:
         context.prec = DIGITS
@@ -132,7 +134,7 @@ def window(width: int, degree: int) -> Window:
             cells.append([float(c) for c in reversed(_monomials(places, values))])
     coefficients = np.ascontiguousarray(np.array(cells).T)
     unchecked = Window(width, coefficients, 0.0)
-    return Window(width, coefficients, _left_out(unchecked))
+    return Window(width, coefficients, _left_out(unchecked, oversampling))
 
 
 def _bessel(x: decimal.Decimal) -> decimal.Decimal:
@@ -158,9 +160,9 @@ def _monomials(places: list[decimal.Decimal], values: list[decimal.Decimal]) -> 
     return found
 
 
-def _left_out(fitted: Window) -> float:
+def _left_out(fitted: Window, oversampling: float) -> float:
     fmax = 64
-    nodes = nodes_for(fmax, 1)
+    nodes = math.ceil(oversampling * (2 * fmax + 1))
     place = np.arange(64) / 64
     away = np.arange(fitted.width) - fitted.width // 2 + 1
     f = np.arange(fmax + 1)

@@ -1,0 +1,192 @@
+/* Sums G(m) = sum_k w_k prod_a W(m_a - M_a x_ka) at the nodes of a real grid on AXES axes, 1 to 3.
+ *
+ * W is the window (kaiser_bessel.py) on WIDTH cells, given in each cell as an even and an odd polynomial of the
+ * place less 1/2: the values of the lower cells are their sums, those of the upper ones, mirrored, their differences.
+ * Strengths are real, so the grid is.
+ *
+ * One work-item takes the nodes first_row .. end_row of the first axis (all, if there is only one axis) of one set.
+ * It takes the points of its own band and of the band before, whose windows reach into its own. Where there are
+ * several runs, each takes every runs-th point and is summed in `part`, which is then added to `grid`, so that the
+ * rounding of a node's sum grows with the points of a run and the number of runs. A run's mean is left out then:
+ * it is part of no frequency but 0, and would be most of what is rounded. The last axes have WIDTH cells beyond the
+ * end, which are folded back. Points are [set][axis][stride]; band b of a set holds those from starts[b] on.
+ */
+#define REAL4 JOIN(REAL, 4)
+#define LOAD4(p) ((REAL4)((p)[0], (p)[1], (p)[2], (p)[3]))
+#define STORE4(v, p) do { const REAL4 kept = (v); (p)[0] = kept.s0; (p)[1] = kept.s1; (p)[2] = kept.s2; \
+    (p)[3] = kept.s3; } while (0)
+#define ADD4(v, p) STORE4(LOAD4(p) + (v), p)
+
+/* The cell of a coordinate on `nodes` cells, and its place there less 1/2; exact, but for the place's rounding. */
+static uint cell_of(const TURN turn, const uint nodes, REAL *place)
+{
+#if DOUBLE
+    const ulong low = (turn & 0xffffffffUL) * nodes, high = (turn >> 32) * nodes + (low >> 32);
+    const ulong rest = high << 32 | (low & 0xffffffffUL);
+    *place = (REAL)as_long(rest ^ 0x8000000000000000UL) * (REAL)5.421010862427522170037e-20;
+    return (uint)(high >> 32);
+#else
+    const ulong scaled = (ulong)turn * nodes;
+    *place = (REAL)as_int((uint)scaled ^ 0x80000000u) * (REAL)2.3283064365386962890625e-10f;
+    return (uint)(scaled >> 32);
+#endif
+}
+
+/* Values of the window at the WIDTH cells around a place, as REAL4 named v0 .. v3 (v0, v1 where WIDTH is 8). */
+#if WIDTH == 16
+#define WINDOW(v, s)                                                                                         \
+    REAL4 v##0, v##1, v##2, v##3;                                                                            \
+    {                                                                                                        \
+        const REAL square = s * s;                                                                           \
+        REAL4 even0 = LOAD4(terms), even1 = LOAD4(terms + 4);                                                \
+        REAL4 odd0 = LOAD4(terms + 8), odd1 = LOAD4(terms + 12);                                             \
+        for (uint t = 1; t < TERMS; t++) {                                                                   \
+            even0 = even0 * square + LOAD4(terms + 16 * t);                                                  \
+            even1 = even1 * square + LOAD4(terms + 16 * t + 4);                                              \
+            odd0 = odd0 * square + LOAD4(terms + 16 * t + 8);                                                \
+            odd1 = odd1 * square + LOAD4(terms + 16 * t + 12);                                               \
+        }                                                                                                    \
+        v##0 = even0 + odd0 * s;                                                                             \
+        v##1 = even1 + odd1 * s;                                                                             \
+        v##2 = (even1 - odd1 * s).s3210;                                                                     \
+        v##3 = (even0 - odd0 * s).s3210;                                                                     \
+    }
+#define TO_ARRAY(v, p) STORE4(v##0, p); STORE4(v##1, p + 4); STORE4(v##2, p + 8); STORE4(v##3, p + 12)
+#define SCALED(v, by, w) const REAL4 v##0 = by * w##0, v##1 = by * w##1, v##2 = by * w##2, v##3 = by * w##3
+#define ADD_ROW(by, v, p) ADD4(by * v##0, p); ADD4(by * v##1, p + 4); ADD4(by * v##2, p + 8); ADD4(by * v##3, p + 12)
+#else
+#define WINDOW(v, s)                                                                                         \
+    REAL4 v##0, v##1;                                                                                        \
+    {                                                                                                        \
+        const REAL square = s * s;                                                                           \
+        REAL4 even = LOAD4(terms), odd = LOAD4(terms + 4);                                                   \
+        for (uint t = 1; t < TERMS; t++) {                                                                   \
+            even = even * square + LOAD4(terms + 8 * t);                                                     \
+            odd = odd * square + LOAD4(terms + 8 * t + 4);                                                   \
+        }                                                                                                    \
+        v##0 = even + odd * s;                                                                               \
+        v##1 = (even - odd * s).s3210;                                                                       \
+    }
+#define TO_ARRAY(v, p) STORE4(v##0, p); STORE4(v##1, p + 4)
+#define SCALED(v, by, w) const REAL4 v##0 = by * w##0, v##1 = by * w##1
+#define ADD_ROW(by, v, p) ADD4(by * v##0, p); ADD4(by * v##1, p + 4)
+#endif
+
+/* Rows of the first axis that a point adds to: those of its window that the band has. */
+#define ROWS_WITHIN(u)                                                                                       \
+    const int row = (int)cell - shift;                                                                       \
+    const uint from = row < (int)first_row ? first_row - row : 0;                                            \
+    const uint to = row + WIDTH > (int)end_row ? end_row - row : WIDTH;                                      \
+    for (uint u = from; u < to; u++)
+
+static void clear(__global REAL *at, const ulong count)
+{
+    for (ulong i = 0; i < count; i += 4) STORE4((REAL4)0, at + i);
+}
+
+/* The cells beyond the ends of the last axes are added to those at their beginnings. */
+static void fold(__global REAL *at, const uint rows, const ulong plane, const uint nodes, const uint row_length)
+{
+    const ulong lines = rows * plane / row_length;
+    for (ulong line = 0; line < lines; line++)
+        for (uint j = 0; j < WIDTH; j++) at[line * row_length + j] += at[line * row_length + nodes + j];
+#if AXES == 3
+    for (uint row = 0; row < rows; row++)
+        for (uint i = 0; i < WIDTH; i++)
+            for (uint j = 0; j < nodes; j += 4) {
+                __global REAL *to = at + row * plane + (ulong)i * row_length + j;
+                ADD4(LOAD4(to + (ulong)nodes * row_length), to);
+            }
+#endif
+}
+
+/* `part` less `mean` is added to `sum`, and cleared */
+static void give(__global REAL *restrict part, __global REAL *restrict sum, const ulong count, const REAL mean)
+{
+    for (ulong i = 0; i < count; i += 4) {
+        ADD4(LOAD4(part + i) - mean, sum + i);
+        STORE4((REAL4)0, part + i);
+    }
+}
+
+__kernel void grid_spread(__global const TURN *turns, const uint stride, __global const REAL *weight,
+                          const uint weight_stride, __global const uint *starts, const uint bands,
+                          const uint runs, __global const REAL *means, const uint nodes, const uint rows_a_band,
+                          const uint row_length, __constant REAL *terms, __global REAL *grids,
+                          __global REAL *parts, const ulong grid_size)
+{
+    const uint band = get_global_id(0), set = get_global_id(1);
+#if AXES == 1
+    const uint first_row = 0, end_row = 1;
+#else
+    const uint first_row = band * rows_a_band;
+    const uint end_row = first_row + rows_a_band < nodes ? first_row + rows_a_band : nodes;
+#endif
+    const ulong plane = AXES == 3 ? (ulong)(nodes + WIDTH) * row_length : row_length;
+    const ulong begin = set * grid_size + first_row * plane, count = (end_row - first_row) * plane;
+    __global const uint *start = starts + set * (bands + 1);
+    __global REAL *grid = grids + begin;
+    __global REAL *into = runs > 1 ? parts + begin : grid;
+    clear(grid, count);
+    if (runs > 1) clear(into, count);
+    for (uint run = 0; run < runs; run++) {
+        /* Where there is one axis, windows are folded back from the row's end and a band has no neighbour. */
+        for (uint before = 0; before < (AXES > 1 ? 2 : 1); before++) {
+            const uint from_band = (band + (before ? bands - 1 : 0)) % bands;
+            const int shift = before && band == 0 ? (int)nodes : 0;
+            for (uint k = start[from_band] + run; k < start[from_band + 1]; k += runs) {
+                __global const TURN *turn = turns + (ulong)set * AXES * stride + k;
+                REAL place;
+                const uint cell = cell_of(turn[0], nodes, &place);
+#if AXES > 1
+                if (before && (int)cell - shift + WIDTH <= (int)first_row) continue;
+#endif
+                const REAL w = weight[(ulong)set * weight_stride + k];
+#if AXES == 1
+                WINDOW(x, place)
+                __global REAL *at = into + cell;
+                ADD_ROW(w, x, at);
+#else
+                REAL leading[WIDTH];
+                {
+                    WINDOW(v, place)
+                    TO_ARRAY(v, leading);
+                }
+#if AXES == 2
+                const uint column = cell_of(turn[stride], nodes, &place);
+                WINDOW(v, place)
+                SCALED(x, w, v);
+                ROWS_WITHIN(u) {
+                    __global REAL *at = into + (row + u - first_row) * plane + column;
+                    const REAL by = leading[u];
+                    ADD_ROW(by, x, at);
+                }
+#else
+                REAL middle[WIDTH];
+                const uint line = cell_of(turn[stride], nodes, &place);
+                {
+                    WINDOW(v, place)
+                    TO_ARRAY(v, middle);
+                }
+                const uint column = cell_of(turn[2 * stride], nodes, &place);
+                WINDOW(v, place)
+                SCALED(x, w, v);
+                ROWS_WITHIN(u) {
+                    __global REAL *at = into + (row + u - first_row) * plane + (ulong)line * row_length + column;
+                    SCALED(y, leading[u], x);
+                    for (uint v = 0; v < WIDTH; v++, at += row_length) {
+                        const REAL by = middle[v];
+                        ADD_ROW(by, y, at);
+                    }
+                }
+#endif
+#endif
+            }
+        }
+        if (runs > 1) {
+            fold(into, end_row - first_row, plane, nodes, row_length);
+            give(into, grid, count, means[set]);
+        }
+    }
+    if (runs == 1) fold(grid, end_row - first_row, plane, nodes, row_length);
+}

@@ -1,0 +1,190 @@
+"""Points dealt out to bands of a grid's first axis, sorted by bin, and how crowded the bins are."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gbnbench.analysis.precision import Precision
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import RealGrid
+from gbnbench.core.torus import FloatArray
+
+CACHE_BYTES = 1 << 20  # of a grid that needs no sorting
+BAND_ROWS = 64  # rows of a band of a larger grid, in two dimensions
+DIVIDED_FROM = 1 << 22  # nodes that the points of a set reach, from which it is worth dividing among cores
+CROWDED = 32  # points in a bin from which they are summed in several runs
+RUN_SHARE = 0.25  # nodes that are added up for the runs, over those that points reach
+
+
+@dataclass(frozen=True)
+class Bands:
+    """A batch of point sets, each in bands of its grid.
+
+    Attributes
+    ----------
+    turns : (sets, d, n) uint64 or uint32
+        Fixed-point coordinates, in the order of their bands.
+    order : (sets, n) intp or None
+        The points' indices before; None where they were left as they were.
+    starts : (sets, bands + 1) uint32
+        Index of the first point of each band, and n.
+    rows : int
+        Nodes of the first axis in a band.
+    crowd : int
+        Points in the fullest bin; bins are a window's cells wide, so that a node is reached from 2^d of them.
+    runs : int
+        Runs in which the points are summed.
+    """
+
+    turns: NDArray[Any]
+    order: NDArray[np.intp] | None
+    starts: NDArray[np.uint32]
+    rows: int
+    crowd: int
+    runs: int
+
+    @property
+    def count(self) -> int:
+        """Number of bands."""
+        return int(self.starts.shape[1]) - 1
+
+
+def dealt_to_bands(p: Precision, grid: RealGrid, x: FloatArray) -> Bands:
+    """Deal the points of each set out to as many bands as keep all cores busy, or fit in the cache.
+
+    Parameters
+    ----------
+    p : Precision
+        Precision on the device.
+    grid : RealGrid
+        The grid.
+    x : (sets, n, d) float64
+        Points of the unit torus.
+
+    Returns
+    -------
+    Bands
+    """
+    sets, n, _ = x.shape
+    turns = p.turns(x, n)
+    bin_of = bins(turns, grid)
+    counts = bin_counts(bin_of, grid)
+    crowd = int(counts.max())
+    runs = run_count(grid, n, crowd)
+    bands, rows = _division(p.runtime.device.compute_units, grid, sets, n)
+    starts = np.full((sets, bands + 1), n, np.uint32)
+    starts[:, 0] = 0
+    if bands == runs == 1 and grid.size * grid.itemsize <= CACHE_BYTES:
+        return Bands(turns, None, starts, rows, crowd, runs)
+    few = counts.shape[1] <= 1 << 16  # NumPy sorts 16 bits by radix
+    order = np.argsort(bin_of.astype(np.uint16) if few else bin_of, axis=1, kind="stable")
+    up_to_row = counts.reshape(sets, grid.bins, -1).sum(axis=2).cumsum(axis=1)
+    starts[:, 1:-1] = up_to_row[:, np.arange(1, bands) * (rows // grid.width) - 1]
+    return Bands(np.take_along_axis(turns, order[:, None], axis=2), order, starts, rows, crowd, runs)
+
+
+def bins(turns: NDArray[Any], grid: RealGrid) -> NDArray[np.int64]:
+    """Find the bins of points; they are a window's cells wide, but the last one of an axis may be narrower.
+
+    Parameters
+    ----------
+    turns : (sets, d, n) uint64 or uint32
+        Fixed-point coordinates.
+    grid : RealGrid
+        The grid.
+
+    Returns
+    -------
+    (sets, n) int64
+        0 .. grid.bins**d - 1, the last axis fastest.
+    """
+    found = cells(turns[:, 0], grid.nodes) // grid.width
+    for a in range(1, turns.shape[1]):
+        found *= grid.bins
+        found += cells(turns[:, a], grid.nodes) // grid.width
+    return found
+
+
+def bin_counts(bin_of: NDArray[np.int64], grid: RealGrid) -> NDArray[np.int64]:
+    """Count the points of each bin.
+
+    Parameters
+    ----------
+    bin_of : (sets, n) int64
+        Bins of points.
+    grid : RealGrid
+        The grid.
+
+    Returns
+    -------
+    (sets, grid.bins**d) int64
+    """
+    sets, full = len(bin_of), grid.bins**grid.d
+    numbered = bin_of if sets == 1 else bin_of + full * np.arange(sets)[:, None]
+    return np.bincount(numbered.ravel(), minlength=sets * full).reshape(sets, full)
+
+
+def run_count(grid: RealGrid, n: int, crowd: int) -> int:
+    """Count the runs: the rounding of a sum goes with crowd / runs + runs, and a run passes over the grid.
+
+    Parameters
+    ----------
+    grid : RealGrid
+        The grid.
+    n : int
+        Points of a set.
+    crowd : int
+        Points in the fullest bin.
+
+    Returns
+    -------
+    int
+        1 where no bin is crowded.
+    """
+    if crowd <= CROWDED:
+        return 1
+    affordable = RUN_SHARE * n * grid.width**grid.d / grid.size
+    return max(1, min(math.isqrt(crowd), int(affordable)))
+
+
+def _division(cores: int, grid: RealGrid, sets: int, n: int) -> tuple[int, int]:
+    """Count the bands of a set, and the rows of one: at least the window's reach, and whole bins."""
+    bands = 1
+    if (
+        grid.d == 2 and grid.size * grid.itemsize > CACHE_BYTES
+    ):  # a band stays in the cache while it is filled
+        bands = max(1, grid.nodes // BAND_ROWS)
+    elif grid.d > 1 and sets % cores and n * grid.width**grid.d > DIVIDED_FROM:
+        bands = max(1, min(cores, grid.nodes // grid.width))
+    for count in range(bands, 1, -1):
+        rows = -(-grid.nodes // (count * grid.width)) * grid.width
+        whole, last = divmod(grid.nodes, rows)
+        if last == 0 or last >= grid.width:  # a window must reach no farther than the next band
+            return whole + (last > 0), rows
+    return 1, grid.nodes
+
+
+def cells(turns: NDArray[Any], nodes: int) -> NDArray[np.int64]:
+    """Find the cells of fixed-point coordinates, exactly.
+
+    Parameters
+    ----------
+    turns : (...) uint64 or uint32
+        Fractions of a turn.
+    nodes : int
+        Cells of the axis, less than 2^32.
+
+    Returns
+    -------
+    (...) int64
+        0 .. nodes - 1.
+    """
+    half, size = np.uint64(32), np.uint64(nodes)
+    if turns.dtype == np.uint32:
+        return (turns.astype(np.uint64) * size >> half).astype(np.int64)
+    low = (turns & np.uint64(0xFFFFFFFF)) * size >> half
+    return ((turns >> half) * size + low >> half).astype(np.int64)

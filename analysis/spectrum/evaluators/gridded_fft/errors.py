@@ -1,0 +1,72 @@
+"""Errors of the gridded FFT, which grow where many points reach the same nodes."""
+
+from __future__ import annotations
+
+import math
+
+from gbnbench.analysis.precision import Precision
+from gbnbench.analysis.spectrum.error_model import UNIT, Coordinates, Errors
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import RealGrid, transform_of_window
+
+# In units of rounding. Typical: of scattered points, and for each point of the fullest bin; those that
+# scattered points have there too are summed in runs. Worst, times what the window's gain magnifies: of any
+# frequency, and for each addition at a node. The former is three times what was met on lattices and on points
+# on a line, the latter the proven bound of a sum of equal numbers.
+TYPICAL, TYPICAL_CROWD = {"double": 5.0, "float": 3.0}, 0.04
+WORST, WORST_ADDITION = 8.0, 0.5
+WINDOW_TYPICAL = {"double": 0.0, "float": 5e-8}  # of the window itself, where it is not below rounding
+
+
+def fft_errors(p: Precision, grid: RealGrid, n: int, crowd: int, runs: int, at: Coordinates) -> Errors:
+    """State the errors of sqrt(power).
+
+    Parameters
+    ----------
+    p : Precision
+        Precision on the device.
+    grid : RealGrid
+        The grid.
+    n : int
+        Points of a set.
+    crowd : int
+        Points in the fullest bin, as ``bands.Bands`` counts them.
+    runs : int
+        Runs in which points are summed.
+    at : Coordinates
+        Rounding of the coordinates.
+
+    Returns
+    -------
+    Errors
+        The typical error is that of scattered points as crowded as these. Unlike those of the products the
+        bound is not proven, since no useful one is known for the FFT: its constants are three times what was
+        met on lattices, lines, clusters and coincident points.
+    """
+    transform, unit = transform_of_window(grid), UNIT[p.name]
+    magnified = float(transform[0] / transform.min()) ** grid.d
+    rounded = 2 * math.pi * grid.fmax
+    usual = min(crowd, usual_crowd(grid, n))
+    typical = unit * math.hypot(TYPICAL[p.name], TYPICAL_CROWD * (usual / runs + crowd - usual))
+    typical = math.hypot(typical, WINDOW_TYPICAL[p.name], rounded / math.sqrt(6) * at.scattered)
+    additions = min(n, 2**grid.d * crowd) / runs + runs
+    relative = unit * magnified * (WORST + WORST_ADDITION * additions) + grid.d * grid.window.left_out
+    return Errors(typical, min(at.share * relative + rounded * at.coherent, 1.001 * at.share))
+
+
+def usual_crowd(grid: RealGrid, n: int) -> int:
+    """Count the points in the fullest bin of scattered points.
+
+    Parameters
+    ----------
+    grid : RealGrid
+        The grid.
+    n : int
+        Points of a set.
+
+    Returns
+    -------
+    int
+        Four standard deviations above the mean, and four points; at most n.
+    """
+    mean = n * (grid.width / grid.nodes) ** grid.d
+    return min(n, math.ceil(mean + 4 * math.sqrt(mean) + 4))

@@ -1,0 +1,104 @@
+"""The gridded FFT as an evaluator, with its cost and its errors."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+from gbnbench.analysis.spectrum.error_model import UNIT, Errors, rms_for, rounded_at_worst
+from gbnbench.analysis.spectrum.evaluators.cube_product import CubeProduct
+from gbnbench.analysis.spectrum.evaluators.device_evaluator import DeviceEvaluator
+from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.bands import bin_counts, bins, run_count
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.errors import WINDOW_TYPICAL, fft_errors, usual_crowd
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import AXES, real_grid
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.powers import fft_powers, sets_together
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.transform import shape_of_harmonics
+from gbnbench.analysis.spectrum.evaluators.protocol import Evaluator
+from gbnbench.analysis.spectrum.evaluators.work_model import device_cost
+from gbnbench.analysis.spectrum.limits import BYTES, MEMORY_SHARE
+from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest
+from gbnbench.core.memory import physical_memory
+from gbnbench.core.torus import FloatArray
+
+# Multiply-adds that take as long as: a point on each axis, a node that it reaches, a node and level of the
+# transform, a power, and a call.
+POINT, REACHED, LEVEL, WRITTEN, SET_UP = 500.0, 3.0, 2.2, 12.0, 1e6
+LARGEST_TYPICAL = 9.0  # typical error in units of rounding, beyond which crowded points go to the product
+
+
+@dataclass(frozen=True)
+class GriddedFFT(DeviceEvaluator):
+    """The gridded FFT beside an OpenCL device that is a CPU, for cubes in up to three dimensions."""
+
+    method: ClassVar[str] = "fft"
+    title: ClassVar[str] = "gridded FFT"
+    serves: ClassVar[tuple[Frequencies, ...]] = ("cube", "half cube")
+
+    @classmethod
+    def offer(
+        cls, request: SpectrumRequest, precision: str, *, floor: float | None = None, forced: bool = False
+    ) -> Evaluator | None:
+        """Offer itself in up to three dimensions where its grids fit in memory.
+
+        Parameters and returns are those of ``Evaluator.offer``.
+        """
+        if request.d > AXES or super().offer(request, precision) is None:
+            return None
+        evaluator = cls(precision)
+        fits = evaluator._held(request) <= MEMORY_SHARE * physical_memory()
+        return evaluator if fits and evaluator.on_device.runtime.device.is_cpu else None
+
+    @classmethod
+    def why_not(cls, request: SpectrumRequest, precision: str) -> str:
+        """Say what it needs.
+
+        Parameters and returns are those of ``Evaluator.why_not``.
+        """
+        if request.d > AXES:
+            return f"the gridded FFT does up to {AXES} dimensions; got d={request.d}"
+        return "the gridded FFT needs an OpenCL device that is a CPU, and memory for its grid"
+
+    def work(self, request: SpectrumRequest) -> float:
+        """Count the points carried to the grid, its transform, the powers written, and the set-up."""
+        grid = real_grid(request.d, request.fmax, self.precision)
+        nodes = grid.nodes**request.d
+        points = request.n * (POINT * request.d + REACHED * grid.width**request.d)
+        outputs = (2 * request.fmax + 1) ** request.d
+        each = points + LEVEL * nodes * math.log2(nodes) + WRITTEN * outputs
+        return float(request.realizations * each + SET_UP)
+
+    def cost(self, request: SpectrumRequest) -> EvaluationCost:
+        """Estimate the cost on the device, the grids of a batch and their transforms included."""
+        return device_cost(self.on_device, request, self.work(request), 2.0, self._held(request))
+
+    def _held(self, request: SpectrumRequest) -> float:
+        """Count the bytes of the grids of a batch, their transforms and the cube."""
+        grid = real_grid(request.d, request.fmax, self.precision)
+        numbers = grid.size + math.prod(shape_of_harmonics(grid))
+        held = 2 * grid.itemsize * numbers * sets_together(self.on_device, grid, request.realizations)
+        return float(held + BYTES * (2 * request.fmax + 1) ** request.d)
+
+    def expected_errors(self, request: SpectrumRequest) -> Errors:
+        """State the errors for points that are spread over the torus."""
+        p, n, grid = self.on_device, request.n, real_grid(request.d, request.fmax, self.precision)
+        crowd = usual_crowd(grid, n)
+        at = rounded_at_worst(n, request.d, p.name)
+        return fft_errors(p, grid, n, crowd, run_count(grid, n, crowd), at)
+
+    def for_points(self, x: FloatArray, fmax: int, floor: float | None) -> Evaluator:
+        """Give the product's place to crowded points, as ``Evaluator.for_points`` describes it."""
+        p, (_, n, d) = self.on_device, x.shape
+        grid = real_grid(d, fmax, self.precision)
+        crowd = int(bin_counts(bins(p.turns(x, n), grid), grid).max())
+        errors = fft_errors(p, grid, n, crowd, run_count(grid, n, crowd), rounded_at_worst(n, d, p.name))
+        usual = math.hypot(LARGEST_TYPICAL * UNIT[p.name], WINDOW_TYPICAL[p.name])
+        allowed = usual if floor is None else max(usual, rms_for(floor))
+        return CubeProduct(self.precision) if errors.rms > allowed else self
+
+    def cube(
+        self, x: FloatArray, fmax: int, weights: FloatArray | None, *, half: bool, mean: bool
+    ) -> tuple[FloatArray, Errors]:
+        """Evaluate the power of a cube, as ``Evaluator.cube`` describes it."""
+        return fft_powers(self.on_device, x, fmax, weights, half, mean)

@@ -1,0 +1,99 @@
+"""Transform of a real grid, of which only the harmonics that are wanted are kept, by SciPy's or ducc0's FFT.
+
+ducc0 (Reinecke) is faster than SciPy's pocketfft, its ancestor. It is under the GPL, so it is an extra
+(``pip install gbnbench[fast]``) that is used where it is installed.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+from importlib.util import find_spec
+from typing import Any
+
+import numpy as np
+import scipy.fft
+from numpy.typing import NDArray
+
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import RealGrid
+
+BLOCK_BYTES = 256 << 10  # of the rows that are transformed at once
+
+
+@cache
+def ducc_available() -> bool:
+    """Tell whether ducc0 is installed and loads here."""
+    if find_spec("ducc0") is None:
+        return False
+    try:
+        import ducc0 as _  # noqa: F401 - only whether it loads
+    except (ImportError, OSError, RuntimeError):
+        return False
+    return True
+
+
+def shape_of_harmonics(grid: RealGrid) -> tuple[int, ...]:
+    """Shape of what ``harmonics`` writes for one set: the last axis has f >= 0.
+
+    On the others negative harmonics stand behind the positive ones; the first keeps all of the grid's.
+    """
+    m, f = grid.nodes, grid.fmax
+    return {1: (f + 1,), 2: (m, f + 1), 3: (m, 2 * f + 1, f + 1)}[grid.d]
+
+
+def harmonics(grid: RealGrid, nodes: NDArray[Any], out: NDArray[Any], threads: int) -> None:
+    """Transform the grids of a batch.
+
+    Parameters
+    ----------
+    grid : RealGrid
+        Their layout.
+    nodes : (sets, *grid.shape) float64 or float32
+        The grids.
+    out : (sets, *shape_of_harmonics(grid)) complex128 or complex64
+        Amplitudes, which are written.
+    threads : int
+        Threads that share the work.
+    """
+    m, f = grid.nodes, grid.fmax
+    if grid.d < 3:
+        _rows(nodes.reshape(-1, grid.row_length)[:, :m], out.reshape(-1, f + 1), threads)
+    else:
+        step = max(1, BLOCK_BYTES // (m * (f + 1) * out.itemsize))
+        block = np.empty((step, m, f + 1), out.dtype)
+        for one, to in zip(nodes, out, strict=True):
+            for first in range(0, m, step):
+                planes = one[first : first + step, :m, :m]
+                _rows(planes, block[: len(planes)], threads)
+                middle = _complex(block[: len(planes)], 1, threads)
+                to[first : first + step, : f + 1] = middle[:, : f + 1]
+                to[first : first + step, f + 1 :] = middle[:, m - f :]
+    if grid.d > 1:
+        found = _complex(out, 1, threads)
+        if found is not out:
+            out[...] = found
+
+
+def _rows(real: NDArray[Any], out: NDArray[Any], threads: int) -> None:
+    """Transform rows, block by block, so that the harmonics that are not wanted never leave the cache."""
+    step = max(threads, BLOCK_BYTES // (math.prod(real.shape[1:]) * real.itemsize))
+    for first in range(0, len(real), step):
+        out[first : first + step] = _real(real[first : first + step], threads)[..., : out.shape[-1]]
+
+
+def _real(real: NDArray[Any], threads: int) -> NDArray[Any]:
+    if ducc_available():
+        import ducc0
+
+        return np.asarray(ducc0.fft.r2c(real, axes=(real.ndim - 1,), nthreads=threads))
+    return scipy.fft.rfft(real, axis=-1, workers=threads)
+
+
+def _complex(part: NDArray[Any], axis: int, threads: int) -> NDArray[Any]:
+    """Transform an axis, in place where the library does."""
+    if ducc_available():
+        import ducc0
+
+        ducc0.fft.c2c(part, axes=(axis,), nthreads=threads, out=part)
+        return part
+    return scipy.fft.fft(part, axis=axis, workers=threads, overwrite_x=True)

@@ -1,0 +1,99 @@
+"""Memory and kernels of a request that are kept from call to call, one for each thread."""
+
+from __future__ import annotations
+
+import threading
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gbnbench.analysis.precision import Precision
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import RealGrid, transform_of_window, window_terms
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.transform import shape_of_harmonics
+from gbnbench.opencl import Program
+
+KEPT_BYTES = 64 << 20  # of grids that are kept after a call
+
+
+@dataclass(frozen=True)
+class Workspace:
+    """Grids of a batch in memory that the device and the host share, with what the kernels need besides.
+
+    Attributes
+    ----------
+    nodes : (sets, *grid.shape) float64 or float32
+        The grids.
+    harmonics : (sets, ...) complex128 or complex64
+        Their transforms, as ``transform.harmonics`` writes them.
+    grids : buffer
+        The memory of the grids on the device.
+    transforms : buffer
+        The memory of the transforms on the device.
+    terms, gains : buffer
+        Polynomials of the window, and the squared gains of an axis at f = 0 .. fmax.
+    spread, power : Program
+        The kernels.
+    """
+
+    nodes: NDArray[Any]
+    harmonics: NDArray[Any]
+    grids: Any
+    transforms: Any
+    terms: Any
+    gains: Any
+    spread: Program
+    power: Program
+    _parts: list[Any] = field(default_factory=list)
+
+    def parts(self, runs: int) -> Any:
+        """Give the memory where a run is summed: as large as the grids', where there are several runs."""
+        if runs == 1:
+            return self.grids
+        if not self._parts:
+            self._parts.append(self.spread.owner.empty(self.nodes.nbytes))
+        return self._parts[0]
+
+
+_kept = threading.local()
+
+
+def workspace(p: Precision, grid: RealGrid, sets: int) -> Workspace:
+    """Give the workspace of this thread's last such request, or make one.
+
+    Parameters
+    ----------
+    p : Precision
+        Precision on the device.
+    grid : RealGrid
+        Layout of a grid.
+    sets : int
+        Sets of a batch.
+
+    Returns
+    -------
+    Workspace
+    """
+    key = (p, grid, sets)
+    last: tuple[Any, Workspace] | None = getattr(_kept, "last", None)
+    if last is not None and last[0] == key:
+        return last[1]
+    _kept.last = None  # so that its memory is free
+    rt = p.runtime
+    nodes = np.empty((sets, *grid.shape), p.real)
+    transforms = np.empty((sets, *shape_of_harmonics(grid)), np.result_type(p.real, np.complex64))
+    terms = window_terms(p.name)
+    made = Workspace(
+        nodes=nodes,
+        harmonics=transforms,
+        grids=rt.shared(nodes),
+        transforms=rt.shared(transforms),
+        terms=rt.upload(terms.astype(p.real)),
+        gains=rt.upload((transform_of_window(grid) ** -2.0).astype(p.sum)),
+        spread=p.program("grid_spread.cl", AXES=grid.d, WIDTH=grid.width, TERMS=len(terms)),
+        power=p.program("grid_power.cl", AXES=grid.d),
+    )
+    if nodes.nbytes <= KEPT_BYTES:
+        _kept.last = (key, made)
+    return made
