@@ -153,8 +153,8 @@ def _gridded(
 ) -> Iterator[tuple[slice, ComplexArray]]:
     """Sum one taper after another on the grid."""
     grid = GriddedSums(seen.u, np.abs(multiples).max(axis=0))
-    for row, values in enumerate(seen.values):
-        yield slice(row, row + 1), grid.at(values, multiples)[None]
+    for row, sums in enumerate(grid.of(seen.values, multiples)):
+        yield slice(row, row + 1), sums[None]
         progress.advance("structure factor")
 
 
@@ -181,8 +181,8 @@ def leakage(edges: FloatArray, s: FloatArray, tapers: SineTapers) -> FloatArray:
     -------
     (bins,) float64
         0 from there on. S times the energy of the tapers at the distance of each higher bin, over all axes,
-        along which nearly all of it lies; S is 1 beyond the last bin. Points that repeat along an axis of the
-        window, as those of a lattice, bring more.
+        along which nearly all of it lies; S is 1 beyond the last bin. What lies within the main lobe does not
+        count. Points that repeat along an axis of the window, as those of a lattice, bring more.
     """
     risen = np.flatnonzero(s >= RISE)
     found = np.zeros(len(s))
@@ -190,8 +190,11 @@ def leakage(edges: FloatArray, s: FloatArray, tapers: SineTapers) -> FloatArray:
         return found
     first = int(risen[0])
     middle = (edges[1:] + edges[:-1]) / 2
+    lobes = math.pi * (np.array(tapers.counts) + 2) / tapers.sides  # nearer lies the main lobe of each axis
     for i in range(first):
         away = edges[first:] - middle[i]
-        beyond = np.sum([tapers.energy_beyond(axis, away) for axis in range(len(tapers.sides))], axis=0)
+        beyond = np.sum(
+            [tapers.energy_beyond(axis, np.maximum(away, lobe)) for axis, lobe in enumerate(lobes)], axis=0
+        )
         found[i] = float(s[first:] @ (beyond[:-1] - beyond[1:])) + float(beyond[-1])
     return found

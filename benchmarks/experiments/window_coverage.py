@@ -117,7 +117,8 @@ def markdown(table: pd.DataFrame) -> str:
     Returns
     -------
     str
-        A row a process; of each quantity the mean of z, its variance about 0, and how often 95% intervals hold.
+        A row a process; of each quantity the mean of z, its variance about 0, and the share of 95% intervals
+        that hold.
     """
     names = list(dict.fromkeys(table["quantity"]))
     lines = ["| process | sets | n | " + " | ".join(names) + " |", "|---|---|---|" + "---|" * len(names)]
@@ -129,9 +130,8 @@ def markdown(table: pd.DataFrame) -> str:
             else "-"
             for name in names
         ]
-        lines.append(
-            f"| {process} | {part['sets'].iloc[0]} | {part['n'].iloc[0]:.0f} | " + " | ".join(cells) + " |"
-        )
+        first = part.iloc[0]
+        lines.append(f"| {process} | {first['sets']} | {first['n']:.0f} | " + " | ".join(cells) + " |")
     return "\n".join(lines)
 
 

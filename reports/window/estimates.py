@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from pathlib import Path
 
 import matplotlib as mpl
@@ -10,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from gbnbench.analysis.window.estimates import WindowEstimates
+from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.torus import FloatArray
 from gbnbench.reports import layout, style
 
@@ -73,7 +75,9 @@ def save(path: Path, points: FloatArray, found: WindowEstimates, title: str) -> 
         As for ``figure``.
     """
     with mpl.rc_context({"svg.hashsalt": "gbnbench"}):
-        figure(points, found, title).savefig(path, dpi=style.DPI)
+        stream = io.BytesIO()
+        figure(points, found, title).savefig(stream, format=path.suffix[1:].lower(), dpi=style.DPI)
+    write_whole(path, stream.getvalue())
 
 
 def _caption(found: WindowEstimates) -> str:

@@ -93,6 +93,7 @@ def test_the_same_seed_gives_the_same_estimates():
     [
         ([[0.5, 0.5]] * 16, 0, 1, {}, "one point"),
         (np.zeros((3, 2)), 0, 1, {}, "at least 16"),
+        (np.zeros((30, 20)), 0, 1, {}, "up to 8 dimensions"),
         (np.zeros((2, 20, 2)), 0, 1, {}, r"\(n, d\)"),
         (np.eye(16)[:, :2], 0, [1, 1, 1], {}, "high must be one number or 2"),
         (np.eye(16)[:, :2], 1, 0, {}, "low must be below high"),
