@@ -3,20 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from functools import lru_cache
-
-from matplotlib.font_manager import findfont, get_font
 
 from gbnbench.core.sides import sides_text
+from gbnbench.reports.fonts import has_glyph
 from gbnbench.reports.source_groups import Group, groups, members
 from gbnbench.runs.comparison_result import Run, SourceResult
 
 NBSP = "\N{NO-BREAK SPACE}"
-
-
-@lru_cache(maxsize=4096)
-def _has_glyph(character: str) -> bool:
-    return bool(get_font(findfont("DejaVu Sans")).get_char_index(ord(character)))
 
 
 def shown(text: str, width: int = 26) -> str:
@@ -32,7 +25,7 @@ def shown(text: str, width: int = 26) -> str:
     Returns
     -------
     str
-        The text with ``$`` escaped, and a box for each sign that the font lacks.
+        The text with ``$`` escaped, and a box for each sign that no font has.
 
     Examples
     --------
@@ -44,9 +37,7 @@ def shown(text: str, width: int = 26) -> str:
     if len(text) > width:
         tail = (width - 1) * 2 // 5
         text = f"{text[: width - 1 - tail]}…{text[len(text) - tail :]}"
-    text = "".join(
-        c if _has_glyph(c) and (c.isprintable() or c == NBSP) else "\N{WHITE SQUARE}" for c in text
-    )
+    text = "".join(c if (c.isprintable() or c == NBSP) and has_glyph(c) else "\N{WHITE SQUARE}" for c in text)
     text = text.replace("$", r"\$")
     return f" {text}" if text.startswith("_") else text  # a legend drops labels that start with _
 

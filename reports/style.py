@@ -9,6 +9,7 @@ from typing import Any, ParamSpec, TypeVar
 
 import matplotlib as mpl
 
+from gbnbench.reports import fonts
 from gbnbench.runs.comparison_result import Run
 
 # Okabe & Ito (2008), told apart with any colour vision; their yellow is darkened to be read on white.
@@ -68,6 +69,7 @@ def styled(draw: Callable[P, T]) -> Callable[P, T]:
         with mpl.rc_context():
             mpl.rcdefaults()
             mpl.rcParams.update(STYLE)  # type: ignore[arg-type]
+            mpl.rcParams["font.family"] = fonts.families()  # matplotlib falls back within these alone
             return draw(*args, **kwargs)
 
     return inside

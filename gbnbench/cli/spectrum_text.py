@@ -13,6 +13,7 @@ from gbnbench.analysis.radial.radial_power import shells_from_cube
 from gbnbench.analysis.spectrum.evaluators.registry import title_of
 from gbnbench.cli.json_text import records
 from gbnbench.core.errors import RefusalError
+from gbnbench.core.readable_text import display_width, right
 from gbnbench.core.results.radial import ShellSpectrum
 from gbnbench.core.results.resolution import resolvable_power
 from gbnbench.core.results.spectrum import Spectrum
@@ -163,10 +164,10 @@ def _apart(values: NDArray[np.float64]) -> NDArray[Any]:
 def _aligned(rows: dict[str, NDArray[Any]]) -> list[str]:
     """Lines of right-aligned columns under their heads."""
     cells = {name: [_cell(value) for value in values.tolist()] for name, values in rows.items()}
-    widths = {name: max(map(len, [name, *values])) for name, values in cells.items()}
-    lines = ["  ".join(name.rjust(width) for name, width in widths.items())]
+    widths = {name: max(map(display_width, [name, *values])) for name, values in cells.items()}
+    lines = ["  ".join(right(name, width) for name, width in widths.items())]
     for row in zip(*cells.values(), strict=True):
-        line = "  ".join(cell.rjust(width) for cell, width in zip(row, widths.values(), strict=True))
+        line = "  ".join(right(cell, width) for cell, width in zip(row, widths.values(), strict=True))
         lines.append(line.rstrip())
     return lines
 

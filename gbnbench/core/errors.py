@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from gbnbench.core.readable_text import in_one_line
+
 
 class GbnbenchError(Exception):
     """Base of every error that gbnbench raises on purpose; its text is meant for the user.
@@ -45,7 +47,8 @@ class FormatError(InputError):
     def __init__(self, path: str | Path, message: str, line: int | None = None) -> None:
         self.path = Path(path)
         self.line = line
-        where = f"{self.path}, line {line}" if line is not None else f"{self.path}"
+        name = in_one_line(self.path)
+        where = f"{name}, line {line}" if line is not None else name
         super().__init__(f"{where}: {message}")
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from gbnbench.core import number_text
+from gbnbench.core.readable_text import display_width, left, right
 
 
 def number(value: Any) -> str:
@@ -31,8 +32,8 @@ def aligned(head: Sequence[str], rows: Sequence[Sequence[Any]]) -> Iterator[str]
     columns = list(zip(head, *(map(str, row) for row in rows), strict=True))
     shown = []
     for column in columns:
-        width = max(map(len, column))
+        width = max(map(display_width, column))
         words = not any(cell[:1].isdigit() for cell in column[1:])
-        shown.append([cell.ljust(width) if words else cell.rjust(width) for cell in column])
+        shown.append([left(cell, width) if words else right(cell, width) for cell in column])
     for line in zip(*shown, strict=True):
         yield "  ".join(line).rstrip()

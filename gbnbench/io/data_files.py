@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from gbnbench.core.errors import FormatError
+from gbnbench.core.readable_text import without_bytes
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -56,8 +57,11 @@ def read_json(path: Path) -> dict[str, Any]:
 
 
 def to_json(content: object) -> bytes:
-    """Indented UTF-8 JSON with a final newline."""
-    return (json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False) + "\n").encode()
+    """Indented UTF-8 JSON with a final newline; a file name's bytes that are no UTF-8 become escapes."""
+    try:
+        return (json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False) + "\n").encode()
+    except UnicodeEncodeError:
+        return (json.dumps(content, indent=2, allow_nan=False) + "\n").encode()
 
 
 def to_npz(**arrays: NDArray[Any]) -> bytes:
@@ -76,7 +80,7 @@ def read_npz(path: Path) -> dict[str, NDArray[Any]]:
 def to_csv(table: pd.DataFrame) -> bytes:
     """UTF-8 CSV whose floats are the shortest that read back the same."""
     text: str = table.to_csv(index=False, lineterminator="\n", na_rep="nan")
-    return text.encode()
+    return without_bytes(text).encode()
 
 
 def read_csv(path: Path, text: Sequence[str] = ()) -> pd.DataFrame:
