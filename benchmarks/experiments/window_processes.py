@@ -99,15 +99,15 @@ def ginibre(side: float, kept: float = 1.0) -> Process:
     -------
     Process
     """
-    size = math.ceil(
-        (side / math.sqrt(2) + 4) ** 2
-    )  # of matrices whose disc holds the square, its edge apart
+    # Of matrices whose disc holds the square, its edge apart.
+    size = math.ceil((side / math.sqrt(2) + 4) ** 2)
 
     def draw(rng: np.random.Generator) -> FloatArray:
         matrix = rng.normal(size=(size, size)) + 1j * rng.normal(size=(size, size))
         values = np.linalg.eigvals(matrix / math.sqrt(2))
         x = np.stack([values.real, values.imag], axis=1) + side / 2
-        return x[((x >= 0) & (x <= side)).all(axis=1) & (rng.random(size) < kept)]
+        inside: FloatArray = np.asarray(x[((x >= 0) & (x <= side)).all(axis=1) & (rng.random(size) < kept)])
+        return inside
 
     def s(k: FloatArray) -> FloatArray:
         return 1 - kept * np.exp(-(k**2) / 4)
