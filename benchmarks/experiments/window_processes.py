@@ -108,8 +108,8 @@ def ginibre(side: float, kept: float = 1.0) -> Process:
         matrix = rng.normal(size=(size, size)) + 1j * rng.normal(size=(size, size))
         values = np.linalg.eigvals(matrix / math.sqrt(2))
         x = np.stack([values.real, values.imag], axis=1) + side / 2
-        inside: FloatArray = np.asarray(x[((x >= 0) & (x <= side)).all(axis=1) & (rng.random(size) < kept)])
-        return inside
+        seen = ((x >= 0) & (x <= side)).all(axis=1) & (rng.random(size) < kept)
+        return np.asarray(x[seen], np.float64)
 
     def s(k: FloatArray) -> FloatArray:
         return 1 - kept * np.exp(-(k**2) / 4)
