@@ -63,7 +63,8 @@ def compare(
     in it. Stopped in any way, the same command goes on where it was.
     """
     from gbnbench.api.compare import compare as make
-    from gbnbench.runs.sources import DEFAULT_SOURCES, hidden_paths
+    from gbnbench.runs.source_names import hidden_paths
+    from gbnbench.runs.sources import DEFAULT_SOURCES
 
     for line in hidden_paths(sources):
         click.echo(f"gbnbench: {line}", err=True)

@@ -112,7 +112,7 @@ def integrate(
     same command goes on where it was.
     """
     from gbnbench.api.integration import integrate as make
-    from gbnbench.runs.sources import hidden_paths
+    from gbnbench.runs.source_names import hidden_paths
     from gbnbench.studies.integration.study import DEFAULT_INTEGRANDS, DEFAULT_SOURCES
 
     for line in hidden_paths(sources):

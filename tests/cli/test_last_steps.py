@@ -12,7 +12,8 @@ import pytest
 from gbnbench.api import comparison as comparison_module
 from gbnbench.cli import run
 from gbnbench.core.footnotes import footnotes
-from gbnbench.runs.sources import hidden_paths, resolve
+from gbnbench.runs.source_names import hidden_paths
+from gbnbench.runs.sources import resolve
 
 
 @pytest.fixture(autouse=True)

@@ -1,0 +1,69 @@
+"""Names of sources: generators, files and folders, and which of them a name means."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+from pathlib import Path
+
+from gbnbench.core.errors import InputError
+from gbnbench.generators.protocol import Generator
+from gbnbench.generators.registry import GENERATORS, find
+
+
+def generator_named(name: str) -> Generator | None:
+    """Parse a generator's text.
+
+    Parameters
+    ----------
+    name : str
+        A generator with or without settings, or a path.
+
+    Returns
+    -------
+    Generator or None
+        None where the name is an existing path instead, or a path with brackets that no generator reads.
+
+    Raises
+    ------
+    InputError
+        If it is neither.
+    """
+    base, bracket, _ = name.partition("[")
+    base = base.strip()
+    if base in GENERATORS:
+        try:
+            return find(name)
+        except InputError:
+            if bracket and Path(name).exists():  # a file such as ``sobol[1].txt``
+                return None
+            raise
+    if Path(name).exists():
+        return None
+    close = difflib.get_close_matches(base.lower(), GENERATORS, n=2)
+    near = f"; did you mean {' or '.join(close)}?" if close else "."
+    raise InputError(
+        f"{name!r} is neither a generator nor an existing file or folder{near} "
+        f"The generators are {', '.join(GENERATORS)}"
+    )
+
+
+def hidden_paths(names: Iterable[object]) -> list[str]:
+    """Say which files and folders are not read, since a generator has their name.
+
+    Parameters
+    ----------
+    names : iterable
+        Sources as the user gave them.
+
+    Returns
+    -------
+    list of str
+        A sentence for each, with the way to ask for the path.
+    """
+    told = []
+    for name in dict.fromkeys(names):
+        if isinstance(name, str) and Path(name).exists() and generator_named(name) is not None:
+            what = "folder" if Path(name).is_dir() else "file"
+            told.append(f"{name} is the generator; the {what} of that name is ./{name}")
+    return told
