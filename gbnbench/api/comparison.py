@@ -17,6 +17,7 @@ from gbnbench.runs.baseline import Change
 from gbnbench.runs.comparison_folder import read_run
 from gbnbench.runs.comparison_result import Run, SourceResult
 from gbnbench.runs.comparison_tables import long_table, wide_table
+from gbnbench.studies.drawing import make_each
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -197,9 +198,18 @@ def draw(run: Run, folder: Path) -> None:
         What was measured.
     folder : Path
         Where ``figures`` and report.html are made, or replaced.
+
+    Raises
+    ------
+    UndrawnError
+        If any of them cannot be made; all others are.
     """
-    write_figures(run, folder / FIGURES)
-    write_report(run, folder / REPORT)
+    make_each(
+        [
+            (FIGURES, lambda: write_figures(run, folder / FIGURES)),
+            (REPORT, lambda: write_report(run, folder / REPORT)),
+        ]
+    )
 
 
 def _html_table(run: Run) -> str:

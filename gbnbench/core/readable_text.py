@@ -50,12 +50,36 @@ def display_width(text: str) -> int:
 
 
 def left(text: str, width: int) -> str:
-    """Fill a text with blanks behind it, to a number of columns of a terminal."""
+    """Fill a text with blanks behind it, to a number of columns of a terminal.
+
+    Parameters
+    ----------
+    text : str
+        The text.
+    width : int
+        Columns to fill; a wider text stays as it is.
+
+    Returns
+    -------
+    str
+    """
     return text + " " * (width - display_width(text))
 
 
 def right(text: str, width: int) -> str:
-    """Fill a text with blanks before it, to a number of columns of a terminal."""
+    """Fill a text with blanks before it, to a number of columns of a terminal.
+
+    Parameters
+    ----------
+    text : str
+        The text.
+    width : int
+        Columns to fill; a wider text stays as it is.
+
+    Returns
+    -------
+    str
+    """
     return " " * (width - display_width(text)) + text
 
 

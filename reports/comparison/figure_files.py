@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -25,6 +26,7 @@ from gbnbench.reports.comparison import (
 )
 from gbnbench.reports.source_groups import Group, groups, members
 from gbnbench.runs.comparison_result import Run, SourceResult
+from gbnbench.studies.drawing import make_each
 
 
 class Kind(NamedTuple):
@@ -111,18 +113,22 @@ def write_figures(run: Run, folder: str | Path) -> list[Path]:
     list of Path
         ``gallery.png``, ``gallery.pdf`` and so on. In a run of several sizes or dimensions the names end in
         ``_n1024_d2``, and the figure ``sweep`` shows the measures against n.
+
+    Raises
+    ------
+    UndrawnError
+        If a figure cannot be made or written; every other one is.
     """
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
-    written = []
-    for stem, draw, group in planned(run):
-        try:
-            figure = draw(run, group)
-        except Exception as error:
-            error.add_note(f"figure {stem}")
-            raise
+    written: list[Path] = []
+
+    def make(stem: str, draw: Callable[[Run, Group | None], Figure], group: Group | None) -> None:
+        figure = draw(run, group)
         for ending, content in (("png", png(figure)), ("pdf", pdf(figure))):
             path = folder / f"{stem}.{ending}"
             write_whole(path, content)
             written.append(path)
+
+    make_each((f"figure {one[0]}", partial(make, *one)) for one in planned(run))
     return written

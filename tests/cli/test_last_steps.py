@@ -12,6 +12,7 @@ import pytest
 from gbnbench.api import comparison as comparison_module
 from gbnbench.cli import run
 from gbnbench.core.footnotes import footnotes
+from gbnbench.reports.comparison import figure_files
 from gbnbench.runs.source_names import hidden_paths
 from gbnbench.runs.sources import resolve
 
@@ -72,10 +73,28 @@ def test_results_are_kept_and_shown_where_the_report_fails(
         assert run(command) == 2
     said = capsys.readouterr()
     assert re.search(r"^jittered", said.out, re.MULTILINE)
-    assert "No space left on device. All results are in run" in said.err
+    assert "report.html: [Errno 28] No space left on device. All results are in run" in said.err
     assert len((here / "run" / "table.csv").read_text().splitlines()) == 3
     assert run(command) == 0
     assert "6 of 6 pieces reused" in capsys.readouterr().out
+    assert (here / "run" / "report.html").exists()
+
+
+def test_a_picture_that_fails_costs_only_itself(
+    here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def broken(*_: object) -> None:
+        raise ValueError("no such panel")
+
+    with monkeypatch.context() as patch:
+        patch.setitem(figure_files.FIGURES, "points", figure_files.FIGURES["points"]._replace(draw=broken))
+        assert run(["compare", "random", "-n", "16", "--realizations", "2", "--quiet", "-o", "run"]) == 2
+    said = capsys.readouterr()
+    assert re.search(r"^random", said.out, re.MULTILINE)
+    assert "could not be made: figure points: no such panel. All results are in run" in said.err
+    made = {path.stem for path in (here / "run" / "figures").iterdir()}
+    assert made >= {"gallery", "loglog", "spectrum", "radial"}
+    assert "points" not in made
     assert (here / "run" / "report.html").exists()
 
 
