@@ -11,6 +11,7 @@ import click
 
 from gbnbench.cli import options
 from gbnbench.cli.json_text import json_text
+from gbnbench.cli.missing_numbers import MEASURES, with_reasons
 from gbnbench.cli.standard_streams import wants_colour
 from gbnbench.cli.undrawn import undrawn
 
@@ -94,7 +95,7 @@ def _show(comparison: Comparison, as_json: bool) -> None:
     for line in comparison.skipped:
         click.echo(f"gbnbench: skipped: {line}", err=True)
     if as_json:
-        click.echo(json_text(comparison.measures))
+        click.echo(json_text(with_reasons(comparison.measures, MEASURES)))
     else:
         click.echo(terminal_text(comparison.run, colour=wants_colour()))
     for source in comparison.sources:

@@ -13,7 +13,9 @@ import click
 
 from gbnbench.cli import options
 from gbnbench.cli.json_text import json_text
+from gbnbench.cli.missing_numbers import SLOPE, SLOPES, VARIANCE, with_reasons
 from gbnbench.cli.undrawn import undrawn
+from gbnbench.core.footnotes import footnotes
 from gbnbench.core.text_table import aligned, number
 
 if TYPE_CHECKING:
@@ -136,7 +138,8 @@ def integrate(
     for line in made.skipped:
         click.echo(f"gbnbench: skipped: {line}", err=True)
     if as_json:
-        click.echo(json_text({"variance": made.table, "slopes": made.slopes}))
+        tables = {"variance": with_reasons(made.table, VARIANCE), "slopes": with_reasons(made.slopes, SLOPES)}
+        click.echo(json_text(tables))
     else:
         for line in report(made.study):
             click.echo(line)
@@ -149,6 +152,7 @@ def integrate(
 
 def report(study: IntegrationStudy) -> Iterator[str]:
     """Lay out a table for each family and d: a row a source, a column an n, and the slope."""
+    missing: list[tuple[str, str]] = []
     for _, part in study.variance.groupby(["integrand", "d"], sort=False):
         family, d = str(part["integrand"].iloc[0]), int(part["d"].iloc[0])
         sizes = sorted(part["n"].unique())
@@ -165,6 +169,16 @@ def report(study: IntegrationStudy) -> Iterator[str]:
                 for label, rows in part.groupby("source", sort=False)
             ],
         )
+        for label, rows in part.groupby("source", sort=False):
+            absent = [f"n={n}" for n in sizes if n not in set(rows["n"])]
+            missing += [(title, "a source has no sets of that size") for title in absent]
+            if rows["n"].nunique() < 2:
+                missing.append(("slope", "it takes sets of two sizes"))
+            elif _slope(study.slopes, str(label), d, family) == "-":
+                missing.append(("slope", SLOPE))
+    if missing:
+        yield ""
+        yield from footnotes(missing)
 
 
 def _cell(rows: pd.DataFrame, n: int) -> str:
@@ -191,5 +205,7 @@ def _slope(slopes: pd.DataFrame, label: str, d: int, family: str) -> str:
     from gbnbench.analysis.integration.variance import MOST_SCATTER
 
     row = found.iloc[0]
+    if row["slope"] != row["slope"]:
+        return "-"
     bent = " bent" if row["scatter"] > MOST_SCATTER else ""
     return f"{row['slope']:.2f} ± {row['standard_error']:.2f}{bent}"

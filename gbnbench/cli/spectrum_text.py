@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from gbnbench.analysis.radial.profile_measures import noise_floor, peak, power_at_1
 from gbnbench.analysis.radial.radial_power import shells_from_cube
 from gbnbench.analysis.spectrum.evaluators.registry import title_of
-from gbnbench.cli.json_text import records
+from gbnbench.cli.missing_numbers import SPECTRUM, with_reasons
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.readable_text import display_width, right
 from gbnbench.core.results.radial import ShellSpectrum
@@ -80,7 +80,7 @@ def as_record(result: Spectrum | ShellSpectrum, label: str) -> dict[str, Any]:
         about["sides"] = list(result.sides)
     if isinstance(result, Spectrum) and result.frequencies is None:
         result = shells_from_cube(result)
-    return {"label": label, **about, "rows": records(pd.DataFrame(columns(result)))}
+    return {"label": label, **about, "rows": with_reasons(pd.DataFrame(columns(result)), SPECTRUM)}
 
 
 def _of_note(shells: ShellSpectrum, result: Spectrum | ShellSpectrum) -> list[str]:
