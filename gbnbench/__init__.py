@@ -71,6 +71,7 @@ _MODULES = {
     "ShellSpectrum": "gbnbench.core.results.radial",
     "Spectrum": "gbnbench.core.results.spectrum",
     "SpectrumPlan": "gbnbench.analysis.spectrum.spectrum_plan",
+    "WindowEstimates": "gbnbench.analysis.window.estimates",
     "compare": "gbnbench.api.compare",
     "generate": "gbnbench.generators.registry",
     "in_window": "gbnbench.analysis.window.estimates",

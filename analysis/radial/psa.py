@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,6 +18,8 @@ from gbnbench.core.torus import FloatArray, as_realizations
 
 # Rows of the Bessel matrix made at once; with 50 sqrt(n) columns they stay small.
 ROWS = 256
+KEPT = 1 << 22  # numbers of a matrix that is kept from call to call, in blocks
+KEPT_BLOCKS = 16
 # Frequencies evaluated first, in units of sqrt(n): the statistics of most sets need no more.
 FIRST_RANGE = 8.0
 # Some minutes on one core.
@@ -154,17 +157,27 @@ def _excess_density(sets: FloatArray, total: int, sides: Sides | None) -> FloatA
 
 def _power(density: FloatArray, frequency: FloatArray, n: int, total: int) -> FloatArray:
     """Radial power of all sets at once: (realizations, frequencies)."""
-    r = np.arange(len(density)) * (0.5 / total)
     power = np.empty((density.shape[1], len(frequency)))
+    kept = len(frequency) * len(density) <= KEPT
     for start in range(0, len(frequency), ROWS):
-        v = frequency[start : start + ROWS, None]
-        end = 0.5 * np.clip(4 * v / math.sqrt(n), 0.2, 0.5)
-        if end[0, 0] == end[-1, 0]:  # one window for the block, as for all but the lowest frequencies
-            end = end[:1]
-        window = 0.43 + 0.5 * np.cos(math.pi * r / end) + 0.08 * np.cos(2 * math.pi * r / end)
-        window = np.where(r > end, 0.0, window)
-        power[:, start : start + ROWS] = np.abs(1 + (j0(2 * math.pi * v * r) * window) @ density).T
+        block = (_kept_kernel if kept else _kernel)(n, total, len(density), start, len(frequency))
+        power[:, start : start + ROWS] = np.abs(1 + block @ density).T
     return power
+
+
+def _kernel(n: int, total: int, bins: int, start: int, end: int) -> FloatArray:
+    """J0(2 pi v r) times the window, for ``ROWS`` frequencies from ``start`` on: (frequencies, bins)."""
+    r = np.arange(bins) * (0.5 / total)
+    v = np.arange(start, min(start + ROWS, end))[:, None] * (0.5 * n / total)
+    reach = 0.5 * np.clip(4 * v / math.sqrt(n), 0.2, 0.5)
+    if reach[0, 0] == reach[-1, 0]:  # one window for the block, as for all but the lowest frequencies
+        reach = reach[:1]
+    window = 0.43 + 0.5 * np.cos(math.pi * r / reach) + 0.08 * np.cos(2 * math.pi * r / reach)
+    return np.asarray(j0(2 * math.pi * v * r) * np.where(r > reach, 0.0, window))
+
+
+# It depends on n alone, and is most of the work for a few sets of a thousand points.
+_kept_kernel = lru_cache(maxsize=KEPT_BLOCKS)(_kernel)
 
 
 def _left_out(power: FloatArray) -> FloatArray:

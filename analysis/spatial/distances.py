@@ -28,7 +28,7 @@ def nearest_distances(x: ArrayLike, sides: ArrayLike | None = None) -> FloatArra
     Parameters
     ----------
     x : (n, d) or (realizations, n, d) float64
-        Points on the unit torus, n >= 2, d <= 8.
+        Points on the unit torus, n >= 2, d <= 24.
     sides : (d,) array_like, optional
         Lengths of the torus's sides, whose ratios count; a cube if not given.
 
@@ -42,7 +42,7 @@ def nearest_distances(x: ArrayLike, sides: ArrayLike | None = None) -> FloatArra
     InputError
         If sides are not d lengths.
     RefusalError
-        If n = 1, or d > 8, where the densest lattice is not known.
+        If n = 1, or d > 24, where no densest lattice is tabulated; from d = 9 on it is the densest known.
     """
     sets = as_realizations(x)
     n, d = sets.shape[1:]
@@ -50,7 +50,7 @@ def nearest_distances(x: ArrayLike, sides: ArrayLike | None = None) -> FloatArra
     unit = densest_spacing(n, d)
     if math.isnan(unit):
         raise RefusalError(
-            f"distances are in spacings of the densest lattice, known for d <= {len(HERMITE)}; got d={d}"
+            f"distances are in spacings of the densest lattice, here for d <= {len(HERMITE)}; got d={d}"
         )
     if n < 2:
         raise RefusalError("a distance between points needs n >= 2; got n=1")
@@ -91,7 +91,7 @@ def min_distance(x: ArrayLike, sides: ArrayLike | None = None) -> FloatArray:
     Parameters
     ----------
     x : (n, d) or (realizations, n, d) float64
-        Points on the unit torus, n >= 2, d <= 8.
+        Points on the unit torus, n >= 2, d <= 24.
     sides : (d,) array_like, optional
         Lengths of the torus's sides, whose ratios count; a cube if not given.
 
@@ -114,7 +114,7 @@ def mean_distance(x: ArrayLike, sides: ArrayLike | None = None) -> FloatArray:
     Parameters
     ----------
     x : (n, d) or (realizations, n, d) float64
-        Points on the unit torus, n >= 2, d <= 8.
+        Points on the unit torus, n >= 2, d <= 24.
     sides : (d,) array_like, optional
         Lengths of the torus's sides, whose ratios count; a cube if not given.
 

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 RANGE = 8.0  # densest spacings
+MOST_DIMENSIONS = 8  # beyond, half a side is less than the densest spacing of thousands of points
 BINS_PER_POINT = 0.125
 # Pairs worked on at once: a few arrays of this many doubles stay in a core's cache.
 BLOCK = 1 << 16
@@ -74,7 +75,7 @@ def rdf(x: ArrayLike, sides: ArrayLike | None = None) -> RadialDistribution:
     InputError
         If sides are not d lengths.
     RefusalError
-        If d > 8, where the densest lattice is not known, or n is too small for one bin.
+        If d > 8, where half a side holds not even a spacing, or n is too small for one bin.
 
     Notes
     -----
@@ -84,9 +85,9 @@ def rdf(x: ArrayLike, sides: ArrayLike | None = None) -> RadialDistribution:
     sets = as_realizations(x)
     n, d = sets.shape[1:]
     lengths = as_sides(sides, d)
+    if d > MOST_DIMENSIONS:
+        raise RefusalError(f"rdf is of d <= {MOST_DIMENSIONS}, where half a side holds a spacing; got d={d}")
     unit = densest_spacing(n, d)
-    if math.isnan(unit):
-        raise RefusalError(f"rdf is measured in spacings of the densest lattice, known for d <= 8; got d={d}")
     planned = int(BINS_PER_POINT * n)
     width = RANGE * unit / max(planned, 1)
     bins = min(planned, math.floor(0.5 * shortest_side(lengths) / width))

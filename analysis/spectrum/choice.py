@@ -103,7 +103,11 @@ def planned(
     weighed = [
         replace(candidate, against=objection(candidate, only, floor, method)) for candidate in averaged
     ]
-    fitting = sorted((c for c in weighed if not c.against), key=lambda c: c.cost.seconds)
+    # Seconds are estimates; where all are exact, counted work decides, as in ``choose``.
+    fitting = sorted(
+        (c for c in weighed if not c.against),
+        key=lambda c: c.evaluator.work(request) if floor is None else c.cost.seconds,
+    )
     if not fitting:
         if floor is None or only not in {None, *(c.evaluator.precision for c in weighed)}:
             if devices_present():

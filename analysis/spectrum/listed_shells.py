@@ -11,10 +11,12 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.analysis.spectrum.limits import LARGEST_NU, MOST_KEPT
+from gbnbench.analysis.spectrum.limits import LARGEST_COUNT, LARGEST_NU, MOST_KEPT, default_shell_fmax
 from gbnbench.analysis.spectrum.shells import EDGE
+from gbnbench.core.errors import InputError
 
-MOST_COORDINATES = 1 << 23  # of the frequencies of one half space: 64 MB as they are listed
+MOST_COORDINATES = 1 << 23  # of the frequencies of one half space: 64 MB as they are listed, by default
+LARGEST_LIST = 1 << 26  # the same, of shells that were asked for: 512 MB
 MOST_TERMS = 4e9  # of one set: half the frequencies times points times dimension, seconds on one core
 
 
@@ -93,6 +95,56 @@ def affordable_square(n: int, d: int, realizations: int = 1) -> int:
     wanted = (math.floor(LARGEST_NU * math.pow(n, 1 / d) * (1 + EDGE)) + 1) ** 2
     most = 2 * min(MOST_COORDINATES / d, MOST_TERMS / (n * d), MOST_KEPT / realizations)
     return max(1, largest_square(d, int(most), wanted))
+
+
+def default_shells(n: int, d: int) -> tuple[int, tuple[float, float] | None]:
+    """Choose fmax and band for shells: a whole ball, or the first shells where its cube cannot be counted.
+
+    Parameters
+    ----------
+    n, d : int
+        Points of a set, and dimension.
+
+    Returns
+    -------
+    fmax : int
+        Largest harmonic on each axis.
+    band : (float, float) or None
+        Smallest and largest |f|.
+    """
+    fmax = default_shell_fmax(n, d)
+    if (2 * fmax + 1) ** d <= LARGEST_COUNT:
+        return fmax, None
+    most = math.sqrt(affordable_square(n, d))
+    return math.ceil(most), (1.0, most)
+
+
+def listed_count(d: int, low: int, high: int) -> int:
+    """Count the frequencies of one half space with low <= |f|^2 <= high, which are to be listed.
+
+    Parameters
+    ----------
+    d, low, high : int
+        Dimension, and smallest and largest |f|^2.
+
+    Returns
+    -------
+    int
+
+    Raises
+    ------
+    InputError
+        If they are too many to be listed; the text says how far they can be.
+    """
+    most = 2 * LARGEST_LIST // d
+    if (reached := largest_square(d, most, high)) < high:
+        found = float(sum(shell_sizes(d, reached + 1)))
+        way_out = f"the band 1,{math.sqrt(reached):.6g} can" if reached else "list those you need"
+        raise InputError(
+            f"shells of |f|^2 up to {high} in d={d} cannot be listed: with |f|^2 = {reached + 1} they are "
+            f"{found:.3g} frequencies; {way_out}"
+        )
+    return sum(shell_sizes(d, high)[low:]) // 2
 
 
 def largest_square(d: int, most: int, wanted: int) -> int:

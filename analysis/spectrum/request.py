@@ -14,7 +14,8 @@ import numpy as np
 
 from gbnbench.analysis.spectrum import limits
 from gbnbench.analysis.spectrum.digits import Harmonics
-from gbnbench.analysis.spectrum.limits import check_harmonic
+from gbnbench.analysis.spectrum.limits import LARGEST_COUNT, check_harmonic, check_positive
+from gbnbench.analysis.spectrum.listed_shells import listed_count
 from gbnbench.analysis.spectrum.sorted_groups import count_pairs, two_sorted_groups
 from gbnbench.core.errors import InputError
 from gbnbench.core.memory import physical_memory
@@ -127,6 +128,7 @@ def shell_request(
     Returns
     -------
     SpectrumRequest
+        For shells; for the listed frequencies of one half of them where the cube cannot be counted.
 
     Raises
     ------
@@ -134,7 +136,10 @@ def shell_request(
         If fmax or band are not what they must be, no frequency lies in the band, or the shells do not fit in
         memory.
     """
-    f = check_harmonic(fmax, d)
+    f = check_positive(fmax)
+    listed = (2 * f + 1) ** d > LARGEST_COUNT
+    if corners or d == 1:
+        check_harmonic(f, d)
     low, high = 1, d * f * f if corners else f * f
     if band is not None:
         least, most = check_band(band, math.sqrt(high), f)
@@ -147,6 +152,11 @@ def shell_request(
         )
     if low > high:
         raise InputError(f"no integer frequency has |f| in {band!r}")
+    if listed:
+        count = listed_count(d, low, high)
+        if count == 0:
+            raise InputError(f"no integer frequency has |f| in {band!r}")
+        return SpectrumRequest("listed", n, d, f, realizations, count, low, high)
     check_room(d, f, low, high)
     count = _count(d, f, low, high)
     if count == 0:

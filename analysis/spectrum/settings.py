@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.analysis.precision import PrecisionName
-from gbnbench.analysis.spectrum.limits import default_fmax, default_radius, default_shell_fmax
+from gbnbench.analysis.spectrum.limits import cube_fits, default_fmax, default_radius
+from gbnbench.analysis.spectrum.listed_shells import default_shells
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.plan import plan
 from gbnbench.analysis.spectrum.shell_spectrum import shells
@@ -54,6 +55,24 @@ class SpectrumSettings:
     floor: float | None = None
     sigma: float | None = None
 
+    def affordable(self, n: int, d: int, sides: Sides | None = None) -> SpectrumSettings:
+        """Return these settings, or shells where nothing was asked for and the default cube does not fit.
+
+        Parameters
+        ----------
+        n, d : int
+            Points in a set, and dimension.
+        sides : tuple of d floats, optional
+            As ``as_sides`` returns them; a cube if not given.
+
+        Returns
+        -------
+        SpectrumSettings
+        """
+        by_default = self.fmax is None and self.frequencies is None and not (self.half or self.shells)
+        fits = not by_default or sides is not None or cube_fits(default_fmax(n, d), d)
+        return self if fits else replace(self, shells=True)
+
     def largest_harmonic(self, n: int, d: int, sides: Sides | None = None) -> int:
         """Return the largest harmonic on each axis, or |k|, for sets of n points in d dimensions.
 
@@ -76,7 +95,24 @@ class SpectrumSettings:
             return max(1, math.ceil(self.band[1]))
         if sides is not None:
             return default_radius(n, d, 1, sides)
-        return default_shell_fmax(n, d) if self.shells else default_fmax(n, d)
+        return default_shells(n, d)[0] if self.shells else default_fmax(n, d)
+
+    def shell_band(self, n: int, d: int, sides: Sides | None = None) -> tuple[float, float] | None:
+        """Return the band of the shells, which is the default one where no end was given.
+
+        Parameters
+        ----------
+        n, d : int
+            Points in a set, and dimension.
+        sides : tuple of d floats, optional
+            As ``as_sides`` returns them; a cube if not given.
+
+        Returns
+        -------
+        (float, float) or None
+        """
+        by_default = self.shells and self.band is None and self.fmax is None and not self.corners
+        return default_shells(n, d)[1] if by_default and sides is None else self.band
 
     def plan(self, n: int, d: int, realizations: int, sides: Sides | None = None) -> SpectrumPlan:
         """Choose the evaluator, before there are any points.
@@ -106,7 +142,7 @@ class SpectrumSettings:
             frequencies=None if self.frequencies is None else len(self.frequencies),
             half=self.half,
             shells=self.shells,
-            band=self.band,
+            band=self.shell_band(n, d, sides),
             corners=self.corners,
             floor=self.floor,
             sides=sides,
@@ -163,7 +199,7 @@ class SpectrumSettings:
                 x,
                 fmax,
                 self.precision,
-                band=self.band,
+                band=self.shell_band(n, d, sides),
                 corners=self.corners,
                 weights=weights,
                 floor=self.floor,

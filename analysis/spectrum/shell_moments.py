@@ -53,7 +53,24 @@ def moments_of_cube(power: FloatArray, fmax: int, request: SpectrumRequest) -> S
     square, flat = squared_radius(fmax, request.d), power.ravel()
     wanted = (square >= request.low) & (square <= request.high)
     wanted[: len(wanted) // 2 + 1] = False  # one half space
-    present, label, count = np.unique(square[wanted], return_inverse=True, return_counts=True)
-    mean = np.bincount(label, flat[wanted]) / count
-    deviation = np.bincount(label, (flat[wanted] - mean[label]) ** 2).astype(np.float64, copy=False)
+    return moments_of_list(flat[wanted], square[wanted])
+
+
+def moments_of_list(power: FloatArray, square: NDArray[np.int64]) -> ShellMoments:
+    """Take the moments of shells from the listed frequencies of one half space.
+
+    Parameters
+    ----------
+    power : (m,) float64
+        Power, averaged over sets before.
+    square : (m,) int64
+        |f|^2 of each frequency.
+
+    Returns
+    -------
+    ShellMoments
+    """
+    present, label, count = np.unique(square, return_inverse=True, return_counts=True)
+    mean = np.bincount(label, power) / count
+    deviation = np.bincount(label, (power - mean[label]) ** 2).astype(np.float64, copy=False)
     return ShellMoments(present, count.astype(np.int64), mean, deviation)

@@ -13,8 +13,10 @@ from gbnbench.analysis.spectrum.ball_power import ball_power
 from gbnbench.analysis.spectrum.box_shells import equal_lengths
 from gbnbench.analysis.spectrum.choice import choose
 from gbnbench.analysis.spectrum.input_checks import check_weights
-from gbnbench.analysis.spectrum.limits import check_harmonic, default_radius, default_shell_fmax
+from gbnbench.analysis.spectrum.limits import check_harmonic, default_radius
+from gbnbench.analysis.spectrum.listed_shells import default_shells, half_ball
 from gbnbench.analysis.spectrum.request import check_band, shell_request
+from gbnbench.analysis.spectrum.shell_moments import moments_of_list
 from gbnbench.core.errors import InputError
 from gbnbench.core.results.radial import ShellSpectrum
 from gbnbench.core.sides import Sides, as_sides
@@ -43,7 +45,7 @@ def shells(
         Points on the unit torus; power is averaged over realizations before it is reduced.
     fmax : int, optional
         Shells up to |f| = fmax, all of which the cube |f_a| <= fmax holds whole; by default as far as nu = 2,
-        or as affordable (``default_shell_fmax``).
+        or as affordable (``default_shells``).
     precision : {"double", "float"}
         As in ``periodogram``.
     band : (low, high), optional
@@ -70,16 +72,18 @@ def shells(
     Raises
     ------
     InputError
-        If x, fmax, band, weights or sides are not what they must be, (2*fmax+1)**d exceeds 2^63, or corners
-        are asked for of a torus with unequal sides.
+        If x, fmax, band, weights or sides are not what they must be, the shells hold too many frequencies
+        where (2*fmax+1)**d exceeds 2^63, or corners are asked for of a torus with unequal sides.
     DeviceError
         If the OpenCL device lacks the precision.
 
     Notes
     -----
     Only frequencies inside the ball or band are evaluated: at d = 10 and fmax = 3 these are the 2e5 with
-    |f| <= 3, out of 2.8e8 in the cube. Memory does not grow with their number. For unequal sides they are
-    listed or evaluated as the box that holds them, whichever is cheaper, and kept in memory.
+    |f| <= 3, out of 2.8e8 in the cube. Memory does not grow with their number. Where the cube cannot even be
+    counted, (2*fmax+1)**d > 2^63, the frequencies of the shells are listed and evaluated one by one. For
+    unequal sides they are listed or evaluated as the box that holds them, whichever is cheaper, and kept in
+    memory.
 
     Examples
     --------
@@ -98,11 +102,16 @@ def shells(
         with use_device(device):
             return _of_box(points, fmax, band, lengths, w, precision, floor, progress)
     if fmax is None:
-        fmax = default_shell_fmax(n, d) if band is None else max(1, math.ceil(band[1]))
+        fmax, band = default_shells(n, d) if band is None else (max(1, math.ceil(band[1])), band)
     request = shell_request(n, d, fmax, sets, band, corners)
     with use_device(device):
         evaluator = choose(request, precision, floor)
-        moments, errors = evaluator.shells(points, request, w, progress)
+        if request.what == "listed":
+            square, frequencies = half_ball(d, request.high, request.low)
+            power, errors = evaluator.listed(points, frequencies, w)
+            moments = moments_of_list(power, square)
+        else:
+            moments, errors = evaluator.shells(points, request, w, progress)
         ran_on = evaluator.device
     errors = errors.averaged(sets, n)
     return ShellSpectrum(

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gbnbench.core.errors import InputError
+from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray
 
+MOST_DIMENSIONS = 8
 LEAST_POINTS = 16  # fewer points give no estimate worth its error
 
 
@@ -65,8 +66,8 @@ def check_window(points: ArrayLike, low: ArrayLike, high: ArrayLike) -> tuple[Fl
     Raises
     ------
     InputError
-        If points are no (n, d) real numbers, there are fewer than 16 of them or all are one, the corners are
-        no corners of a box, or a point lies outside.
+        If points are no (n, d) real numbers, d is above 8, there are fewer than 16 of them or all are one, the
+        corners are no corners of a box, or a point lies outside.
 
     Examples
     --------
@@ -85,6 +86,11 @@ def check_window(points: ArrayLike, low: ArrayLike, high: ArrayLike) -> tuple[Fl
     if x.ndim != 2 or x.shape[1] == 0:
         raise InputError(f"points must be (n, d), one set of one window; got shape {x.shape}")
     n, d = x.shape
+    if d > MOST_DIMENSIONS:
+        raise RefusalError(
+            f"estimates in a window are made in up to {MOST_DIMENSIONS} dimensions; beyond, nearly every "
+            f"point lies at its border; got d={d}. Project the points onto fewer axes, as with --columns"
+        )
     if n < LEAST_POINTS:
         raise InputError(f"estimates in a window need at least {LEAST_POINTS} points; got {n}")
     for corner, name in zip(corners, ("low", "high"), strict=True):

@@ -64,6 +64,16 @@ class WindowEstimates:
     scalars : Measures
         Values by name with ``standard_error`` and ``reasons``: intensity, s_zero, s_peak, nu_peak,
         hyperuniformity, exponent, mean_distance, min_distance, resolution.
+
+    Examples
+    --------
+    >>> import gbnbench
+    >>> x = gbnbench.generate("jittered", n=1024, d=2, seed=0)
+    >>> found = gbnbench.in_window(x, 0, 1)
+    >>> abs(found.scalars["s_zero"]) < 3 * found.scalars.standard_error["s_zero"]  # hyperuniform
+    True
+    >>> found.tapers, len(found.structure_factor.columns)
+    ((2, 2), 10)
     """
 
     n: int
@@ -95,8 +105,8 @@ def in_window(
     Parameters
     ----------
     points : (n, d) array_like
-        Points in any unit, n >= 16: what a window shows of a pattern that goes on beyond it, alike everywhere
-        and in all directions (stationary and isotropic).
+        Points in any unit, n >= 16, d <= 8: what a window shows of a pattern that goes on beyond it, alike
+        everywhere and in all directions (stationary and isotropic).
     low, high : float or (d,) array_like
         Opposite corners of the window: not of the points' bounding box, which is smaller.
     nu_max : float
@@ -123,14 +133,14 @@ def in_window(
     -----
     The page "Points in a window" has the formulas and sources, and how often the stated errors hold against
     closed forms. Errors are those of Gaussian fluctuations of density: they are too small for strongly
-    clustered sets. Cost: 100,000 points take some ten seconds in 2D and 3D on two cores, and 500 MB.
+    clustered sets. Cost: 100,000 points take 7 CPU seconds in 2D, 20 in 3D, and 500 MB.
 
     Examples
     --------
     >>> x = np.random.default_rng(3).random((1000, 2)) * [512, 256]
     >>> found = in_window(x, 0, [512, 256])
     >>> round(found.scalars["s_zero"], 2), round(found.scalars.standard_error["s_zero"], 2)  # Poisson: 1
-    (1.08, 0.14)
+    (0.75, 0.15)
     >>> list(found.pair_correlation.columns)
     ['r', 'spacings', 'g', 'standard_error', 'pairs']
     """

@@ -1,4 +1,4 @@
-"""Whether density fluctuations vanish at large distances: S at k -> 0, its ratio to the peak, its exponent.
+"""Density fluctuations at large distances: S at k -> 0, its ratio to the peak, and its exponent.
 
 H = S(0+) / S(peak) is Torquato's index, below about 1e-4 for what is called effectively hyperuniform; alpha,
 in S ~ k^alpha, tells the class (Torquato 2018; Hawat, Gautier, Bardenet & Lachièze-Rey 2023). Powers are
@@ -105,8 +105,8 @@ def _no_fit(low: pd.DataFrame) -> str:
     hidden = low[low["S"] <= 2 * low["leakage"]]
     if len(low) >= LEAST_BINS and len(hidden):
         return (
-            f"up to nu = {BAND:g} S is no more than what side lobes of the tapers bring, "
-            f"{hidden['leakage'].min():.1g} and more: it is below that, and a larger window would tell how far"
+            f"up to nu = {BAND:g} S is no more than what side lobes of the tapers bring, from "
+            f"{hidden['leakage'].min():.1g} on: it lies below, and only a larger window can tell how far"
         )
     return (
         f"the window resolves {int(low['resolved'].sum())} bins of S up to nu = {BAND:g}, where a fit needs "

@@ -22,7 +22,7 @@ REACH = {1: 10.0, 2: 6.0, 3: 4.0}  # largest distance, in mean spacings; 2 in mo
 PAIRS = 1 << 21  # at a time
 RADII = 13  # distances at which the seen density is found, between which it is interpolated
 DIRECTIONS = 64
-FINE = 4000  # wave numbers of the integral over S
+FINE = 1000  # wave numbers of the integral over S
 
 
 def pair_correlation(points: FloatArray, window: Window, spectrum: pd.DataFrame) -> pd.DataFrame:

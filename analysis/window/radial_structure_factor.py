@@ -95,7 +95,7 @@ def radial_structure_factor(
         2 * degrees / stats.chi2.ppf(q, 2 * degrees) for q in ((1 + CONFIDENCE) / 2, (1 - CONFIDENCE) / 2)
     )
     middle = np.array([(b.low + b.high) / 2 for b in bins])
-    leaked = leakage(middle, s, tapers)
+    leaked = leakage(np.array([bins[0].low] + [b.high for b in bins]), s, tapers)
     table = pd.DataFrame(
         {
             "k": k,
@@ -153,8 +153,8 @@ def _gridded(
 ) -> Iterator[tuple[slice, ComplexArray]]:
     """Sum one taper after another on the grid."""
     grid = GriddedSums(seen.u, np.abs(multiples).max(axis=0))
-    for row, values in enumerate(seen.values):
-        yield slice(row, row + 1), grid.at(values, multiples)[None]
+    for row, sums in enumerate(grid.of(seen.values, multiples)):
+        yield slice(row, row + 1), sums[None]
         progress.advance("structure factor")
 
 
@@ -165,26 +165,36 @@ def _direct(
     yield slice(None), direct_sums(seen.u, seen.values, multiples.astype(np.float64), progress, "float")
 
 
-def leakage(k: FloatArray, s: FloatArray, tapers: SineTapers) -> FloatArray:
+def leakage(edges: FloatArray, s: FloatArray, tapers: SineTapers) -> FloatArray:
     """Estimate what side lobes of the tapers bring to low wave numbers from where S first reaches 1/2.
 
     Parameters
     ----------
-    k, s : (bins,) float64
-        Wave numbers and the structure factor there.
+    edges : (bins + 1,) float64
+        Edges of the bins, in radians a length.
+    s : (bins,) float64
+        The structure factor of each.
     tapers : SineTapers
         Tapers.
 
     Returns
     -------
     (bins,) float64
-        0 from there on. The energy of the tapers beyond that distance, summed over axes, times S = 1.
+        0 from there on. S times the energy of the tapers at the distance of each higher bin, over all axes,
+        along which nearly all of it lies; S is 1 beyond the last bin. What lies within the main lobe does not
+        count. Points that repeat along an axis of the window, as those of a lattice, bring more.
     """
     risen = np.flatnonzero(s >= RISE)
-    found = np.zeros(len(k))
+    found = np.zeros(len(s))
     if len(risen) == 0:
         return found
-    away = k[risen[0]] - k[: risen[0]]
-    for axis in range(len(tapers.sides)):
-        found[: risen[0]] += tapers.energy_beyond(axis, away)
+    first = int(risen[0])
+    middle = (edges[1:] + edges[:-1]) / 2
+    lobes = math.pi * (np.array(tapers.counts) + 2) / tapers.sides  # nearer lies the main lobe of each axis
+    for i in range(first):
+        away = edges[first:] - middle[i]
+        beyond = np.sum(
+            [tapers.energy_beyond(axis, np.maximum(away, lobe)) for axis, lobe in enumerate(lobes)], axis=0
+        )
+        found[i] = float(s[first:] @ (beyond[:-1] - beyond[1:])) + float(beyond[-1])
     return found

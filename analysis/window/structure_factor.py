@@ -155,7 +155,7 @@ def structure_factor(
     --------
     >>> points = np.random.default_rng(1).random((2000, 2)) * [40, 50]
     >>> structure_factor(points, 0, [40, 50], [[3.0, 4.0]]).round(3).to_dict("records")
-    [{'k0': 3.0, 'k1': 4.0, 'k': 5.001, 'S': 0.867, 'standard_error': 0.434, 'resolved': True}]
+    [{'k0': 3.0, 'k1': 4.0, 'k': 5.003, 'S': 1.572, 'standard_error': 0.786, 'resolved': True}]
     """
     import pandas as pd
 

@@ -9,6 +9,7 @@ by 1e-12 of that of Poisson points.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Any, Literal
 
 import numpy as np
@@ -22,6 +23,7 @@ from gbnbench.execution.progress import Progress
 
 CELLS, DEGREE = 8, 11  # of the window that carries points to the grid
 BLOCK = 1 << 20  # phases, or points times nodes, at a time
+GRIDS = 1 << 25  # nodes of the grids that are filled together, 128 MB
 LARGEST_GRID = 1 << 24  # nodes, 64 MB
 
 
@@ -110,42 +112,48 @@ class GriddedSums:
         order = np.argsort(cell[:, 0], kind="stable")  # neighbours on the grid follow one another
         self._order, self._cell, self._place = order, cell[order], (place - cell)[order]
 
-    def at(self, values: FloatArray, multiples: IntArray) -> ComplexArray:
-        """Sum one taper's values times exp(-2 pi i m.u).
+    def of(self, values: FloatArray, multiples: IntArray) -> Iterator[ComplexArray]:
+        """Sum each taper's values times exp(-2 pi i m.u).
 
         Parameters
         ----------
-        values : (n,) float64
-            The taper at the points.
+        values : (tapers, n) float64
+            Each taper at the points.
         multiples : (m, d) int64
             Wave vectors within reach, the last coordinate at least 0.
 
-        Returns
-        -------
+        Yields
+        ------
         (m,) complex128
+            Of one taper after another.
         """
-        transform = fft.rfftn(self._carry(values[self._order]), overwrite_x=True, workers=-1)
         index = tuple(multiples[:, axis] % nodes for axis, nodes in enumerate(self._nodes))
-        found = transform[index].astype(np.complex128)
-        for axis, gains in enumerate(self._gains):
-            found /= gains[np.abs(multiples[:, axis])]
-        return found
+        together = max(1, GRIDS // math.prod(self._nodes))
+        for first in range(0, len(values), together):
+            for grid in self._carry(values[first : first + together, self._order]):
+                found = fft.rfftn(grid, overwrite_x=True, workers=-1)[index].astype(np.complex128)
+                for axis, gains in enumerate(self._gains):
+                    found /= gains[np.abs(multiples[:, axis])]
+                yield found
 
     def _carry(self, values: FloatArray) -> NDArray[np.float32]:
-        """Spread the values over the nodes around each point."""
+        """Spread the values of several tapers over the nodes around each point."""
         d = len(self._nodes)
-        grid = np.zeros(self._nodes, np.float32)
-        flat = grid.reshape(-1)
+        grids = np.zeros((len(values), *self._nodes), np.float32)
+        flat = grids.reshape(len(values), -1)
         around = np.arange(CELLS) - CELLS // 2 + 1
         step = max(1, BLOCK // CELLS**d)
-        for begin in range(0, len(values), step):
+        for begin in range(0, values.shape[1], step):
             chunk = slice(begin, begin + step)
-            weight, node = values[chunk, None], np.zeros((len(values[chunk]), 1), np.intp)
+            count = len(self._cell[chunk])
+            weight, node = np.ones((count, 1)), np.zeros((count, 1), np.intp)
             for axis, nodes in enumerate(self._nodes):
                 near = (self._cell[chunk, axis, None] + around) % nodes
                 at = self._shape.values(self._place[chunk, axis])
-                node = (node[:, :, None] * nodes + near[:, None, :]).reshape(len(node), -1)
-                weight = (weight[:, :, None] * at[:, None, :]).reshape(len(node), -1)
+                node = (node[:, :, None] * nodes + near[:, None, :]).reshape(count, -1)
+                weight = (weight[:, :, None] * at[:, None, :]).reshape(count, -1)
             first, last = int(node.min()), int(node.max()) + 1
-            flat[first:last] += np.bincount((node - first).ravel(), weight.ravel(), last - first)
-        return grid
+            index = (node - first).ravel()
+            for row, taper in zip(flat, values[:, chunk], strict=True):
+                row[first:last] += np.bincount(index, (weight * taper[:, None]).ravel(), last - first)
+        return grids

@@ -88,7 +88,20 @@ def bin_edges(kmax: float, sides: FloatArray) -> FloatArray:
 
 
 def every_wave_vector(high: float, sides: FloatArray) -> IntArray:
-    """List the allowed wave vectors of a half space that are shorter than ``high``: (m, d)."""
+    """List the allowed wave vectors of a half space that are shorter than ``high``.
+
+    Parameters
+    ----------
+    high : float
+        Wave number, in radians a length.
+    sides : (d,) float64
+        Lengths of the window's sides.
+
+    Returns
+    -------
+    (m, d) int64
+        In units of 2 pi / L_a.
+    """
     reach = np.floor(high * sides / (2 * math.pi)).astype(np.int64)
     axes = [np.arange(-m, m + 1) for m in reach[:-1].tolist()] + [np.arange(reach[-1] + 1)]
     squares = np.zeros((1,) * len(sides))
@@ -111,7 +124,19 @@ def in_half_space(multiples: IntArray) -> np.ndarray[tuple[int], np.dtype[np.boo
 
 
 def enumerable(high: float, sides: FloatArray) -> bool:
-    """Tell whether the box around all wave vectors up to ``high`` is small enough to be listed."""
+    """Tell whether the box around all wave vectors up to ``high`` is small enough to be listed.
+
+    Parameters
+    ----------
+    high : float
+        Wave number, in radians a length.
+    sides : (d,) float64
+        Lengths of the window's sides.
+
+    Returns
+    -------
+    bool
+    """
     return float(np.prod(2 * np.floor(high * sides / (2 * math.pi)) + 1)) <= 2 * LISTED
 
 

@@ -112,4 +112,13 @@ def compare(
                 progress=shown,
                 draw=draw if pictures else None,
             )
-    return Comparison(done.run, done.folder, done.changes, done.notes, done.reused, done.pieces, done.seconds)
+    return Comparison(
+        done.run,
+        done.folder,
+        done.changes,
+        done.notes,
+        done.reused,
+        done.pieces,
+        done.seconds,
+        done.undrawn,
+    )

@@ -46,6 +46,8 @@ class Comparison:
         Pieces of work found finished in the folder, and all of them.
     seconds : float
         Wall time of the call.
+    undrawn : str
+        Why pictures that were asked for could not be made; empty where they were.
 
     Examples
     --------
@@ -64,6 +66,7 @@ class Comparison:
     reused: int = 0
     pieces: int = 0
     seconds: float = 0.0
+    undrawn: str = ""
 
     @classmethod
     def read(cls, folder: str | Path) -> Comparison:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import shutil
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -54,8 +55,9 @@ def analyze(
 ) -> None:
     """Every measure of the sets in files, one row a set.
 
-    --json prints a list of {path, set, n, d, measures}. With --window the points need no torus: structure
-    factor, pair correlation, hyperuniformity and distances, each with its standard error.
+    --json prints a list of {path, set, n, d, measures, reasons}, the reasons why a measure is null. With
+    --window the points need no torus: structure factor, pair correlation, hyperuniformity and distances, each
+    with its standard error.
     """
     if window is not None:
         if explain or projections is not None or box:
@@ -100,6 +102,7 @@ def analyze(
                 "d": d,
                 **({} if sides is None else {"sides": list(sides)}),
                 "measures": {name: v if math.isfinite(v) else None for name, v in found.items()},
+                "reasons": dict(found.reasons),
                 **{name: json.loads(table.to_json(orient="records")) for name, table in tables.items()},
             }
             for (path, index, n, d, found), tables, sides in zip(rows, more, boxes, strict=True)
@@ -158,7 +161,8 @@ def _explain(files: tuple[Path, ...], reading: ReadingOptions) -> None:
             for n, d in dict.fromkeys(shapes):
                 times = shapes.count((n, d))
                 with naming(path, shapes.index((n, d))):
-                    plan = SpectrumSettings().plan(n, d, 1, as_sides(read.sides, d))
+                    box = as_sides(read.sides, d)
+                    plan = SpectrumSettings().affordable(n, d, box).plan(n, d, 1, box)
                 click.echo(f"{path}{f', {times} sets, each' * (times > 1)}:\n{plan}")
         except GbnbenchError as error:
             failed = True
@@ -170,6 +174,7 @@ def _explain(files: tuple[Path, ...], reading: ReadingOptions) -> None:
 def _table(rows: list[tuple[Path, int, int, int, Measures]], boxes: list[Sides | None]) -> None:
     """Print aligned columns: wide, so that each set keeps its line."""
     from gbnbench.analysis.measure_definitions import BY_NAME
+    from gbnbench.core.footnotes import footnotes
     from gbnbench.core.sides import sides_text
 
     told = any(sides is not None for sides in boxes)
@@ -184,3 +189,6 @@ def _table(rows: list[tuple[Path, int, int, int, Measures]], boxes: list[Sides |
     for row in cells:
         first, *rest = (cell.rjust(width) for cell, width in zip(row, widths, strict=True))
         click.echo("  ".join([first.strip().ljust(widths[0]), *rest]))
+    missing = [(BY_NAME[name].title, text) for *_, found in rows for name, text in found.reasons.items()]
+    for line in footnotes(missing, shutil.get_terminal_size((100, 24)).columns):
+        click.echo(line)

@@ -12,6 +12,7 @@ import click
 from gbnbench.cli import options
 from gbnbench.cli.json_text import json_text
 from gbnbench.cli.standard_streams import wants_colour
+from gbnbench.cli.undrawn import undrawn
 
 if TYPE_CHECKING:
     from gbnbench.api.comparison import Comparison
@@ -62,8 +63,10 @@ def compare(
     in it. Stopped in any way, the same command goes on where it was.
     """
     from gbnbench.api.compare import compare as make
-    from gbnbench.runs.sources import DEFAULT_SOURCES
+    from gbnbench.runs.sources import DEFAULT_SOURCES, hidden_paths
 
+    for line in hidden_paths(sources):
+        click.echo(f"gbnbench: {line}", err=True)
     comparison = make(
         list(sources or DEFAULT_SOURCES),
         n=n,
@@ -107,4 +110,6 @@ def _show(comparison: Comparison, as_json: bool) -> None:
     if comparison.run.manifest["baseline"] and not comparison.changes:
         click.echo("baseline: nothing better or worse beyond 3 standard errors", err=as_json)
     kept = f", {comparison.reused} of {comparison.pieces} pieces reused" if comparison.reused else ""
+    if comparison.undrawn:
+        undrawn(comparison.folder, comparison.undrawn)
     click.echo(f"report: {comparison.report()} ({comparison.seconds:.1f} s{kept})", err=as_json)

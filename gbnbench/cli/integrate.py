@@ -13,6 +13,7 @@ import click
 
 from gbnbench.cli import options
 from gbnbench.cli.json_text import json_text
+from gbnbench.cli.undrawn import undrawn
 from gbnbench.core.text_table import aligned, number
 
 if TYPE_CHECKING:
@@ -111,8 +112,11 @@ def integrate(
     same command goes on where it was.
     """
     from gbnbench.api.integration import integrate as make
+    from gbnbench.runs.sources import hidden_paths
     from gbnbench.studies.integration.study import DEFAULT_INTEGRANDS, DEFAULT_SOURCES
 
+    for line in hidden_paths(sources):
+        click.echo(f"gbnbench: {line}", err=True)
     made = make(
         list(sources or DEFAULT_SOURCES),
         n=n,
@@ -136,6 +140,8 @@ def integrate(
     else:
         for line in report(made.study):
             click.echo(line)
+    if made.undrawn:
+        undrawn(made.folder, made.undrawn)
     made.picture()
     kept = f", {made.reused} of {made.pieces} pieces reused" if made.reused else ""
     click.echo(f"{'' if as_json else chr(10)}folder: {made.folder} ({made.seconds:.1f} s{kept})", err=as_json)

@@ -151,6 +151,15 @@ def spectrum(
     settings = SpectrumSettings(
         fmax, half, shells or corners or band is not None, band, corners, listed, precision, floor, sigma
     )
+    shapes = [(*one.x.shape[1:], one.sides) for one in sets] or [(n or 1024, d or 2, None)]
+    largest = max(shapes, key=lambda shape: shape[1])
+    affordable = settings.affordable(*largest)
+    if affordable != settings and not quiet:
+        click.echo(
+            f"gbnbench: a cube of frequencies in d={largest[1]} does not fit in memory: shells are computed",
+            err=True,
+        )
+    settings = affordable
     if not explain:
         work.compute(settings, sets, weights, out, each=each, as_json=as_json, quiet=quiet)
     elif sets:

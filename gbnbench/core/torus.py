@@ -12,8 +12,14 @@ from gbnbench.core.errors import InputError
 
 FloatArray = NDArray[np.float64]
 
-# Hermite's constant gamma_d of the densest lattice, known for d <= 8 (Conway & Sloane, Table 1.2).
-HERMITE = (1.0, 2 / math.sqrt(3), 2 ** (1 / 3), math.sqrt(2), 8**0.2, (64 / 3) ** (1 / 6), 64 ** (1 / 7), 2.0)
+# Determinants of the densest lattices known in d = 9 ... 24, scaled to a minimal squared length of 4: of
+# laminated lattices, in d = 11 to 13 of Coxeter and Todd's family (Conway & Sloane, Tables 1.3 and 6.1).
+DETERMINANTS = (512, 768, 972, 729, 972, 768, 512, 256, 256, 192, 128, 64, 32, 12, 4, 1)
+# Hermite's constant gamma_d: of the densest lattice for d <= 8 and d = 24, of the densest known between.
+HERMITE = (
+    1.0, 2 / math.sqrt(3), 2 ** (1 / 3), math.sqrt(2), 8**0.2, (64 / 3) ** (1 / 6), 64 ** (1 / 7), 2.0,
+    *(4 / determinant ** (1 / d) for d, determinant in enumerate(DETERMINANTS, start=9)),
+)  # fmt: skip
 
 
 def check_points(x: ArrayLike) -> FloatArray:
@@ -211,7 +217,7 @@ def densest_spacing(n: int, d: int) -> float:
     Returns
     -------
     float
-        In box sides; nan for d > 8. In 2D it is d_hex = sqrt(2 / (sqrt(3) n)), the unit of PSA's distances.
+        In box sides; nan for d > 24. In 2D it is d_hex = sqrt(2 / (sqrt(3) n)), the unit of PSA's distances.
     """
     if d > len(HERMITE):
         return math.nan

@@ -59,7 +59,8 @@ def encode(result: SourceResult) -> dict[str, bytes]:
     spectrum = result.spectrum
     spectra: dict[str, NDArray[Any]] = {"power": spectrum.power}
     if spectrum.frequencies is not None:
-        spectra["frequencies"] = spectrum.frequencies
+        largest = np.abs(spectrum.frequencies).max()  # of whole shells they are small and many
+        spectra["frequencies"] = spectrum.frequencies.astype(np.min_scalar_type(-int(largest) - 1))
     if spectrum.sides is not None:
         spectra["sides"] = np.array(spectrum.sides)
     spectra |= {name: np.asarray(getattr(spectrum, name)) for name in SPECTRUM_SCALARS}
@@ -123,7 +124,7 @@ def decode(folder: Path) -> SourceResult:
             **{name: array(name) for name in ARRAYS},
             spectrum=Spectrum(
                 power=spectra["power"],
-                frequencies=spectra.get("frequencies"),
+                frequencies=spectra["frequencies"].astype(np.int64) if "frequencies" in spectra else None,
                 sides=tuple(spectra["sides"].tolist()) if "sides" in spectra else None,
                 **{name: kind(spectra[name]) for name, kind in SPECTRUM_SCALARS.items()},
             ),

@@ -194,9 +194,15 @@ def resolve(
 
 def _generator(name: str) -> Generator | None:
     """Parse a generator's text; None where name is an existing path instead."""
-    base = name.partition("[")[0].strip()
+    base, bracket, _ = name.partition("[")
+    base = base.strip()
     if base in GENERATORS:
-        return find(name)
+        try:
+            return find(name)
+        except InputError:
+            if bracket and Path(name).exists():  # a file such as ``sobol[1].txt``
+                return None
+            raise
     if Path(name).exists():
         return None
     close = difflib.get_close_matches(base.lower(), GENERATORS, n=2)
@@ -205,6 +211,27 @@ def _generator(name: str) -> Generator | None:
         f"{name!r} is neither a generator nor an existing file or folder{near} "
         f"The generators are {', '.join(GENERATORS)}"
     )
+
+
+def hidden_paths(names: Iterable[object]) -> list[str]:
+    """Say which files and folders are not read, since a generator has their name.
+
+    Parameters
+    ----------
+    names : iterable
+        Sources as the user gave them.
+
+    Returns
+    -------
+    list of str
+        A sentence for each, with the way to ask for the path.
+    """
+    told = []
+    for name in dict.fromkeys(names):
+        if isinstance(name, str) and Path(name).exists() and _generator(name) is not None:
+            what = "folder" if Path(name).is_dir() else "file"
+            told.append(f"{name} is the generator; the {what} of that name is ./{name}")
+    return told
 
 
 def _title(path: Path) -> str:

@@ -6,6 +6,7 @@ import os
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +24,7 @@ from gbnbench.runs.resumable import run_tasks
 from gbnbench.runs.resumable_folder import explain_interruption
 from gbnbench.runs.sources import Source
 from gbnbench.studies.comparison_tasks import comparison_tasks
+from gbnbench.studies.drawing import failure_of
 
 
 @dataclass(frozen=True)
@@ -43,6 +45,8 @@ class ComparisonOutcome:
         Pieces (sets made and sources measured) found finished in the folder, of how many.
     seconds : float
         Wall time of this call.
+    undrawn : str
+        Why the pictures or the report could not be made; empty where they were, or were not asked for.
     """
 
     run: Run
@@ -52,6 +56,7 @@ class ComparisonOutcome:
     reused: int
     pieces: int
     seconds: float
+    undrawn: str = ""
 
     @property
     def worse(self) -> bool:
@@ -92,7 +97,8 @@ def run_comparison(
     progress : Progress, optional
         Told what is being done.
     draw : callable, optional
-        ``draw(run, folder)`` makes the pictures and the report before the run is declared whole.
+        ``draw(run, folder)`` makes the pictures and the report before the run is declared whole. Where it
+        fails, the results are kept, and the same call tries it again.
 
     Returns
     -------
@@ -163,13 +169,14 @@ def run_comparison(
         run = replace(run, manifest=manifest, verdicts=_verdicts(changes))
         progress.advance("writing the tables", 0)
         store.write_tables(run)
+        undrawn = ""
         if draw is not None:
             progress.advance("drawing", 0)
-            draw(run, store.path)
-        store.finish(manifest)
-    return ComparisonOutcome(
-        run, store.path, changes, notes, work.reused, len(tasks), time.monotonic() - began
-    )
+            undrawn = failure_of(partial(draw, run, store.path))
+        if not undrawn:
+            store.finish(manifest)
+    seconds = time.monotonic() - began
+    return ComparisonOutcome(run, store.path, changes, notes, work.reused, len(tasks), seconds, undrawn)
 
 
 def _require_common(sources: Sequence[Source], earlier: Run, baseline: Path | None) -> None:

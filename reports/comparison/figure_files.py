@@ -116,7 +116,11 @@ def write_figures(run: Run, folder: str | Path) -> list[Path]:
     folder.mkdir(parents=True, exist_ok=True)
     written = []
     for stem, draw, group in planned(run):
-        figure = draw(run, group)
+        try:
+            figure = draw(run, group)
+        except Exception as error:
+            error.add_note(f"figure {stem}")
+            raise
         for ending, content in (("png", png(figure)), ("pdf", pdf(figure))):
             path = folder / f"{stem}.{ending}"
             write_whole(path, content)

@@ -47,6 +47,7 @@ def plane(spectrum: Spectrum) -> FloatArray | None:
     image = np.full(wide, np.nan)
     row = listed[flat, 0] + f
     column = listed[flat, 1] + f if d > 1 else np.zeros_like(row)
+    image[2 * f - row, image.shape[1] - 1 - column] = spectrum.power[flat]  # P(-f) = P(f)
     image[row, column] = spectrum.power[flat]
     return image
 

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import io
 import shutil
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from gbnbench.core.footnotes import footnotes
 from gbnbench.reports.comparison.table import COLUMNS, MARKS, Cell, SourceRow, column_named, row_label, rows
 from gbnbench.reports.source_groups import Group, groups
 from gbnbench.runs.comparison_result import Run
@@ -93,15 +94,28 @@ def terminal_text(run: Run, width: int | None = None, *, colour: bool = False) -
     Returns
     -------
     str
-        Lines without trailing blanks.
+        Lines without trailing blanks; below the table the reasons of missing values.
     """
     width = width or shutil.get_terminal_size((100, 24)).columns
     console = Console(
         file=io.StringIO(), width=width, force_terminal=colour, color_system="standard" if colour else None
     )
     with console.capture() as captured:
-        console.print(terminal_table(run, width))
-    return "\n".join(line.rstrip() for line in captured.get().rstrip("\n").split("\n"))
+        shown = terminal_table(run, width)
+        console.print(shown)
+    table = [line.rstrip() for line in captured.get().rstrip("\n").split("\n")]
+    return "\n".join(
+        [*table, *footnotes(_missing(run, {str(column.header) for column in shown.columns}), width)]
+    )
+
+
+def _missing(run: Run, shown: set[str]) -> Iterator[tuple[str, str]]:
+    """Titles and reasons of the missing values in the columns that are shown."""
+    for row in rows(run):
+        for name, cell in row.cells.items():
+            title = column_named(name).title
+            if cell.reason and title in shown:
+                yield title, cell.reason
 
 
 def _without_last(chosen: Sequence[str]) -> list[str]:

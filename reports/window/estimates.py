@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from pathlib import Path
 
 import matplotlib as mpl
@@ -10,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from gbnbench.analysis.window.estimates import WindowEstimates
+from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.torus import FloatArray
 from gbnbench.reports import layout, style
 
@@ -18,7 +20,20 @@ MOST_POINTS = 20_000  # that are drawn
 
 
 def figure_name(path: Path, index: int, sets: int) -> Path:
-    """Name the picture of one of several sets: ``name-0.png``, ``name-1.png``; of one, the name itself."""
+    """Name the picture of one of several sets.
+
+    Parameters
+    ----------
+    path : Path
+        What the user named.
+    index, sets : int
+        Which set, and of how many.
+
+    Returns
+    -------
+    Path
+        ``name-0.png``, ``name-1.png``; of a single set the name itself.
+    """
     return path if sets == 1 else path.with_name(f"{path.stem}-{index}{path.suffix}")
 
 
@@ -60,7 +75,9 @@ def save(path: Path, points: FloatArray, found: WindowEstimates, title: str) -> 
         As for ``figure``.
     """
     with mpl.rc_context({"svg.hashsalt": "gbnbench"}):
-        figure(points, found, title).savefig(path, dpi=style.DPI)
+        stream = io.BytesIO()
+        figure(points, found, title).savefig(stream, format=path.suffix[1:].lower(), dpi=style.DPI)
+    write_whole(path, stream.getvalue())
 
 
 def _caption(found: WindowEstimates) -> str:

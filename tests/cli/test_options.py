@@ -25,9 +25,9 @@ def every_command(group: click.Group = gbnbench, prefix: str = "") -> Iterator[t
 
 
 COMMANDS = dict(every_command())
-# Which command has which of the options that several have; report and analyze write and wait for little.
+# Which command has which of the options that several have; report and analyze wait for little.
 SHARED = {
-    "--out": "compare spectrum generate convert integrate figures, bench periodogram, bench gbn",
+    "--out": "compare spectrum analyze generate convert integrate figures, bench periodogram, bench gbn",
     "--json": "compare spectrum analyze integrate check devices doctor, bench periodogram, bench gbn",
     "--quiet": "compare spectrum generate integrate figures check doctor, bench periodogram, bench gbn",
     "--quick": "figures check doctor, bench periodogram, bench gbn",

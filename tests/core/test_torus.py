@@ -78,12 +78,14 @@ def test_displacements_across_the_border_keep_all_their_digits(places):
 
 
 def test_densest_spacings_are_those_of_the_known_lattices():
-    # Minimum distance of Z, A2, D3, D4, E8 scaled to one point a unit volume (Conway & Sloane, Table 1.2).
+    # Minimum distance of Z, A2, D3, D4, E8, and of Lambda_9, K_12, Lambda_16 and Leech's lattice, scaled to
+    # one point a unit volume (Conway & Sloane, Tables 1.2 and 1.3).
     known = {1: 1.0, 2: (4 / 3) ** 0.25, 3: 2 ** (1 / 6), 4: 2**0.25, 8: math.sqrt(2)}
+    known |= {9: math.sqrt(2), 12: 2 / 3**0.25, 16: 2**0.75, 24: 2.0}
     for d, distance in known.items():
         assert densest_spacing(1, d) == pytest.approx(distance, rel=1e-15, abs=0)
     assert densest_spacing(1024, 2) == pytest.approx(math.sqrt(2 / (math.sqrt(3) * 1024)), rel=1e-15, abs=0)
-    assert math.isnan(densest_spacing(10, 9))
+    assert math.isnan(densest_spacing(10, 25))
     assert spacing(4096, 3) == pytest.approx(1 / 16)
 
 

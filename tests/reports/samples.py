@@ -91,10 +91,10 @@ def source(
     values["profile_epsilon"] = values["noise_floor"]
     values["profile_c"] = 39.2
     values["anisotropy_db"] = -12.345
-    reasons = {name: "left out of the made-up run" for name, v in values.items() if math.isnan(v)}
+    reasons = {name: "not in the made-up run" for name, v in values.items() if math.isnan(v)}
     if measured is not None:
         values |= measured
-        reasons = {name: "left out of the made-up run" for name, v in values.items() if math.isnan(v)}
+        reasons = {name: "not in the made-up run" for name, v in values.items() if math.isnan(v)}
     errors = {name: abs(v) * 0.021 if count > 1 else math.nan for name, v in values.items()}
     r = np.linspace(0.02, 8, max(int(0.125 * n), 2))
     rdf = None if n < 16 else pd.DataFrame({"r": r, "g": 1 - np.exp(-((r / 0.8) ** 4)) * np.cos(5 * r)})

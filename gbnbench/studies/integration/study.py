@@ -9,6 +9,7 @@ import os
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +30,7 @@ from gbnbench.runs.provenance import versions
 from gbnbench.runs.resumable import run_tasks
 from gbnbench.runs.resumable_folder import explain_interruption
 from gbnbench.runs.sources import Source, resolve
+from gbnbench.studies.drawing import failure_of
 from gbnbench.studies.integration.blocks import errors_of, instances_of, tasks_of
 from gbnbench.studies.integration.study_folder import IntegrationStudy, StudyFolder, read_integration
 from gbnbench.studies.integration.tables import gather, tables
@@ -52,6 +54,8 @@ class IntegrationOutcome:
         Pieces found finished in the folder, of how many.
     seconds : float
         Wall time of this call.
+    undrawn : str
+        Why the picture could not be made; empty where it was, or was not asked for.
     """
 
     study: IntegrationStudy
@@ -59,6 +63,7 @@ class IntegrationOutcome:
     reused: int
     pieces: int
     seconds: float
+    undrawn: str = ""
 
 
 def variance(
@@ -225,11 +230,14 @@ def run_integration_study(
         }
         study = IntegrationStudy(manifest, *tables(given, families, instances, shifts, errors))
         store.write_tables(study)
+        undrawn = ""
         if draw is not None:
             progress.advance("drawing", 0)
-            draw(study, store.path)
-        store.finish(manifest)
-    return IntegrationOutcome(study, store.path, work.reused, len(tasks), time.monotonic() - began)
+            undrawn = failure_of(partial(draw, study, store.path))
+        if not undrawn:
+            store.finish(manifest)
+    seconds = time.monotonic() - began
+    return IntegrationOutcome(study, store.path, work.reused, len(tasks), seconds, undrawn)
 
 
 def _require(**whole: tuple[int, int]) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 
 import numpy as np
@@ -15,10 +14,8 @@ from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.plan import plan
 from gbnbench.analysis.spectrum.shell_spectrum import shells
 from gbnbench.core.errors import InputError
-from gbnbench.core.results.resolution import resolvable_power
 from gbnbench.opencl import runtime
 from tests.oracles.power import mean_power, on_grid, root_distance
-from tests.processes import NO_DEVICE, python
 
 FLOORS = tuple(10.0**-k for k in range(0, 30, 2))
 EXACT = ("product", "gridded", "fft")
@@ -178,49 +175,6 @@ def test_a_method_by_name_is_taken_or_refused_in_words(method, precision):
     assert met.max() <= spectrum.error_bound
 
 
-@pytest.mark.parametrize(
-    ("arguments", "says"),
-    [
-        ({"n": 0, "d": 2, "fmax": 3}, "n must be an integer"),
-        ({"n": 10.5, "d": 2, "fmax": 3}, "n must be an integer"),
-        ({"n": 10, "d": True, "fmax": 3}, "d must be an integer"),
-        ({"n": 10, "d": 2, "fmax": 0}, "fmax must be an integer"),
-        ({"n": 10, "d": 2, "fmax": 3, "realizations": 0}, "realizations must be"),
-        ({"n": 10, "d": 2, "fmax": 3, "floor": 0.0}, "floor must be"),
-        ({"n": 10, "d": 2, "fmax": 3, "floor": -1e-9}, "floor must be"),
-        ({"n": 10, "d": 2, "fmax": 3, "floor": math.nan}, "floor must be"),
-        ({"n": 10, "d": 2, "fmax": 3, "floor": math.inf}, "floor must be"),
-        ({"n": 10, "d": 2, "fmax": 3, "floor": "deep"}, "floor must be"),
-        ({"n": 10, "d": 2, "fmax": 3, "floor": 1e-40}, "out of reach"),
-        (
-            {"n": 10, "d": 2, "fmax": 3, "floor": 1e-20, "precision": "float"},
-            'precision="double" reaches deeper',
-        ),
-        ({"n": 10, "d": 2, "fmax": 3, "precision": "single"}, '"double" or "float"'),
-        ({"n": 10, "d": 2, "fmax": 10**7}, "largest fmax that fits"),
-        ({"n": 10, "d": 30, "fmax": 2}, "more than 2^63"),
-        ({"n": 10, "d": 2, "fmax": 4, "band": (9, 10)}, "fmax=10"),
-        ({"n": 10, "d": 2, "fmax": 4, "frequencies": 0}, "frequencies must be"),
-        ({"n": 10, "d": 2, "fmax": 4, "frequencies": -3}, "frequencies must be"),
-        ({"n": 10, "d": 2, "fmax": 4, "frequencies": 2.5}, "frequencies must be"),
-        ({"n": 10, "d": 2, "fmax": -4, "frequencies": 2}, "fmax must be"),
-        ({"n": 10, "d": 2, "fmax": "4", "frequencies": 2}, "fmax must be"),
-    ],
-)
-def test_bad_requests_are_refused_in_words(arguments, says):
-    with pytest.raises(InputError) as refusal:
-        plan(**arguments)
-    assert says in str(refusal.value)
-
-
-def test_a_refused_floor_names_the_least_that_is_served():
-    with pytest.raises(InputError) as refusal:
-        plan(1000, 2, 20, floor=1e-40)
-    least = float(str(refusal.value).split("here is ")[1].split(";")[0])
-    assert plan(1000, 2, 20, floor=1.1 * least).precision == "double"
-    assert least == pytest.approx(resolvable_power(plan(1000, 2, 20).errors.rms), rel=0.5)
-
-
 @pytest.mark.parametrize(("n", "d", "fmax"), [(4096, 3, 300), (10_000, 3, 390), (100_000, 2, 9000)])
 def test_what_is_chosen_fits_in_the_devices_buffers(n, d, fmax):
     from gbnbench.analysis.spectrum.digits import half_size, whole_axes
@@ -236,72 +190,10 @@ def test_what_is_chosen_fits_in_the_devices_buffers(n, d, fmax):
         assert found.bytes >= 8 * (2 * fmax + 1) ** d + 2 * grid  # the grid and it folded
 
 
-WITHOUT_DEVICE = """
-import json
-import numpy as np
-from gbnbench.analysis.spectrum.periodogram import periodogram
-from gbnbench.analysis.spectrum.plan import plan
-from gbnbench.analysis.spectrum.shell_spectrum import shells
-x = np.random.default_rng(1).integers(0, 2**53, (2, 60, 3)) / 2.0**53
-w = np.random.default_rng(2).random((2, 60))
-f = [[2**40, -3, 1], [1, 2, 3]]
-cube, half = periodogram(x, 3, weights=w), periodogram(x, 3, half=True)
-listed, s = periodogram(x, frequencies=f, weights=w), shells(x, 3, weights=w)
-single = periodogram(x, 3, "float")
-print(json.dumps({
-    "methods": [r.method for r in (cube, half, listed, s, single)],
-    "device": cube.device,
-    "errors": [[r.error_rms, r.error_bound] for r in (cube, half, listed, s, single)],
-    "cube": cube.power.tolist(), "half": half.power.tolist(), "listed": listed.power.tolist(),
-    "single": single.power.tolist(),
-    "shells": [s.count.tolist(), s.power.tolist(), s.deviation.tolist()],
-    "why": plan(60, 3, 3).explain(),
-    "floors": [plan(60, 3, 3, floor=e).precision for e in (1e-5, 1e-20)],
-    "of shells": plan(60, 3, 3, shells=True).method,
-    "of a list": plan(60, 3, 3, frequencies=5).method,
-}))
-"""
-
-
-def test_without_a_device_numpy_finds_the_same():
-    done = python(WITHOUT_DEVICE, **NO_DEVICE)
-    assert done.returncode == 0, done.stderr
-    got = json.loads(done.stdout)
-    x = np.random.default_rng(1).integers(0, 2**53, (2, 60, 3)) / 2.0**53
-    w = np.random.default_rng(2).random((2, 60))
-    assert set(got["methods"]) == {"numpy"}
-    assert "no OpenCL device" in got["device"]
-    assert "no OpenCL device" in got["why"]
-    assert got["of shells"] == got["of a list"] == "numpy"
-    assert got["floors"][1] == "double"
-    assert all(0 < rms < bound for rms, bound in got["errors"])
-    f = [[2**40, -3, 1], [1, 2, 3]]
-    cube, ours = np.array(got["cube"]), periodogram(x, 3, weights=w)
-    assert np.allclose(np.sqrt(cube), np.sqrt(ours.power), atol=1e-14)
-    assert np.allclose(np.sqrt(got["half"]), np.sqrt(periodogram(x, 3).power[3:]), atol=1e-14)
-    assert np.allclose(np.sqrt(got["single"]), np.sqrt(periodogram(x, 3).power), atol=1e-5)
-    assert root_distance(np.array(got["listed"]), mean_power(x, f, w)).max() <= got["errors"][2][1]
-    s = shells(x, 3, weights=w)
-    count, power, deviation = got["shells"]
-    assert count == s.count.tolist()
-    assert np.allclose(power, s.power, rtol=1e-12)
-    assert np.allclose(deviation, s.deviation, rtol=1e-11)
-
-
-@pytest.mark.parametrize(
-    ("arguments", "says"),
-    [
-        ({"half": True, "shells": True}, "one of half, shells"),
-        ({"frequencies": 5, "half": True}, "one of frequencies, half"),
-        ({"half": "no"}, "True or False"),
-        ({"floor": True}, "floor must be"),
-        ({"frequencies": 3, "precision": "half"}, "precision"),
-    ],
-)
-def test_requests_that_contradict_themselves_are_refused(arguments, says):
-    with pytest.raises(InputError, match=says):
-        plan(100, 2, 5, **arguments)
-
-
-def test_a_list_may_hold_any_frequency_of_64_bits():
-    assert plan(10, 2, 2**63, frequencies=1).method == "direct"
+def test_a_rectangle_is_planned_as_its_box_and_its_shells_as_they_are_listed() -> None:
+    box = plan(64, 2, 20, sides=(3, 1))
+    assert box.request.frequencies == periodogram(np.full((1, 2), 0.5), 20, sides=(3, 1)).power.size
+    assert "box: 1,587 frequencies, |f_a| <= 34, 11" in box.explain()
+    assert plan(64, 12, 2, shells=True, sides=(3, *(1,) * 11)).method == "direct"
+    with pytest.raises(InputError, match="corners"):
+        plan(64, 2, 20, corners=True, sides=(3, 1))

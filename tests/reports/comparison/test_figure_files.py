@@ -11,7 +11,7 @@ from matplotlib.image import imread
 from gbnbench.core.results.measures import Measures
 from gbnbench.core.results.spectrum import Spectrum
 from gbnbench.reports import captions, style
-from gbnbench.reports.comparison import loglog, radial, spectrum, sweep, valence
+from gbnbench.reports.comparison import loglog, radial, spectrum, sweep, voronoi_cells
 from gbnbench.reports.comparison.figure_files import FIGURES, pdf, planned, png, write_figures
 from gbnbench.runs.comparison_result import Run
 from tests.oracles.neighbours import valence_by_empty_circles
@@ -174,7 +174,8 @@ def test_plane_of_cubes_and_lists() -> None:
     some = spectrum.plane(Spectrum(np.array([7.0, 8.0, 9.0]), 8, 3, 1, 2, listed))
     assert some is not None
     assert (some[3, 2], some[2, 0]) == (7.0, 8.0)
-    assert np.isfinite(some).sum() == 2
+    assert (some[1, 2], some[2, 4]) == (7.0, 8.0)  # of -f
+    assert np.isfinite(some).sum() == 4
     assert spectrum.plane(Spectrum(np.array([9.0]), 8, 3, 1, 2, listed[2:])) is None
 
 
@@ -185,7 +186,7 @@ def test_tone_map_is_that_of_psa() -> None:
 
 def test_cells_have_the_sides_of_the_periodic_triangulation() -> None:
     x = samples.random(30, 2, 1, seed=5)[0]
-    polygons, degrees = valence.cells(x)
+    polygons, degrees = voronoi_cells.cells(x)
     inside = [k for k, p in enumerate(polygons) if _site_inside(p, x)]
     assert np.sort(degrees[inside]).tolist() == valence_by_empty_circles(x).tolist()
     area = [
@@ -203,13 +204,13 @@ def _site_inside(polygon: np.ndarray, x: np.ndarray) -> bool:
 
 
 def test_cells_of_lattices_and_single_points() -> None:
-    assert set(valence.cells(samples.grid(100, 2)[0])[1]) == {4}
-    assert set(valence.cells(np.array([[0.3, 0.9]]))[1]) == {4}
+    assert set(voronoi_cells.cells(samples.grid(100, 2)[0])[1]) == {4}
+    assert set(voronoi_cells.cells(np.array([[0.3, 0.9]]))[1]) == {4}
 
 
 def test_cells_of_coincident_points_are_left_out() -> None:
     x = samples.random(20, 2, 1)[0]
-    polygons, degrees = valence.cells(np.vstack([x, x[:1]]))
+    polygons, degrees = voronoi_cells.cells(np.vstack([x, x[:1]]))
     assert len(polygons) == len(degrees)
     assert degrees.min() >= 3
 

@@ -9,7 +9,7 @@ import pytest
 
 from gbnbench.analysis.spatial.delaunay import neighbours
 from gbnbench.core.sides import as_sides
-from gbnbench.reports.comparison.valence import cells
+from gbnbench.reports.comparison.voronoi_cells import cells
 
 
 def area(polygon: np.ndarray) -> float:

@@ -98,7 +98,7 @@ def test_words_of_the_page(text: str) -> None:
         assert definition.source in words
     assert "beware" in words
     assert "hexagonal refuses n=36" in words
-    assert "left out of the made-up run" in words  # the reason of an undefined value
+    assert "not in the made-up run" in words  # the reason of an undefined value
     assert "cpu-haswell" in words
     assert "numpy 2.4.6" in words
     assert "4 pi^2 = 39.5" in words

@@ -10,43 +10,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gbnbench.analysis.precision import Precision, precision_of
-from gbnbench.analysis.spectrum.digits import cheapest_division, half_size
-from gbnbench.analysis.spectrum.evaluators import cube_product, point_slots
-from gbnbench.analysis.spectrum.evaluators.cube_product import cube_powers, row_blocks
+from gbnbench.analysis.spectrum.digits import cheapest_division
+from gbnbench.analysis.spectrum.evaluators import cube_product
+from gbnbench.analysis.spectrum.evaluators.cube_product import cube_powers
 from gbnbench.analysis.spectrum.evaluators.cube_writer import covered
-from gbnbench.analysis.spectrum.evaluators.frequency_group import Group
-from gbnbench.analysis.spectrum.evaluators.point_slots import COMPENSATED_FROM
-from gbnbench.analysis.spectrum.evaluators.two_group_product import TwoGroupProduct
 from gbnbench.opencl import runtime
+from tests.analysis.spectrum.evaluators.cube_truth import UNIT, check
 from tests.devices import gpu_form
 from tests.oracles.power import lattice_of, mean_power, on_grid, root_distance, roots
-
-UNIT = {"double": 1e-15, "float": 1e-6}  # typical error allowed, the coordinates' rounding apart
-
-
-def seen(fmax, d, most=240):
-    """All frequencies of a small cube, some of a large one: index in the flattened cube, (m, d)."""
-    size = (2 * fmax + 1) ** d
-    if size <= most:
-        return np.arange(size), lattice_of(fmax, d)
-    index = np.unique(np.random.default_rng(size).integers(0, size, most // 4))
-    index = np.concatenate([index, [0, size // 2, size // 2 + 1, size - 1]])
-    return index, np.stack(np.unravel_index(index, (2 * fmax + 1,) * d), axis=1) - fmax
-
-
-def check(p, x, fmax, weights=None):
-    """Compare a cube with the truth; return it."""
-    w = None if weights is None else np.atleast_2d(weights)
-    power, errors = cube_powers(p, x, fmax, w)
-    d = x.shape[2]
-    assert power.shape == (2 * fmax + 1,) * d
-    assert power.dtype == np.float64
-    assert np.array_equal(power, np.flip(power))
-    index, f = seen(fmax, d)
-    met = root_distance(power.ravel()[index], mean_power(x, f, weights))
-    assert met.max() <= errors.bound
-    assert np.sqrt(np.mean(met**2)) <= max(UNIT[p.name], 4 * errors.rms)
-    return power
 
 
 @pytest.mark.parametrize(
@@ -117,70 +88,6 @@ def test_half_is_the_half_with_f_0_from_0_up(d, fmax, mean):
     assert np.array_equal(half, wanted)
 
 
-@pytest.mark.parametrize("precision", ["double", "float"])
-@pytest.mark.parametrize(("n", "fmax", "sets"), [(100, 20, 23), (400, 6, 7), (9, 3, 200)])
-def test_sets_in_batches_that_they_do_not_fill(monkeypatch, precision, n, fmax, sets):
-    monkeypatch.setattr(point_slots, "TABLE_BYTES", 1 << 15)
-    p = precision_of(precision)
-    divided = cheapest_division(2, fmax, point_slots.tile_rows(p))
-    slots = point_slots.choose_slots(p, n, sets, half_size(divided.leading), half_size(divided.trailing))
-    assert slots.sets < sets
-    assert slots.sets == 1 or sets % slots.sets
-    x = on_grid((sets, n, 2), n)
-    weights = np.random.default_rng(3).random((sets, n))
-    power = check(p, x, fmax, weights)
-    each, _ = cube_powers(p, x, fmax, weights, mean=False)
-    assert each.shape == (sets, 2 * fmax + 1, 2 * fmax + 1)
-    assert np.allclose(each.mean(axis=0), power, rtol=1e-14)
-    for k in (0, 4, sets - 1):
-        alone, _ = cube_powers(p, x[k : k + 1], fmax, weights[k : k + 1])
-        assert np.allclose(np.sqrt(each[k]), np.sqrt(alone), atol=10 * UNIT[precision])
-
-
-@pytest.mark.parametrize("precision", ["double", "float"])
-@pytest.mark.parametrize("n", [1, 2, 3, 4, 5, 7, 8, 9, 127, 513, 1025, 2047])
-def test_points_that_fill_no_lanes_and_no_run(precision, n):
-    check(precision_of(precision), on_grid((2, n, 2), n), 2, np.random.default_rng(n).random(n) + 0.1)
-
-
-@pytest.mark.parametrize("precision", ["double", "float"])
-@pytest.mark.parametrize("form", ["cpu", "gpu", "float sums"])
-def test_many_points_take_several_launches_and_keep_their_rounding(monkeypatch, precision, form):
-    if form == "float sums" and precision == "double":
-        pytest.skip("such a device has no double")
-    p = precision_of(precision) if form == "cpu" else gpu_form(precision == "double", form == "gpu")
-    monkeypatch.setattr(point_slots, "TABLE_BYTES", 1 << 17)
-    n, fmax = 128 * p.lanes * (COMPENSATED_FROM + 5) * (1 if form == "cpu" else 2) + 3, 12
-    divided = cheapest_division(2, fmax, point_slots.tile_rows(p))
-    slots = TwoGroupProduct(p, n, 2, 1, Group(divided.leading), Group(divided.trailing)).slots
-    assert slots.sums(n, p.lanes) > COMPENSATED_FROM
-    assert slots.launches(n) > 1
-    x = on_grid((1, n, 2), n)
-    x[0, : n // 2] = x[0, : n // 2] / 8 + 0.25  # half of them in a cluster, so that the sums are large
-    power, errors = cube_powers(p, x, fmax)
-    f = np.array([[0, 0], [1, -1], [0, 1], [12, -12], [-7, 5]])
-    met = root_distance(power[tuple((f + fmax).T)], mean_power(x, f))
-    assert met.max() <= errors.bound
-    at_most = {"double": 4e-16, "float": 1e-6}[precision] * np.sqrt(n)
-    assert met.max() < at_most
-
-
-@pytest.mark.parametrize(("d", "fmax"), [(1, 400), (2, 9), (3, 4), (5, 1)])
-@pytest.mark.parametrize("form", ["cpu", "gpu"])
-def test_rows_in_blocks_change_nothing(monkeypatch, d, fmax, form):
-    p = precision_of("double") if form == "cpu" else gpu_form()
-    x = on_grid((3, 33, d), d)
-    weights = np.random.default_rng(d).random((3, 33))
-    whole = [cube_powers(p, x, fmax, weights, half, mean)[0] for half in (0, 1) for mean in (0, 1)]
-    monkeypatch.setattr(cube_product, "AMPLITUDE_BYTES", 1 << 10)
-    divided = cheapest_division(d, fmax, point_slots.tile_rows(p))
-    assert len(list(row_blocks(p, divided))) > 1
-    parts = [cube_powers(p, x, fmax, weights, half, mean)[0] for half in (0, 1) for mean in (0, 1)]
-    for one, other in zip(whole, parts, strict=True):
-        assert np.allclose(np.sqrt(one), np.sqrt(other), rtol=0, atol=1e-13)
-    check(p, x, fmax, weights)
-
-
 FORMS = {
     "gpu, double": lambda: gpu_form(True),
     "gpu, float": lambda: gpu_form(False),
@@ -236,15 +143,6 @@ def test_a_product_of_one_dimensional_sets_has_the_product_of_their_powers():
     p = precision_of("double")
     parts = [cube_powers(p, part[None], 9)[0] for part in (one, other)]
     assert np.allclose(cube_powers(p, x, 9)[0], np.outer(*parts), rtol=1e-11, atol=1e-26)
-
-
-@pytest.mark.parametrize(("n", "sets"), [(1, 3000), (2, 700), (16, 100)])
-def test_many_small_sets_do_not_ask_for_more_than_the_room_of_amplitudes(n, sets):
-    p = precision_of("double")
-    divided = cheapest_division(2, 1023, point_slots.tile_rows(p))
-    rows, columns = half_size(divided.leading), half_size(divided.trailing)
-    slots = point_slots.choose_slots(p, n, sets, rows, columns)
-    assert slots.count * rows * columns * 4 * 8 <= cube_product.AMPLITUDE_BYTES
 
 
 def test_the_cover_is_the_cube_with_a_few_beyond_on_one_axis():
