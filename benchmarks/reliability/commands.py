@@ -135,7 +135,9 @@ def bits(folder: Path) -> dict[str, str]:
 def _digest(path: Path) -> str:
     data = path.read_bytes()
     if path.name == "source.json":
-        data = json.dumps({k: v for k, v in json.loads(data).items() if k not in CLOCKS}, sort_keys=True).encode()
+        data = json.dumps(
+            {k: v for k, v in json.loads(data).items() if k not in CLOCKS}, sort_keys=True
+        ).encode()
     if path.name == "table.csv":
         lines = [line.split(",") for line in data.decode().splitlines()]
         kept = [k for k, title in enumerate(lines[0]) if title not in CLOCKS]

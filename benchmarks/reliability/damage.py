@@ -115,9 +115,7 @@ def _swap_numbers(data: bytes, rng: np.random.Generator) -> bytes:
         return _flip_bits(data, rng)
     a, b = sorted(int(k) for k in rng.choice(len(found), 2, replace=False))
     one, other = found[a], found[b]
-    return (
-        data[: one.start()] + other[0] + data[one.end() : other.start()] + one[0] + data[other.end() :]
-    )
+    return data[: one.start()] + other[0] + data[one.end() : other.start()] + one[0] + data[other.end() :]
 
 
 def _change_header(data: bytes, rng: np.random.Generator) -> bytes:

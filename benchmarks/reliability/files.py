@@ -77,7 +77,11 @@ def damaged_files(format_name: str, piece: int, count: int, faults: Path | None 
             path.write_bytes(data)
             one = _judged(format_name, tried, path, data, strict, options)
             path.unlink()
-            if faults is not None and one.verdict == FAULT and not any(f.outcome == one.outcome for f in found):
+            if (
+                faults is not None
+                and one.verdict == FAULT
+                and not any(f.outcome == one.outcome for f in found)
+            ):
                 write_whole(faults / f"{format_name}-{piece}-{number}{suffix}", data)
             found.append(one)
     return summed(found)
@@ -153,7 +157,7 @@ def _judged(
     if not outcome:
         outcome = _compared(reading, data, strict)
     verdict = FAULT if outcome not in _WELL else Trials.verdict
-    if verdict == FAULT or outcome == STRICTER:
+    if verdict == FAULT:
         note = shortened(f"{reading.crash or reading.refusal} {data[:200]!r}")
     return Trials(format_name, tried, outcome, verdict, 1, note, reading.seconds, reading.megabytes)
 

@@ -50,7 +50,9 @@ def full_disks(name: str, count: int) -> list[Trials]:
                 why = f"no file system could be mounted, which takes root on Linux: {error}"
                 return [Trials(name, tried, UNTRIED, UNTRIED, 0, shortened(why))]
             try:
-                found.append(_judged(name, tried, folder, run(name, folder), lambda: _mount(folder, ROOM, "remount,")))
+                found.append(
+                    _judged(name, tried, folder, run(name, folder), lambda: _mount(folder, ROOM, "remount,"))
+                )
             finally:
                 subprocess.run(["umount", "--lazy", folder], check=True)
     return summed(found)
@@ -101,7 +103,11 @@ def full_outputs(name: str, _: int) -> list[Trials]:
     with empty_folder() as folder, Path("/dev/full").open("w") as full:
         done = run(name, folder, stdout=full)
         if not in_words(done):
-            return [Trials(name, tried, "not said in words", FAULT, 1, shortened(f"{done.returncode} {done.stderr}"))]
+            return [
+                Trials(
+                    name, tried, "not said in words", FAULT, 1, shortened(f"{done.returncode} {done.stderr}")
+                )
+            ]
         differing = difference(name, folder)
     verdict = (FAULT, 1, shortened(differing)) if differing else ()
     return [Trials(name, tried, "other bits" if differing else "said in words, files whole", *verdict)]
@@ -112,7 +118,9 @@ def _judged(
 ) -> Trials:
     """Judge a run that ended for want of room, and the one that goes on from it."""
     if done.returncode and not in_words(done):
-        return Trials(name, tried, "not said in words", FAULT, 1, shortened(f"{done.returncode} {done.stderr}"))
+        return Trials(
+            name, tried, "not said in words", FAULT, 1, shortened(f"{done.returncode} {done.stderr}")
+        )
     make_room()
     if done.returncode:
         again = run(name, folder)

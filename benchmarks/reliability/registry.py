@@ -21,7 +21,11 @@ FILES, QUICK_FILES = 4000, 150  # of a piece
 FILE_PIECES = 3  # of a format
 KILLS, QUICK_KILLS = 5, 2  # of a chain
 CHAINS = 10  # of a command
-DISKS, MEMORIES, CROWDS = 10, 12, 2  # of a command: full disks and quotas, limits of memory, crowds of each size
+DISKS, MEMORIES, CROWDS = (
+    10,
+    12,
+    2,
+)  # of a command: full disks and quotas, limits of memory, crowds of each size
 
 
 @dataclass(frozen=True)
@@ -109,7 +113,8 @@ def _runtimes(_: bool) -> list[Piece]:
 
 def _plants(quick: bool) -> list[Piece]:
     return [
-        Piece(f"plants/{name}", planted_kernel, (name,)) for name in list(PLANTS)[: 2 if quick else len(PLANTS)]
+        Piece(f"plants/{name}", planted_kernel, (name,))
+        for name in list(PLANTS)[: 2 if quick else len(PLANTS)]
     ]
 
 

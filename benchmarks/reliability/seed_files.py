@@ -57,7 +57,9 @@ def _boxed(x: np.ndarray, toroidal: bool | None) -> PointSets:
     return PointSets(list(x), _SIDES[:d], _LOW[:d], toroidal)
 
 
-def _written(suffix: str, strict: Callable[[bytes], Sets], *contents: np.ndarray | PointSets) -> list[SeedFile]:
+def _written(
+    suffix: str, strict: Callable[[bytes], Sets], *contents: np.ndarray | PointSets
+) -> list[SeedFile]:
     sets = [x if isinstance(x, PointSets) else PointSets(list(x)) for x in contents]
     return [SeedFile(suffix, WRITTEN[suffix].write[suffix](one), strict) for one in sets]
 
@@ -95,7 +97,13 @@ def _text() -> list[SeedFile]:
 
 def _npy() -> list[SeedFile]:
     seeds = []
-    for x in (_PLANE, _PLANE[0], _PLANE.astype(np.float32), _PLANE[0].astype(">f8"), _HIGH.astype(np.float16)):
+    for x in (
+        _PLANE,
+        _PLANE[0],
+        _PLANE.astype(np.float32),
+        _PLANE[0].astype(">f8"),
+        _HIGH.astype(np.float16),
+    ):
         file = io.BytesIO()
         np.save(file, x)
         seeds.append(SeedFile(".npy", file.getvalue(), strict_npy))
@@ -122,7 +130,9 @@ def _ply() -> list[SeedFile]:
             f"property {kind} {axis}\n" for axis in "xyz"
         )
         seeds.append(
-            SeedFile(".ply", f"{head}end_header\n".encode() + _SPACE[0, :4].astype(form).tobytes(), strict_ply)
+            SeedFile(
+                ".ply", f"{head}end_header\n".encode() + _SPACE[0, :4].astype(form).tobytes(), strict_ply
+            )
         )
     return seeds
 
@@ -138,7 +148,13 @@ def _packed() -> list[SeedFile]:
 
 def _json() -> list[SeedFile]:
     return _written(
-        ".json", strict_json, _PLANE[:1], _PLANE, _boxed(_SPACE, True), _boxed(_PLANE, False), _boxed(_SPACE, None)
+        ".json",
+        strict_json,
+        _PLANE[:1],
+        _PLANE,
+        _boxed(_SPACE, True),
+        _boxed(_PLANE, False),
+        _boxed(_SPACE, None),
     )
 
 

@@ -22,6 +22,7 @@ from gbnbench.benchmarks.reliability.strict_text import DECIMAL, NoPointsError, 
 Points = list[tuple[float, ...]]
 BELOW = math.nextafter(1, 0)
 
+
 def strict_rps(data: bytes) -> Sets:
     """Read pairs of floats, lowest byte first."""
     need(data and len(data) % 8 == 0 and (any(data) or len(data) == 8))
@@ -142,7 +143,10 @@ def strict_ply(data: bytes) -> Sets:
     known(end)
     lines = _text_of(head)
     known(len(lines) > 3)
-    match = [re.fullmatch(r"format (\w+) 1\.0", lines[1]), re.fullmatch(r"element vertex (\d{1,9})", lines[2])]
+    match = [
+        re.fullmatch(r"format (\w+) 1\.0", lines[1]),
+        re.fullmatch(r"element vertex (\d{1,9})", lines[2]),
+    ]
     properties = [re.fullmatch(r"property (float|double) ([xyz])", line) for line in lines[3:]]
     known(lines[0] == "ply" and all(match) and all(properties))
     order, count = match[0][1], int(match[1][1])  # type: ignore[index]

@@ -114,7 +114,9 @@ def _numbered(lines: list[str], rows: list[int], width: int) -> None:
 
 def strict_text(data: bytes) -> Sets:
     """Read text by the grammar in the docstring of gbnbench.io.points, one line after the other."""
-    need(data.removeprefix(b"\xef\xbb\xbf").isascii() or b"#" in data or b'"' in data)  # comments and names of rows may be in any language
+    need(
+        data.removeprefix(b"\xef\xbb\xbf").isascii() or b"#" in data or b'"' in data
+    )  # comments and names of rows may be in any language
     lines = re.split("\r\n|\r|\n", data.removeprefix(b"\xef\xbb\xbf").decode("latin-1"))
     if lines[-1] == "":
         lines.pop()

@@ -4,7 +4,13 @@ from __future__ import annotations
 
 import subprocess
 
-from gbnbench.benchmarks.reliability.commands import arguments, difference, empty_folder, environment, in_words
+from gbnbench.benchmarks.reliability.commands import (
+    arguments,
+    difference,
+    empty_folder,
+    environment,
+    in_words,
+)
 from gbnbench.benchmarks.reliability.trial import FAULT, Trials, shortened, summed
 
 NUMBERS = {2: "two at once", 4: "four at once"}
@@ -50,7 +56,9 @@ def _judged(name: str, tried: str, ended: list[subprocess.CompletedProcess[str]]
     worked = [one for one in ended if one.returncode == 0]
     for one in ended:
         if one.returncode and not (in_words(one) and "another gbnbench" in one.stderr):
-            return Trials(name, tried, "not said in words", FAULT, 1, shortened(f"{one.returncode} {one.stderr}"))
+            return Trials(
+                name, tried, "not said in words", FAULT, 1, shortened(f"{one.returncode} {one.stderr}")
+            )
     if not worked:
         return Trials(name, tried, "none worked", FAULT, 1, shortened(ended[0].stderr))
     if differing:
