@@ -4,12 +4,20 @@ from __future__ import annotations
 
 import resource
 
-import numpy as np
-
 from gbnbench.benchmarks.reliability.commands import difference, empty_folder, in_words, run
 from gbnbench.benchmarks.reliability.trial import FAULT, Trials, shortened, summed
 
-LEAST, MOST = 64e6, 4e9  # bytes of address space
+# bytes of address space, on both sides of what the libraries need to start
+LIMITS = (
+    2_000_000_000,
+    300_000_000,
+    900_000_000,
+    64_000_000,
+    1_000_000_000,
+    860_000_000,
+    800_000_000,
+    1_200_000_000,
+)
 
 
 def memory_limits(name: str, count: int) -> list[Trials]:
@@ -20,14 +28,14 @@ def memory_limits(name: str, count: int) -> list[Trials]:
     name : str
         One of ``COMMANDS``.
     count : int
-        Limits, evenly in their logarithm.
+        How many of ``LIMITS``.
 
     Returns
     -------
     list of Trials
     """
     found = []
-    for limit in np.geomspace(LEAST, MOST, count).astype(int).tolist():
+    for limit in LIMITS[:count]:
         tried = f"{limit / 1e6:.0f} MB"
         with empty_folder() as folder:
 

@@ -150,7 +150,7 @@ PARTS = (
     ),
     Part(
         "memory", "Little memory",
-        "Address spaces (ulimit -v) from 64 MB to 4 GB, evenly in their logarithm: the command ends as without a limit, "
+        "Address spaces (ulimit -v) from 64 MB to 2 GB, most of them near what the libraries need to start: the command ends as without a limit, "
         "or says in words that it cannot.",
         _memory,
     ),

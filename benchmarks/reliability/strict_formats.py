@@ -67,7 +67,7 @@ def strict_npy(data: bytes) -> Sets:
     try:
         header = ast.literal_eval(data[start : start + length].decode("latin-1").strip())
         need(set(header) == {"descr", "fortran_order", "shape"})
-        kind = re.fullmatch(r"([<>=|]?)f([248])", header["descr"])
+        kind = re.fullmatch(r"([<>=|]?)(f[248]|[efd])", header["descr"])
         need(kind and isinstance(header["fortran_order"], bool) and not header["fortran_order"])
     except (ValueError, SyntaxError, TypeError, AttributeError):
         raise NoPointsError from None
@@ -76,9 +76,10 @@ def strict_npy(data: bytes) -> Sets:
     need(isinstance(shape, tuple) and len(shape) in (2, 3))
     need(all(type(s) is int and s > 0 for s in shape))
     count = int(np.prod(shape))
-    need(len(body) == count * int(kind[2]))
+    code = {"f2": "e", "f4": "f", "f8": "d"}.get(kind[2], kind[2])
+    need(len(body) == count * struct.calcsize(f"={code}"))
     order = ">" if kind[1] == ">" else "<"
-    values = struct.unpack(f"{order}{count}{ {'2': 'e', '4': 'f', '8': 'd'}[kind[2]] }", body)
+    values = struct.unpack(f"{order}{count}{code}", body)
     d = shape[-1]
     points = [read_point([repr(v) for v in values[i : i + d]], d) for i in range(0, count, d)]
     n = shape[-2]
@@ -167,7 +168,8 @@ def strict_ply(data: bytes) -> Sets:
 
 
 _LATTICE = re.compile(
-    r'Lattice="(\S+) 0\.0 0\.0 0\.0 (\S+) 0\.0 0\.0 0\.0 (\S+)" Origin="(\S+) (\S+) (\S+)" '
+    r'Lattice="([^\s"]+) 0\.0 0\.0 0\.0 ([^\s"]+) 0\.0 0\.0 0\.0 ([^\s"]+)" '
+    r'Origin="([^\s"]+) ([^\s"]+) ([^\s"]+)" '
     r'Properties=species:S:1:pos:R:3 pbc="([TF]) ([TF]) ([TF])"'
 )
 
