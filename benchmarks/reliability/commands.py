@@ -20,10 +20,13 @@ GBNBENCH = (sys.executable, "-m", "gbnbench")
 TIMEOUT = 300.0  # seconds that a small run never needs
 COMMANDS: dict[str, tuple[str, ...]] = {
     "compare": ("compare", "random", "-n", "16", "--realizations", "3", "--out", "run"),
-    "integrate": ("integrate", "random", "-n", "16,64", "--instances", "5", "--realizations", "2", "--out", "run"),
+    "integrate": (
+        "integrate", "random", "-n", "16,64", "--instances", "5", "--realizations", "2", "--out", "run",
+    ),
     "figures": ("figures", "6", "--quick", "--out", "run"),
     "generate": (
-        "generate", "gbn[iterations=4000]", "-n", "64", "-o", "x.txt", "--checkpoint", "state.npz", "--trace", "t.csv",
+        "generate", "gbn[iterations=4000]", "-n", "64", "-o", "x.txt", "--checkpoint", "state.npz",
+        "--trace", "t.csv",
     ),
 }  # fmt: skip
 JOBS = {"compare": ("--jobs", "2"), "integrate": ("--jobs", "2"), "figures": ("--jobs", "2"), "generate": ()}

@@ -1,4 +1,4 @@
-"""Damage to files: bits, bytes, lines, numbers, counts, headers, names and packings, each kind a small function."""
+"""Damage to files: bits, bytes, lines, numbers, counts and headers, each kind a small function."""
 
 from __future__ import annotations
 
@@ -16,18 +16,19 @@ _NUMBER = re.compile(rb"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _WHOLE = re.compile(rb"(?<![0-9.eE+-])[0-9]+(?![0-9.eE])")
 _WORD = re.compile(rb"[^\s,;\"]+")
 _NUMBERS = (
-    b"nan", b"NaN", b"inf", b"-inf", b"Infinity", b"1e999", b"-1e999", b"1e-999", b"1e308", b"-1", b"1.0000001",
-    b"0.99999999999999999999", b"-0.0", b"-1e-9", b"0x1p-1", b"1_0", b"0,5", b"0..5", b"5e", b"", b"NA", b"null",
-    b"true", b"99999999999999999999999", b"4294967296", b"-2147483649", b"0.5f", b"1/2", b"\xd9\xa1", b"0.5\x00",
+    b"nan", b"NaN", b"inf", b"-inf", b"Infinity", b"1e999", b"-1e999", b"1e-999", b"1e308", b"-1",
+    b"1.0000001", b"0.99999999999999999999", b"-0.0", b"-1e-9", b"0x1p-1", b"1_0", b"0,5", b"0..5", b"5e",
+    b"", b"NA", b"null", b"true", b"99999999999999999999999", b"4294967296", b"-2147483649", b"0.5f",
+    b"1/2", b"\xd9\xa1", b"0.5\x00",
 )  # fmt: skip
 _COUNTS = (
     b"0", b"1", b"2", b"3", b"-1", b"7", b"999999999", b"2147483648", b"9223372036854775808",
     b"1" + b"0" * 30, b"1e3", b"2.0", b"+3", b"",
 )  # fmt: skip
 _PIECES = (
-    b"\n", b"\r\n", b"\r", b"\n\n", b"\n#\n", b"#", b"%", b",", b";", b"\t", b" ", b"\0", b"\xff", b'"', b"'", b"[",
-    b"]", b"{", b"}", b"\xef\xbb\xbf", b"\xc2\xa0", b"x", b"p\n", b"set", b"nan", b"1", b"0.5", b"0.5 0.5\n",
-    b"end_header\n", b"ITEM: ATOMS", b"\x93NUMPY", b"PK\x03\x04", b"\x1f\x8b",
+    b"\n", b"\r\n", b"\r", b"\n\n", b"\n#\n", b"#", b"%", b",", b";", b"\t", b" ", b"\0", b"\xff", b'"',
+    b"'", b"[", b"]", b"{", b"}", b"\xef\xbb\xbf", b"\xc2\xa0", b"x", b"p\n", b"set", b"nan", b"1", b"0.5",
+    b"0.5 0.5\n", b"end_header\n", b"ITEM: ATOMS", b"\x93NUMPY", b"PK\x03\x04", b"\x1f\x8b",
 )  # fmt: skip
 
 

@@ -41,7 +41,8 @@ _READING = (
 )
 # how a file begins that another format claims
 _BEGINNINGS = (
-    b"[", b"{", b"ITEM:", b"ply\n", b"ply\r", b"\x93NUMPY", b"PK", b"%!PS", b"\x1f\x8b", b"BZh", b"\xfd7zXZ", b"\x80",
+    b"[", b"{", b"ITEM:", b"ply\n", b"ply\r", b"\x93NUMPY", b"PK", b"%!PS", b"\x1f\x8b", b"BZh", b"\xfd7zXZ",
+    b"\x80",
 )  # fmt: skip
 
 _NUMERALS = {*b"0123456789+-.eE \t\r\n,#"}  # floats that are these bytes alone are text

@@ -71,7 +71,7 @@ def _plain_table(trials: list[Trials]) -> Iterator[str]:
 
 
 def _file_table(trials: list[Trials]) -> Iterator[str]:
-    """Formats by outcomes, with the slowest file and the most memory."""
+    """Yield formats by outcomes, with the slowest file and the most memory."""
     if not trials:
         yield "Not tried yet."
         return

@@ -121,37 +121,38 @@ def _plants(quick: bool) -> list[Piece]:
 PARTS = (
     Part(
         "files", "Damaged files",
-        "Sound files of every format, damaged in one to four ways: bits flipped, ends cut off, bytes and lines "
-        "inserted, deleted, doubled or swapped, numbers, counts and headers changed, two files in one, packed, under "
-        "another suffix, with reading options that do not fit, and bombs. Each has to give the points that a strict "
-        "reading in plain Python finds, which shares no code with the readers, or be refused in one line that names "
-        "it; within 10 s, 256 MB, finite and in [0, 1).",
+        "Sound files of every format, damaged in one to four ways: bits flipped, ends cut off, bytes and "
+        "lines inserted, deleted, doubled or swapped, numbers, counts and headers changed, two files in "
+        "one, packed, under another suffix, with reading options that do not fit, and bombs. Each has to "
+        "give the points that a strict reading in plain Python finds, which shares no code with the "
+        "readers, or be refused in one line that names it; within 10 s, 256 MB, finite and in [0, 1).",
         _files,
     ),
     Part(
         "kills", "Kills",
-        "A command is killed (SIGKILL) at a random moment, every other time with its workers, and started again, five "
-        "times over; every file that stands then has to be whole, and the last run has to end with what an undisturbed "
-        "one leaves, bit for bit but for times of day and CPU times. In one chain of five no kernel is in the cache.",
+        "A command is killed (SIGKILL) at a random moment, every other time with its workers, and started "
+        "again, five times over; every file that stands then has to be whole, and the last run has to end "
+        "with what an undisturbed one leaves, bit for bit but for times of day and CPU times. In one chain"
+        " of five no kernel is in the cache.",
         _kills,
     ),
     Part(
         "disk", "Full disks, quotas, full outputs",
-        "A file system (tmpfs) of a random size up to what the command leaves, a largest size of a file (RLIMIT_FSIZE), "
-        "and /dev/full as the output. The command has to say so in words with exit code 2; with room again, "
-        "the same command has to end with the same bits.",
+        "A file system (tmpfs) of a random size up to what the command leaves, a largest size of a file "
+        "(RLIMIT_FSIZE), and /dev/full as the output. The command has to say so in words with exit code 2;"
+        " with room again, the same command has to end with the same bits.",
         _disk,
     ),
     Part(
         "together", "Several at once",
-        "The same command started two or four times at once on one folder: one has to work, the others say who holds it "
-        "or do the same to the end, and what is left has the same bits as from one alone.",
+        "The same command started two or four times at once on one folder: one has to work, the others say"
+        " who holds it or do the same to the end, and what is left has the same bits as from one alone.",
         _together,
     ),
     Part(
         "memory", "Little memory",
-        "Address spaces (ulimit -v) from 64 MB to 2 GB, most of them near what the libraries need to start: the command ends as without a limit, "
-        "or says in words that it cannot.",
+        "Address spaces (ulimit -v) from 64 MB to 2 GB, most of them near what the libraries need to "
+        "start: the command ends as without a limit, or says in words that it cannot.",
         _memory,
     ),
     Part(
@@ -161,8 +162,8 @@ PARTS = (
     ),
     Part(
         "plants", "Wrong kernels",
-        "One mistake at a time is planted in the text of a kernel; `gbnbench doctor` has to say that the device is not "
-        "to be trusted, and name the kernel.",
+        "One mistake at a time is planted in the text of a kernel; `gbnbench doctor` has to say that the "
+        "device is not to be trusted, and name the kernel.",
         _plants,
     ),
 )  # fmt: skip

@@ -2,8 +2,8 @@
 
     python -m gbnbench.benchmarks.reliability [PART...] [--quick] [--table FILE.csv] [-o PAGE.md]
 
-The parts are files, kills, disk, together, memory, runtimes and plants. Runtimes beside the usual one are found by
-GBNBENCH_TRIAL_VENDORS (runtimes.py); full disks take root on Linux.
+The parts are files, kills, disk, together, memory, runtimes and plants. Runtimes beside the usual one are
+found by GBNBENCH_TRIAL_VENDORS (runtimes.py); full disks take root on Linux.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Sound files of every format, from which damaged ones are made, each with the strict reading that judges it."""
+"""Sound files of every format, from which damaged ones are made, each with its strict reading."""
 
 from __future__ import annotations
 

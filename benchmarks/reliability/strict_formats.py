@@ -1,7 +1,7 @@
 """Strict readings of the formats that are no plain text, in plain Python, sharing no code with our readers.
 
-Those of .eps, .rps, .npy and .npz judge any file; those of .json, .ply, .xyz, dumps of LAMMPS and .edat judge what
-our own writers and the usual programs write, and leave the rest undecided.
+Those of .eps, .rps, .npy and .npz judge any file; those of .json, .ply, .xyz, dumps of LAMMPS and .edat judge
+what our own writers and the usual programs write, and leave the rest undecided.
 """
 
 from __future__ import annotations
@@ -37,8 +37,8 @@ def strict_eps(data: bytes) -> Sets:
     points = []
     for line in body:
         match = re.fullmatch(rf"({DECIMAL})\s+({DECIMAL})\s+p", line, re.ASCII)
-        need(match)
-        assert match is not None
+        if match is None:
+            raise NoPointsError
         points.append(read_point([match[1], match[4]], 2))
     need(points)
     start, stop = lines.index(body[0]), len(lines) - lines[::-1].index(body[-1])
@@ -68,11 +68,12 @@ def strict_npy(data: bytes) -> Sets:
         header = ast.literal_eval(data[start : start + length].decode("latin-1").strip())
         need(set(header) == {"descr", "fortran_order", "shape"})
         kind = re.fullmatch(r"([<>=|]?)(f[248]|[efd])", header["descr"])
-        need(kind and isinstance(header["fortran_order"], bool) and not header["fortran_order"])
+        need(isinstance(header["fortran_order"], bool) and not header["fortran_order"])
     except (ValueError, SyntaxError, TypeError, AttributeError):
         raise NoPointsError from None
+    if kind is None:
+        raise NoPointsError
     shape, body = header["shape"], data[start + length :]
-    assert kind is not None
     need(isinstance(shape, tuple) and len(shape) in (2, 3))
     need(all(type(s) is int and s > 0 for s in shape))
     count = int(np.prod(shape))

@@ -1,4 +1,4 @@
-"""A strict reading of text files in plain Python, one line after the other, that shares no code with our reader.
+"""A strict reading of text files in plain Python, line by line, that shares no code with our reader.
 
 It follows the grammar in the docstring of ``gbnbench.io.points``, and is what damaged files are judged by.
 """

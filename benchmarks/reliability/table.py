@@ -1,4 +1,4 @@
-"""The table of trials on disk: a row for each kind and outcome of a piece, written whole after every piece."""
+"""The table of trials on disk: a row for each kind and outcome of a piece, written after every piece."""
 
 from __future__ import annotations
 

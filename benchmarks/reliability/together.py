@@ -1,4 +1,4 @@
-"""Several commands on one folder at once: one works, the others say who holds it, and the results are right."""
+"""Several commands on one folder at once: one works, the others say who holds it, the results are right."""
 
 from __future__ import annotations
 

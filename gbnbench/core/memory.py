@@ -15,7 +15,7 @@ def memory_limit() -> int:
     """Bytes of the machine, of its container or of the limits set by ``ulimit``, whichever is least."""
     import psutil
 
-    return min(int(psutil.virtual_memory().total), *_limits(), *_container_limits())
+    return min([int(psutil.virtual_memory().total), *_limits(), *_container_limits()])
 
 
 def too_large(nbytes: float) -> str | None:
@@ -42,8 +42,8 @@ def too_little() -> str | None:
     if least >= LEAST:
         return None
     return (
-        f"the memory of this process is limited to {least / 1e6:.0f} MB (ulimit -v or -d), and gbnbench with its "
-        f"libraries needs {LEAST / 1e6:.0f} MB: raise the limit, such as by ulimit -v unlimited"
+        f"the memory of this process is limited to {least / 1e6:.0f} MB (ulimit -v or -d), and gbnbench with "
+        f"its libraries needs {LEAST / 1e6:.0f} MB: raise the limit, such as by ulimit -v unlimited"
     )
 
 
