@@ -49,7 +49,7 @@ class FormatError(InputError):
         self.line = line
         name = in_one_line(self.path)
         where = f"{name}, line {line}" if line is not None else name
-        super().__init__(f"{where}: {message}")
+        super().__init__(f"{where}: {in_one_line(message)}")
 
 
 class DeviceError(GbnbenchError, RuntimeError):
