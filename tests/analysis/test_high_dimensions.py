@@ -1,4 +1,4 @@
-"""Measures where a cube of frequencies is not affordable: shells as far as they go, the rest with its cost."""
+"""Measures where no cube of frequencies is affordable: shells as far as they go, the rest with its cost."""
 
 from __future__ import annotations
 
