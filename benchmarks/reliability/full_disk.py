@@ -109,8 +109,9 @@ def full_outputs(name: str, _: int) -> list[Trials]:
                 )
             ]
         differing = difference(name, folder)
-    verdict = (FAULT, 1, shortened(differing)) if differing else ()
-    return [Trials(name, tried, "other bits" if differing else "said in words, files whole", *verdict)]
+    if differing:
+        return [Trials(name, tried, "other bits", FAULT, 1, shortened(differing))]
+    return [Trials(name, tried, "said in words, files whole")]
 
 
 def _judged(
