@@ -21,11 +21,7 @@ FILES, QUICK_FILES = 4000, 150  # of a piece
 FILE_PIECES = 3  # of a format
 KILLS, QUICK_KILLS = 5, 2  # of a chain
 CHAINS = 10  # of a command
-DISKS, CROWDS = 4, 2  # of a command: full disks, quotas, and crowds of each size
-    10,
-    12,
-    2,
-)  # of a command: full disks and quotas, limits of memory, crowds of each size
+DISKS, CROWDS = 4, 2  # of a command: full disks and quotas, and crowds of each size
 
 
 @dataclass(frozen=True)
