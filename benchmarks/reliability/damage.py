@@ -104,8 +104,8 @@ def _replace(pattern: re.Pattern[bytes], instead: Sequence[bytes]) -> Damage:
         found = list(pattern.finditer(data))
         if not found:
             return _overwrite_bytes(data, rng)
-        match, new = found[int(rng.integers(len(found)))], instead[int(rng.integers(len(instead)))]
-        return data[: match.start()] + new + data[match.end() :]
+        match = found[rng.integers(len(found))]
+        return data[: match.start()] + instead[int(rng.integers(len(instead)))] + data[match.end() :]
 
     return damage
 

@@ -47,15 +47,9 @@ def read(path: Path) -> Table:
 
 def _trials(row: Mapping[str, str]) -> Trials:
     return Trials(
-        row["subject"],
-        row["tried"],
-        row["outcome"],
-        row["verdict"],
-        int(row["count"]),
-        row["note"],
-        float(row["slowest"]),
-        float(row["memory"]),
-    )
+        row["subject"], row["tried"], row["outcome"], row["verdict"], int(row["count"]), row["note"],
+        float(row["slowest"]), float(row["memory"]),
+    )  # fmt: skip
 
 
 def write(path: Path, table: Table) -> None:
