@@ -39,7 +39,7 @@ def page(table: Table) -> str:
     faults = sum(one.count for one in every if one.verdict == FAULT)
     counts = f"{sum(one.count for one in every):,} trials, {faults or 'no'} fault{'s' * (faults != 1)}."
     minutes = sum(result.seconds for result in table.values()) / 60
-    time = f"; one after the other the pieces took {minutes:.0f} minutes, and two ran at a time"
+    time = f"; its pieces took\n{minutes:.0f} minutes one after the other, and two ran at a time"
     head = resources.files(PACKAGE).joinpath(HEAD).read_text(encoding="utf-8")
     lines = [head.replace("{counts}", counts).replace("{time}", time)]
     lines += ["| part | pieces carried out | trials | faults | not to be had here |", "|---|--:|--:|--:|--:|"]
