@@ -6,7 +6,7 @@ import contextlib
 import os
 import sys
 
-from gbnbench.core.library_caches import lead_caches
+from gbnbench.core.writable_caches import lead_caches
 
 
 def import_matplotlib() -> None:

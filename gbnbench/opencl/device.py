@@ -13,7 +13,7 @@ from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from gbnbench.core.errors import DeviceError
-from gbnbench.core.library_caches import lead_caches
+from gbnbench.core.writable_caches import lead_caches
 
 if TYPE_CHECKING:
     import pyopencl as cl
