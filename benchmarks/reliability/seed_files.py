@@ -9,15 +9,13 @@ from functools import cache
 
 import numpy as np
 
+from gbnbench.benchmarks.reliability.strict_arrays import strict_npy, strict_npz, strict_rps
 from gbnbench.benchmarks.reliability.strict_formats import (
     strict_edat,
     strict_eps,
     strict_json,
     strict_lammps,
-    strict_npy,
-    strict_npz,
     strict_ply,
-    strict_rps,
     strict_xyz,
 )
 from gbnbench.benchmarks.reliability.strict_packed import PACKERS, unpacking

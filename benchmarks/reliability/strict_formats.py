@@ -1,33 +1,29 @@
-"""Strict readings of the formats that are no plain text, in plain Python, sharing no code with our readers.
+"""Strict readings of formats in words and numbers, in plain Python, sharing no code with our readers.
 
-Those of .eps, .rps, .npy and .npz judge any file; those of .json, .ply, .xyz, dumps of LAMMPS and .edat judge
-what our own writers and the usual programs write, and leave the rest undecided.
+That of .eps judges any file; those of .json, .ply, .xyz, dumps of LAMMPS and .edat judge what our own writers
+and the usual programs write, and leave the rest undecided.
 """
 
 from __future__ import annotations
 
-import ast
-import io
 import json
 import math
 import re
 import struct
-import zipfile
 from typing import Any
 
-import numpy as np
-
-from gbnbench.benchmarks.reliability.strict_text import DECIMAL, NoPointsError, Sets, need, read_point
+from gbnbench.benchmarks.reliability.strict_text import (
+    DECIMAL,
+    NoPointsError,
+    Sets,
+    UndecidedError,
+    known,
+    need,
+    read_point,
+)
 
 Points = list[tuple[float, ...]]
 BELOW = math.nextafter(1, 0)
-
-
-def strict_rps(data: bytes) -> Sets:
-    """Read pairs of floats, lowest byte first."""
-    need(data and len(data) % 8 == 0 and (any(data) or len(data) == 8))
-    values = struct.unpack(f"<{len(data) // 4}f", data)
-    return [[read_point([repr(a), repr(b)], 2) for a, b in zip(values[::2], values[1::2], strict=True)]]
 
 
 def strict_eps(data: bytes) -> Sets:
@@ -57,66 +53,6 @@ def strict_eps(data: bytes) -> Sets:
     return [points]
 
 
-def strict_npy(data: bytes) -> Sets:
-    """Read an array of floats, of shape (n, d) or (sets, n, d)."""
-    need(data[:6] == b"\x93NUMPY" and data[6:8] in (b"\1\0", b"\2\0", b"\3\0"))
-    wide = data[6] > 1
-    start = 12 if wide else 10
-    need(len(data) >= start)
-    (length,) = struct.unpack("<I" if wide else "<H", data[8:start])
-    try:
-        header = ast.literal_eval(data[start : start + length].decode("latin-1").strip())
-        need(set(header) == {"descr", "fortran_order", "shape"})
-        kind = re.fullmatch(r"([<>=|]?)(f[248]|[efd])", header["descr"])
-        need(isinstance(header["fortran_order"], bool) and not header["fortran_order"])
-    except (ValueError, SyntaxError, TypeError, AttributeError):
-        raise NoPointsError from None
-    if kind is None:
-        raise NoPointsError
-    shape, body = header["shape"], data[start + length :]
-    need(isinstance(shape, tuple) and len(shape) in (2, 3))
-    need(all(type(s) is int and s > 0 for s in shape))
-    count = int(np.prod(shape))
-    code = {"f2": "e", "f4": "f", "f8": "d"}.get(kind[2], kind[2])
-    need(len(body) == count * struct.calcsize(f"={code}"))
-    order = ">" if kind[1] == ">" else "<"
-    values = struct.unpack(f"{order}{count}{code}", body)
-    d = shape[-1]
-    points = [read_point([repr(v) for v in values[i : i + d]], d) for i in range(0, count, d)]
-    n = shape[-2]
-    return [points[i : i + n] for i in range(0, len(points), n)]
-
-
-class UndecidedError(Exception):
-    """The strict reading does not know this kind of file; our reader has to decide alone."""
-
-
-def known(condition: object) -> None:
-    """Leave the file undecided unless the condition holds."""
-    if not condition:
-        raise UndecidedError
-
-
-def strict_npz(data: bytes) -> Sets:
-    """Read an archive whose arrays are one, or ``points``, or numbered sets, as numpy packs them."""
-    try:
-        with zipfile.ZipFile(io.BytesIO(data)) as archive:
-            names = archive.namelist()
-            known(all(name.endswith(".npy") for name in names) and len({*names}) == len(names))
-            known(all(info.flag_bits == 0 for info in archive.infolist()))
-            taken = ["points.npy"] if "points.npy" in names else names
-            members = {name.removesuffix(".npy"): archive.read(name) for name in taken}
-    except UndecidedError:
-        raise
-    except Exception:  # whatever is wrong with an archive
-        raise NoPointsError from None
-    if len(members) == 1:
-        (member,) = members.values()
-        return strict_npy(member)
-    known(list(members) == [f"set_{k}" for k in range(len(members))])
-    return [one for member in members.values() for one in strict_npy(member)]
-
-
 def _boxed(rows: list[list[float]], low: list[float], sides: list[float], edge: float) -> Points:
     """Fractions of a box; its upper end becomes ``edge``."""
     need(all(len(row) == len(sides) for row in rows))
@@ -127,6 +63,14 @@ def _boxed(rows: list[list[float]], low: list[float], sides: list[float], edge: 
 
 def _not_flat(rows: list[list[float]]) -> None:
     need(not (len(rows) > 1 and len(rows[0]) == 3 and len({row[2] for row in rows}) == 1))
+
+
+def _matched(pattern: str | re.Pattern[str], text: str) -> re.Match[str]:
+    """Match the whole text, or leave the file undecided."""
+    match = re.fullmatch(pattern, text)
+    if match is None:
+        raise UndecidedError
+    return match
 
 
 def _numbers(tokens: list[str]) -> list[float]:
@@ -145,14 +89,11 @@ def strict_ply(data: bytes) -> Sets:
     known(end)
     lines = _text_of(head)
     known(len(lines) > 3)
-    match = [
-        re.fullmatch(r"format (\w+) 1\.0", lines[1]),
-        re.fullmatch(r"element vertex (\d{1,9})", lines[2]),
-    ]
-    properties = [re.fullmatch(r"property (float|double) ([xyz])", line) for line in lines[3:]]
-    known(lines[0] == "ply" and all(match) and all(properties))
-    order, count = match[0][1], int(match[1][1])  # type: ignore[index]
-    names = "".join(p[2] for p in properties if p)
+    known(lines[0] == "ply")
+    order = _matched(r"format (\w+) 1\.0", lines[1])[1]
+    count = int(_matched(r"element vertex (\d{1,9})", lines[2])[1])
+    properties = [_matched(r"property (float|double) ([xyz])", line) for line in lines[3:]]
+    names = "".join(p[2] for p in properties)
     known(names in ("x", "xy", "xyz") and order in ("ascii", "binary_little_endian", "binary_big_endian"))
     need(count > 0)
     if order == "ascii":
@@ -161,7 +102,7 @@ def strict_ply(data: bytes) -> Sets:
         need(len(text) == count and all(len(row.split()) == len(names) for row in text))
         rows = [_numbers(row.split()) for row in text]
     else:
-        form = (">" if "big" in order else "<") + "".join("fd"[p[1] == "double"] for p in properties if p)
+        form = (">" if "big" in order else "<") + "".join("fd"[p[1] == "double"] for p in properties)
         need(len(body) == count * struct.calcsize(form))
         rows = [list(row) for row in struct.iter_unpack(form, body)]
     _not_flat(rows)
@@ -184,11 +125,10 @@ def strict_xyz(data: bytes) -> Sets:
         known(len(lines) > 2 and re.fullmatch(r"\d+", lines[0]))
         n, comment, rows = int(lines[0]), lines[1], lines[2 : 2 + int(lines[0])]
         need(0 < n == len(rows))
-        known(comment == "" or (told := _LATTICE.fullmatch(comment)))
         low, sides, flags = [0.0] * 3, [1.0] * 3, "T"
         if comment:
-            sides, low = _numbers(list(told.groups()[:3])), _numbers(list(told.groups()[3:6]))  # type: ignore
-            flags = "".join(told.groups()[6:])  # type: ignore[union-attr]
+            told = _matched(_LATTICE, comment).groups()
+            sides, low, flags = _numbers([*told[:3]]), _numbers([*told[3:6]]), "".join(told[6:])
             need(all(0 < side < math.inf for side in sides))
         need(first in (None, (comment != "", low, sides, flags)))
         first = comment != "", low, sides, flags
@@ -207,20 +147,19 @@ def strict_lammps(data: bytes) -> Sets:
     first = None
     while lines:
         known(len(lines) > 9 and lines[0] == "ITEM: TIMESTEP" and lines[2] == "ITEM: NUMBER OF ATOMS")
-        box = re.fullmatch(r"ITEM: BOX BOUNDS (pp pp pp|ff ff ff)", lines[4])
-        atoms = re.fullmatch(r"ITEM: ATOMS id type( x( y( z)?)?)", lines[8])
-        known(box and atoms and re.fullmatch(r"\d{1,9}", lines[3]))
-        d, n = len(atoms[1].split()), int(lines[3])  # type: ignore[index]
+        border = _matched(r"ITEM: BOX BOUNDS (pp pp pp|ff ff ff)", lines[4])[1]
+        d = len(_matched(r"ITEM: ATOMS id type( x( y( z)?)?)", lines[8])[1].split())
+        n = int(_matched(r"\d{1,9}", lines[3])[0])
         ends = [_numbers(line.split()) for line in lines[5:8]]
         need(n > 0 and all(len(pair) == 2 and 0 < pair[1] - pair[0] < math.inf for pair in ends))
         low, sides = [pair[0] for pair in ends[:d]], [pair[1] - pair[0] for pair in ends[:d]]
-        need(first in (None, (low, sides, box[1])))  # type: ignore[index]
-        first = low, sides, box[1]  # type: ignore[index]
+        need(first in (None, (low, sides, border)))
+        first = low, sides, border
         rows = [line.split() for line in lines[9 : 9 + n]]
         need(len(rows) == n and all(len(row) == d + 2 for row in rows))
         points = [_numbers(row[2:]) for row in rows]
         _not_flat(points)
-        sets.append(_boxed(points, low, sides, 0.0 if box[1] == "pp pp pp" else BELOW))  # type: ignore[index]
+        sets.append(_boxed(points, low, sides, 0.0 if border == "pp pp pp" else BELOW))
         lines = lines[9 + n :]
     return sets
 

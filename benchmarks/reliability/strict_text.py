@@ -25,6 +25,16 @@ def need(condition: object) -> None:
         raise NoPointsError
 
 
+class UndecidedError(Exception):
+    """The strict reading does not know this kind of file; our reader has to decide alone."""
+
+
+def known(condition: object) -> None:
+    """Leave the file undecided unless the condition holds."""
+    if not condition:
+        raise UndecidedError
+
+
 def _tokens(line: str) -> list[str]:
     return [t.strip() for t in line.split(",")] if "," in line else line.split()
 

@@ -12,7 +12,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gbnbench.benchmarks.reliability.strict_formats import strict_eps, strict_npy, strict_rps
+from gbnbench.benchmarks.reliability.strict_arrays import strict_npy, strict_rps
+from gbnbench.benchmarks.reliability.strict_formats import strict_eps
 from gbnbench.benchmarks.reliability.strict_text import DECIMAL, strict_text
 from gbnbench.core.errors import FormatError
 from gbnbench.io.points import PointSets, ReadingOptions, read, read_sets
