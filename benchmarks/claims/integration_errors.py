@@ -86,23 +86,7 @@ def errors(sets: SetCache, family: Gaussians | HalfSpaces, generator: str, n: in
 
 
 def variance(sets: SetCache, family: Gaussians | HalfSpaces, generator: str, n: int, d: int) -> Variance:
-    """Compute the variance of the estimates.
-
-    Parameters
-    ----------
-    sets : SetCache
-        The sets that are drawn once and shared.
-    family : Gaussians or HalfSpaces
-        The family of integrands.
-    generator : str
-        The generator, with its settings.
-    n, d : int
-        Points in a set, and dimension.
-
-    Returns
-    -------
-    Variance
-    """
+    """Compute the variance of the estimates; parameters are those of ``errors``."""
     return variance_of(errors(sets, family, generator, n, d))
 
 

@@ -38,27 +38,7 @@ def gridded_powers(
 ) -> tuple[FloatArray, Errors]:
     """Evaluate the power at all frequencies with |f_a| <= fmax.
 
-    Parameters
-    ----------
-    p : Precision
-        Precision on the device.
-    x : (sets, n, d) float64
-        Checked points, d >= 2.
-    fmax : int
-        Largest harmonic on each axis.
-    weights : (sets or 1, n) float64, optional
-        Weights of the points; power is divided by the sum of their squares.
-    half : bool
-        Only the half with f_0 >= 0.
-    mean : bool
-        Average over sets; otherwise the power of each set.
-
-    Returns
-    -------
-    power : (2*fmax+1,)*d float64
-        The first axis is only fmax+1 long for a half. An axis of sets precedes it unless ``mean``.
-    errors : Errors
-        Errors of the square root of the power of any one set.
+    Parameters and returns are those of ``cube_product.cube_powers``; d is at least 2.
     """
     sets, n, d = x.shape
     grid = Grid(p, n, d, sets, fmax)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import threading
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -45,15 +46,11 @@ class Workspace:
     gains: Any
     spread: Program
     power: Program
-    _parts: list[Any] = field(default_factory=list)
 
-    def parts(self, runs: int) -> Any:
-        """Give the memory where a run is summed: as large as the grids', where there are several runs."""
-        if runs == 1:
-            return self.grids
-        if not self._parts:
-            self._parts.append(self.spread.owner.empty(self.nodes.nbytes))
-        return self._parts[0]
+    @cached_property
+    def parts(self) -> Any:
+        """Memory as large as the grids', where each of several runs is summed."""
+        return self.spread.owner.empty(self.nodes.nbytes)
 
 
 _kept = threading.local()
