@@ -71,7 +71,7 @@ def plan(
 
     Examples
     --------
-    >>> print(plan(1024, 2, 64).method)
+    >>> print(plan(4096, 8, 1).method)
     product
     """
     listed = 1 if frequencies is None else frequencies

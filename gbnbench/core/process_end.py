@@ -22,7 +22,7 @@ def cause_of_end(code: int, complaints: bytes) -> str:
 
     Examples
     --------
-    >>> cause_of_end(-11, b"pocl: bad binary\\n")
+    >>> cause_of_end(-11, b"pocl: bad binary\n")
     'its process was killed by SIGSEGV: pocl: bad binary'
     >>> cause_of_end(3, b"")
     'its process ended with exit code 3'
