@@ -22,6 +22,7 @@ def sets(d: int, n: int, realizations: int) -> np.ndarray:
     return np.random.default_rng(d).random((realizations, n, d))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("d", "n"), [(20, 12), (50, 8)])
 def test_what_is_affordable_is_what_direct_sums_give(d: int, n: int) -> None:
     x = sets(d, n, 2)

@@ -91,6 +91,7 @@ def test_a_notebook_shows_the_table_and_pictures(made):
     assert "<b>" in shown
 
 
+@pytest.mark.slow
 def test_the_same_call_finds_it_and_another_array_is_refused(tmp_path):
     first = compare({"a": MINE}, tmp_path / "out")
     again = compare({"a": MINE.copy()}, tmp_path / "out")
@@ -103,6 +104,7 @@ def test_the_same_call_finds_it_and_another_array_is_refused(tmp_path):
     assert re.fullmatch(r"[0-9a-f]{64}", source["sha256"])
 
 
+@pytest.mark.slow
 def test_a_mapping_gives_labels_and_several_sizes_suffix_the_figures(tmp_path):
     made = compare({"white": "random", "mine": MINE}, tmp_path / "out", n=[16, 64])
     assert list(zip(made.table.source, made.table.n, strict=True)) == [
@@ -128,6 +130,7 @@ def test_a_baseline_is_judged(tmp_path):
     assert "power_at_1" in {change.measure for change in after.changes}
 
 
+@pytest.mark.slow
 def test_a_source_object_passes(tmp_path):
     sources, _ = resolve(["random"], (64,), (2,), 2)
     assert compare(list(sources), tmp_path / "out").table.source.tolist() == ["random"]
@@ -161,6 +164,7 @@ def test_a_device_that_is_not_there_is_named(tmp_path):
         compare("random", tmp_path, device="no such device")
 
 
+@pytest.mark.slow
 def test_arrays_of_a_rectangle_are_measured_saved_drawn_and_told_apart(tmp_path: Path) -> None:
     made = compare({"mine": MINE, "other": "random"}, tmp_path / "out", sides=(200, 100), pictures=True)
     mine, other = made.sources
@@ -186,6 +190,7 @@ def test_arrays_of_a_rectangle_are_measured_saved_drawn_and_told_apart(tmp_path:
         compare(MINE, tmp_path / "wrong", sides=(1, 2, 3))
 
 
+@pytest.mark.slow
 def test_a_baseline_of_other_sides_gives_no_verdict(tmp_path: Path) -> None:
     square = compare({"mine": MINE}, tmp_path / "square")
     told = compare({"mine": MINE}, tmp_path / "told", sides=(2, 1), baseline=square.folder)

@@ -140,6 +140,7 @@ def test_forces_grow_exact_with_the_cutoff(whole):
     assert (rows.cpu_ms <= rows.cpu_ms_median).all()
 
 
+@pytest.mark.slow
 def test_the_tables_are_whole_and_floors_fall(whole):
     out, outcome, teller = whole
     assert {p.name for p in out.iterdir()} == {
@@ -182,6 +183,7 @@ def test_the_picture_and_the_report_say_what_was_measured(whole):
         assert words in text
 
 
+@pytest.mark.slow
 def test_bad_use_is_refused_in_words(tmp_path):
     (tmp_path / "file").write_text("mine")
     with pytest.raises(InputError, match="must be a folder"):

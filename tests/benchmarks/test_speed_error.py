@@ -199,6 +199,7 @@ def test_without_finufft_it_says_so_and_how_to_add_it(whole):
     assert ("FINUFFT is not installed: pip install finufft to add it" in done.stdout) == (not there)
 
 
+@pytest.mark.slow
 def test_bad_use_is_refused_in_words(tmp_path):
     (tmp_path / "file").write_text("mine")
     for arguments, says in ((["--out", "file"], "must be a folder"), (["--fast"], "No such option")):

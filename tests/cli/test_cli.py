@@ -45,6 +45,7 @@ def whole(tmp_path_factory: pytest.TempPathFactory) -> Whole:
     return Whole(folder, arguments, command(*arguments, cwd=folder))
 
 
+@pytest.mark.slow
 def test_compare_prints_a_table_and_leaves_a_whole_run(whole: Whole) -> None:
     folder, out, done = whole.folder, whole.out, whole.done
     assert all(label in done.stdout for label in ("random", "jittered", "mine", "report: runs")), done.stderr
@@ -68,6 +69,7 @@ def test_compare_prints_a_table_and_leaves_a_whole_run(whole: Whole) -> None:
     assert result.manifest["command"].startswith("gbnbench compare random jittered mine.npy -n 64")
 
 
+@pytest.mark.slow
 def test_the_same_command_again_reuses_everything(whole: Whole) -> None:
     before = {path: path.stat().st_mtime_ns for path in whole.out.rglob("*") if path.name != ".lock"}
     again = command(*whole.arguments, cwd=whole.folder)

@@ -60,6 +60,7 @@ def test_a_folder_that_a_generator_hides_is_told() -> None:
     ]
 
 
+@pytest.mark.slow
 def test_results_are_kept_and_shown_where_the_report_fails(
     here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -80,6 +81,7 @@ def test_results_are_kept_and_shown_where_the_report_fails(
     assert (here / "run" / "report.html").exists()
 
 
+@pytest.mark.slow
 def test_a_picture_that_fails_costs_only_itself(
     here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -20,6 +20,7 @@ def nulls(row: dict[str, object]) -> set[str]:
     return {name for name, value in row.items() if value is None}
 
 
+@pytest.mark.slow
 def test_every_null_of_a_study_has_its_reason(capsys: pytest.CaptureFixture[str]) -> None:
     command = ["integrate", "grid", "random", "-n", "16", "--realizations", "1"]
     command += ["--instances", "1", "--quiet"]
@@ -34,6 +35,7 @@ def test_every_null_of_a_study_has_its_reason(capsys: pytest.CaptureFixture[str]
     assert "- slope: it takes sets of two sizes" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_a_size_that_a_source_lacks_is_told(capsys: pytest.CaptureFixture[str]) -> None:
     np.savetxt("mine.txt", np.random.default_rng(0).random((9, 2)))
     command = ["integrate", "mine.txt", "random", "-n", "16", "--realizations", "2", "--instances", "2"]
@@ -42,6 +44,7 @@ def test_a_size_that_a_source_lacks_is_told(capsys: pytest.CaptureFixture[str]) 
     assert "- n=16; n=9: a source has no sets of that size" in out
 
 
+@pytest.mark.slow
 def test_every_null_of_a_spectrum_and_a_comparison_has_its_reason(
     capsys: pytest.CaptureFixture[str],
 ) -> None:

@@ -127,6 +127,7 @@ def test_options_without_a_file_are_refused() -> None:
     assert "period, wrap say how files are read, and no source is a file" in str(done.exception)
 
 
+@pytest.mark.slow
 def test_a_file_that_is_no_torus_says_so(tmp_path: Path) -> None:
     rows = "".join(f"{a!r} {b!r}\n" for a, b in np.random.default_rng(1).random((9, 2)).tolist())
     (tmp_path / "window.edat").write_text("0 0\n1 1\n0\n" + rows)
@@ -136,6 +137,7 @@ def test_a_file_that_is_no_torus_says_so(tmp_path: Path) -> None:
     assert f"warning: window (n=9, d=2): the file {told}" in done.output
 
 
+@pytest.mark.slow
 def test_a_resumed_folder_notices_other_options(pixels: tuple[Path, Path], tmp_path: Path) -> None:
     there, unit = pixels
     call = ["integrate", there, "--instances", 2, "--out", tmp_path / "study", "--jobs", 1, "--quiet"]

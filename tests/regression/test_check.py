@@ -175,6 +175,7 @@ def test_double_is_skipped_with_words_where_there_is_none(monkeypatch):
     assert "does not compute in double" in verdicts[0].text
 
 
+@pytest.mark.slow
 def test_workers_measure_what_this_process_does(file):
     cases = [OWN["lattice-3d-64-double"], OWN["lattice-2d-256-float"]]
     alone, shared = check(cases, jobs=1), check(cases, jobs=2)

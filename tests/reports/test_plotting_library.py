@@ -16,6 +16,7 @@ DRAW = (
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("backend", "kept"),
     [

@@ -52,6 +52,7 @@ def opened(tmp_path, **identity):
     return folder
 
 
+@pytest.mark.slow
 def test_only_what_is_missing_is_done_again(tmp_path):
     mark = str(tmp_path / "mark")
     tasks = [Task(f"a/{k}", f"roots {k}", roots, (k, mark)) for k in (3, 4, 5)]
@@ -126,6 +127,7 @@ def sums(*counts):
     return [*roots_of, Task("sum", "their sum", total, (), tuple(t.key for t in roots_of), doubled)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("jobs", [None, 2])
 def test_what_a_task_requires_comes_first_and_is_read_once(tmp_path, jobs):
     Counted.reads.clear()
@@ -152,6 +154,7 @@ def test_what_a_task_requires_comes_first_and_is_read_once(tmp_path, jobs):
     assert Counted.reads == {"roots/3": 1, "roots/5": 1}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("jobs", [None, 2])
 def test_what_requires_a_failed_task_is_left_out(tmp_path, jobs):
     tasks = [

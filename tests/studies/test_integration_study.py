@@ -73,6 +73,7 @@ def test_a_prediction_is_for_periodic_families_alone(done):
     assert table[~periodic][["foretold", "beyond", "deviation"]].isna().all().all()
 
 
+@pytest.mark.slow
 def test_one_worker_and_another_order_give_the_same_numbers(done, tmp_path):
     again = study(tmp_path / "again", ("jittered", "random"), jobs=1)
     keys = ["source", "n", "integrand"]
@@ -193,6 +194,7 @@ def test_the_command_prints_keeps_and_draws(tmp_path, capsys):
     assert "seed is 0 there, 3 here" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_the_command_lists_families_and_says_what_is_skipped(tmp_path, capsys):
     assert command(["integrate", "--list"]) == 0
     listed = capsys.readouterr().out

@@ -202,6 +202,7 @@ def test_bad_requests_are_refused() -> None:
             call()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("n", "d"), [(64, 20), (128, 9)])
 def test_many_dimensions_list_the_ball_as_far_as_it_goes(n: int, d: int) -> None:
     x = np.random.default_rng(4).random((2, n, d))

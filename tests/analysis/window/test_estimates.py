@@ -30,6 +30,7 @@ def _held(table, sets):
         assert row.covered > 0.95 - 4 * math.sqrt(0.95 * 0.05 / independent) - 0.01, row
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "process",
     [poisson((24.0, 16.0), 400), perturbed_lattice((24.0, 16.0), "uniform"), ginibre(18.0)],

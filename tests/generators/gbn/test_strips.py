@@ -26,6 +26,7 @@ def hard_sets(n, d):
     yield "line", line
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("n", "d", "sigma"),
     [(12, 1, 0.9), (53, 1, 0.3), (145, 2, 1.0), (64, 2, 0.4), (325, 2, 1.0), (60, 3, 0.3), (160, 3, 0.3)],
@@ -55,6 +56,7 @@ def test_a_kernel_may_end_early(cutoff, precision):
     assert at.excess[0] == pytest.approx(excess, abs=ALLOWED[precision])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("precision", ["double", "float"])
 def test_moves_within_and_beyond_the_skin_keep_every_pair(precision):
     rng = np.random.default_rng(2)

@@ -151,6 +151,7 @@ def test_panels_say_the_case_the_quoted_time_and_the_machine():
     assert curve.get_ydata().tolist() == [2.0, 1.2]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("error", [1e-7, 7e-7, 1e-4])
 def test_the_name_of_a_precision_stays_in_its_panel(error):
     rows = speed_rows(finufft=False, quoted=False)[lambda t: t.family != "new"]

@@ -127,6 +127,7 @@ def test_any_dimension(n: int, d: int, fmax: int, sets: int) -> None:
     assert ("Slice of the first two of" in words) == (d > 2)
 
 
+@pytest.mark.slow
 def test_several_n_have_a_section_each_and_a_sweep() -> None:
     sources = tuple(samples.source("random", samples.random(n, 2, 2), 3) for n in (9, 16))
     reader = Reader(page(Run({}, sources)))
@@ -134,6 +135,7 @@ def test_several_n_have_a_section_each_and_a_sweep() -> None:
     assert {"table-n9-d2", "table-n16-d2", "gallery-n16-d2", "sweep"} <= sections
 
 
+@pytest.mark.slow
 def test_odd_manifest_is_survived(run: Run) -> None:
     odd = {"device": "a string", "versions": None, "settings": {"path": Path("x")}, "timings": {"seconds": 2}}
     assert "a string" in page(replace(run, manifest=odd))
