@@ -9,17 +9,13 @@ from pathlib import Path
 
 import pytest
 
-from tests.paths import ROOT
-
-FOLDERS = ("gbnbench", "generators", "analysis", "benchmarks", "reports")
+from tests.paths import ROOT, copy_packages
 
 
 @pytest.fixture
 def tree(tmp_path: Path) -> Path:
     """A copy of the source tree that a test may spoil."""
-    for folder in FOLDERS:
-        skip = shutil.ignore_patterns("__pycache__", "results")
-        shutil.copytree(ROOT / folder, tmp_path / folder, symlinks=True, ignore=skip)
+    copy_packages(tmp_path)
     shutil.copy(ROOT / "pyproject.toml", tmp_path)
     return tmp_path
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import resource
 import subprocess
 from collections.abc import Callable
@@ -11,8 +12,11 @@ import numpy as np
 
 from gbnbench.benchmarks.reliability.commands import (
     COMMANDS,
+    TIMEOUT,
+    arguments,
     difference,
     empty_folder,
+    environment,
     in_words,
     run,
     undisturbed,
@@ -55,27 +59,63 @@ def full_disk(name: str, number: int) -> list[Trials]:
 
 
 def quota(name: str, number: int) -> list[Trials]:
-    """Run a command with a largest size of files, then without.
+    """Run a command whose files get a largest size at a random moment, then without one.
+
+    From its beginning nothing would be tried but the refusal of kernels, which need a megabyte.
 
     Parameters
     ----------
     name : str
         One of ``COMMANDS``.
     number : int
-        Names the stream of the random limit, which goes up to the largest file that the command leaves.
+        Names the stream of the random moment and limit, up to a quarter of its largest file.
 
     Returns
     -------
     list of Trials
         The one.
     """
-    limit = int(_random(name, 1, number).integers(1, undisturbed(name).largest))
-
-    def restrict() -> None:
-        resource.setrlimit(resource.RLIMIT_FSIZE, (limit, resource.RLIM_INFINITY))
-
+    usual, random = undisturbed(name), _random(name, 1, number)
+    limit, moment = int(random.integers(1, usual.largest // 4)), random.uniform(0, usual.seconds)
     with empty_folder() as folder:
-        return [_judged(name, "a quota", folder, run(name, folder, preexec_fn=restrict), lambda: None)]
+        return [_judged(name, "a quota", folder, run_limited(name, folder, limit, moment), lambda: None)]
+
+
+def run_limited(name: str, folder: Path, limit: int, moment: float) -> subprocess.CompletedProcess[str]:
+    """Run a command whose files, after a moment, may not grow beyond a limit.
+
+    Parameters
+    ----------
+    name : str
+        One of ``COMMANDS``.
+    folder : Path
+        Where it runs.
+    limit : int
+        In bytes.
+    moment : float
+        Seconds after its start; 0 is before it.
+
+    Returns
+    -------
+    CompletedProcess
+    """
+
+    def restrict(process: int = 0) -> None:
+        with contextlib.suppress(ProcessLookupError):  # it may have ended
+            resource.prlimit(process, resource.RLIMIT_FSIZE, (limit, resource.RLIM_INFINITY))
+
+    if not moment:
+        return run(name, folder, preexec_fn=restrict)
+    with subprocess.Popen(
+        arguments(name), cwd=folder, env=environment(), text=True, errors="replace",
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+    ) as started:  # fmt: skip
+        try:
+            output, complaints = started.communicate(timeout=moment)
+        except subprocess.TimeoutExpired:
+            restrict(started.pid)
+            output, complaints = started.communicate(timeout=TIMEOUT)
+    return subprocess.CompletedProcess(started.args, started.returncode, output, complaints)
 
 
 def full_output(name: str) -> list[Trials]:

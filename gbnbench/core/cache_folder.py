@@ -16,16 +16,13 @@ from typing import Any, Literal
 from gbnbench.core.atomic_write import write_whole
 
 VARIABLE = "GBNBENCH_CACHE"
-BLOCK = 4096  # bytes that a usable folder takes: a full disk may still make an empty file
+ROOM = 1 << 20  # bytes that a usable folder takes: without room a compiler of kernels ends the process
 
 
 def is_writable(folder: Path) -> bool:
-    """Return whether a file with content can really be made in a folder, which is created if need be."""
+    """Return whether a file of ``ROOM`` bytes can really be made in a folder, which is created if need be."""
     try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder) as file:
-            file.write(bytes(BLOCK))
-            file.flush()
+        _try(folder)
         return True
     except OSError:
         return False
@@ -63,7 +60,7 @@ def cache_folder() -> Path:
     Raises
     ------
     OSError
-        If no folder of this machine can be written, not even a temporary one.
+        If no folder of this machine takes a file of ``ROOM`` bytes, not even a temporary one.
     """
     named = os.environ.get(VARIABLE)
     for folder in (Path(named) if named else None, user_folder("cache", "gbnbench")):
@@ -83,8 +80,20 @@ def _temporary_folder() -> Path:
                 return own
     passing = Path(tempfile.mkdtemp(prefix="gbnbench-cache-"))
     atexit.register(shutil.rmtree, passing, ignore_errors=True)
+    _try(passing)
     os.environ[VARIABLE] = str(passing)  # worker processes share it
     return passing
+
+
+def _try(folder: Path) -> None:
+    """Make a file of ``ROOM`` bytes in a folder, which leaves nothing; an OSError names the folder."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder) as file:
+            file.write(bytes(ROOM))
+            file.flush()
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(folder)) from None
 
 
 def recall(name: str) -> Any | None:

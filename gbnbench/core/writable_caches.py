@@ -23,7 +23,7 @@ def lead_caches() -> None:
     Raises
     ------
     OSError
-        If no folder of this machine can be written.
+        If no folder of this machine takes the files of compiled kernels.
     """
     if not _all_writable(os.environ.get("POCL_CACHE_DIR")):
         os.environ["POCL_CACHE_DIR"] = str(cache_folder() / "pocl")

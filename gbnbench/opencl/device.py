@@ -84,7 +84,8 @@ def import_pyopencl() -> Any:
             lead_caches()
     except OSError as error:
         raise DeviceError(
-            f"no folder can be written for compiled kernels ({error}). Set GBNBENCH_CACHE to one that can"
+            f"no folder takes the files of compiled kernels, up to 1 MiB ({error}). Make room, raise the "
+            "limit on the size of files (ulimit -f) or set GBNBENCH_CACHE to a folder that can be written"
         ) from None
     try:
         import pyopencl

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+import subprocess
 import tempfile
 from pathlib import Path
 
@@ -101,3 +102,19 @@ def test_an_unusable_temporary_folder_of_someone_else_is_left_alone(tmp_path, mo
     assert not found.is_symlink()
     assert os.environ["GBNBENCH_CACHE"] == str(found)
     shutil.rmtree(found)
+
+
+def test_a_limit_on_the_size_of_files_is_named_before_a_compiler_dies_of_it(tmp_path: Path) -> None:
+    resource = pytest.importorskip("resource")
+
+    def restrict() -> None:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (10_000, resource.RLIM_INFINITY))
+
+    done = subprocess.run(
+        [*COMMAND, "generate", "gbn", "-n", "16", "-o", "x.txt"],
+        cwd=tmp_path, capture_output=True, text=True, preexec_fn=restrict, check=False,
+    )  # fmt: skip
+    assert done.returncode == 2
+    assert "no folder takes the files of compiled kernels" in done.stderr
+    assert "ulimit -f" in done.stderr
+    assert done.stderr.count("\n") == 1

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import re
-import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -14,10 +13,9 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from tests.paths import ROOT
+from tests.paths import ROOT, copy_packages
 
 PAGE = (ROOT / "docs" / "adding.md").read_text(encoding="utf-8")
-PACKAGES = ("gbnbench", "generators", "analysis", "benchmarks", "reports")
 NAMED = re.compile(r"# (\w+\.py)\n")
 
 
@@ -79,9 +77,7 @@ def apply(patch: str, root: Path) -> None:
 
 @pytest.mark.slow
 def test_the_patches_fit_and_the_commands_then_know_both(place: Path) -> None:
-    for package in PACKAGES:
-        skip = shutil.ignore_patterns("__pycache__", "results")
-        shutil.copytree(ROOT / package, place / package, symlinks=True, ignore=skip)
+    copy_packages(place)
     (place / "generators" / "antithetic.py").write_text(files()["antithetic.py"], encoding="utf-8")
     (place / "analysis" / "axis_gap.py").write_text(files()["axis_gap.py"], encoding="utf-8")
     evaluators = place / "analysis" / "spectrum" / "evaluators"
