@@ -46,8 +46,8 @@ class Comparison:
         Pieces of work found finished in the folder, and all of them.
     seconds : float
         Wall time of the call.
-    undrawn : str
-        Why pictures that were asked for could not be made; empty where they were.
+    failed : str
+        Why tables, pictures or the report could not be written; empty where they were.
 
     Examples
     --------
@@ -66,7 +66,7 @@ class Comparison:
     reused: int = 0
     pieces: int = 0
     seconds: float = 0.0
-    undrawn: str = ""
+    failed: str = ""
 
     @classmethod
     def read(cls, folder: str | Path) -> Comparison:
@@ -197,9 +197,16 @@ def draw(run: Run, folder: Path) -> None:
         What was measured.
     folder : Path
         Where ``figures`` and report.html are made, or replaced.
+
+    Raises
+    ------
+    Exception
+        What a picture or the report raised, when all others are written.
     """
-    write_figures(run, folder / FIGURES)
-    write_report(run, folder / REPORT)
+    try:
+        write_figures(run, folder / FIGURES)
+    finally:  # a picture that fails takes no other with it
+        write_report(run, folder / REPORT)
 
 
 def _html_table(run: Run) -> str:

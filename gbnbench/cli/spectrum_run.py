@@ -179,7 +179,11 @@ def compute(
             with naming(Path(one.label)), _bar(plan.request.frequencies, quiet) as tell:
                 result = settings.evaluate(one.x, w, tell, one.sides)
             if paths:
-                write(paths[k], result, one.label, one.sources)
+                try:
+                    write(paths[k], result, one.label, one.sources)
+                except Exception:
+                    click.echo(as_text(result, one.label))  # what was found is shown, if it cannot be kept
+                    raise
                 written += 1
             elif as_json:
                 printed.append(as_record(result, one.label))

@@ -34,9 +34,11 @@ def write_whole(path: Path, data: bytes, *, make_folder: bool = True) -> None:
     try:
         _write_synced(temporary, data)
         temporary.replace(path)
-    except BaseException:
+    except BaseException as error:
         with contextlib.suppress(OSError):
             temporary.unlink(missing_ok=True)
+        if isinstance(error, OSError):
+            error.filename, error.filename2 = os.fspath(path), None  # the name that the user knows
         raise
     _sync_folder(path.parent)
 

@@ -6,7 +6,6 @@ import os
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +23,7 @@ from gbnbench.runs.resumable import run_tasks
 from gbnbench.runs.resumable_folder import explain_interruption
 from gbnbench.runs.sources import Source
 from gbnbench.studies.comparison_tasks import comparison_tasks
-from gbnbench.studies.drawing import failure_of
+from gbnbench.studies.last_steps import failure_of
 
 
 @dataclass(frozen=True)
@@ -45,8 +44,8 @@ class ComparisonOutcome:
         Pieces (sets made and sources measured) found finished in the folder, of how many.
     seconds : float
         Wall time of this call.
-    undrawn : str
-        Why the pictures or the report could not be made; empty where they were, or were not asked for.
+    failed : str
+        Why tables, pictures or the report could not be written; empty where they were.
     """
 
     run: Run
@@ -56,7 +55,7 @@ class ComparisonOutcome:
     reused: int
     pieces: int
     seconds: float
-    undrawn: str = ""
+    failed: str = ""
 
     @property
     def worse(self) -> bool:
@@ -167,16 +166,18 @@ def run_comparison(
             "verdicts": [{"source": c.key, "measure": c.measure, "verdict": c.verdict} for c in changes],
         }
         run = replace(run, manifest=manifest, verdicts=_verdicts(changes))
-        progress.advance("writing the tables", 0)
-        store.write_tables(run)
-        undrawn = ""
-        if draw is not None:
-            progress.advance("drawing", 0)
-            undrawn = failure_of(partial(draw, run, store.path))
-        if not undrawn:
+
+        def last_steps() -> None:
+            progress.advance("writing the tables", 0)
+            store.write_tables(run)
+            if draw is not None:
+                progress.advance("drawing", 0)
+                draw(run, store.path)
             store.finish(manifest)
+
+        failed = failure_of(last_steps)
     seconds = time.monotonic() - began
-    return ComparisonOutcome(run, store.path, changes, notes, work.reused, len(tasks), seconds, undrawn)
+    return ComparisonOutcome(run, store.path, changes, notes, work.reused, len(tasks), seconds, failed)
 
 
 def _require_common(sources: Sequence[Source], earlier: Run, baseline: Path | None) -> None:

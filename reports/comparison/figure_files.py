@@ -111,18 +111,26 @@ def write_figures(run: Run, folder: str | Path) -> list[Path]:
     list of Path
         ``gallery.png``, ``gallery.pdf`` and so on. In a run of several sizes or dimensions the names end in
         ``_n1024_d2``, and the figure ``sweep`` shows the measures against n.
+
+    Raises
+    ------
+    Exception
+        What the first figure raised that failed, with its name in a note, when all others are written.
     """
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
-    written = []
+    written: list[Path] = []
+    failures: list[Exception] = []
     for stem, draw, group in planned(run):
         try:
             figure = draw(run, group)
+            for ending, content in (("png", png(figure)), ("pdf", pdf(figure))):
+                path = folder / f"{stem}.{ending}"
+                write_whole(path, content)
+                written.append(path)
         except Exception as error:
             error.add_note(f"figure {stem}")
-            raise
-        for ending, content in (("png", png(figure)), ("pdf", pdf(figure))):
-            path = folder / f"{stem}.{ending}"
-            write_whole(path, content)
-            written.append(path)
+            failures.append(error)
+    if failures:
+        raise failures[0]
     return written

@@ -9,7 +9,6 @@ import os
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -30,10 +29,10 @@ from gbnbench.runs.provenance import versions
 from gbnbench.runs.resumable import run_tasks
 from gbnbench.runs.resumable_folder import explain_interruption
 from gbnbench.runs.sources import Source, resolve
-from gbnbench.studies.drawing import failure_of
 from gbnbench.studies.integration.blocks import errors_of, instances_of, tasks_of
 from gbnbench.studies.integration.study_folder import IntegrationStudy, StudyFolder, read_integration
 from gbnbench.studies.integration.tables import gather, tables
+from gbnbench.studies.last_steps import failure_of
 
 DEFAULT_SOURCES = ("random", "jittered", "sobol", "gbn")
 DEFAULT_INTEGRANDS = ("gaussians", "half-space")
@@ -54,8 +53,8 @@ class IntegrationOutcome:
         Pieces found finished in the folder, of how many.
     seconds : float
         Wall time of this call.
-    undrawn : str
-        Why the picture could not be made; empty where it was, or was not asked for.
+    failed : str
+        Why tables or the picture could not be written; empty where they were.
     """
 
     study: IntegrationStudy
@@ -63,7 +62,7 @@ class IntegrationOutcome:
     reused: int
     pieces: int
     seconds: float
-    undrawn: str = ""
+    failed: str = ""
 
 
 def variance(
@@ -229,15 +228,17 @@ def run_integration_study(
             "skipped": list(skipped),
         }
         study = IntegrationStudy(manifest, *tables(given, families, instances, shifts, errors))
-        store.write_tables(study)
-        undrawn = ""
-        if draw is not None:
-            progress.advance("drawing", 0)
-            undrawn = failure_of(partial(draw, study, store.path))
-        if not undrawn:
+
+        def last_steps() -> None:
+            store.write_tables(study)
+            if draw is not None:
+                progress.advance("drawing", 0)
+                draw(study, store.path)
             store.finish(manifest)
+
+        failed = failure_of(last_steps)
     seconds = time.monotonic() - began
-    return IntegrationOutcome(study, store.path, work.reused, len(tasks), seconds, undrawn)
+    return IntegrationOutcome(study, store.path, work.reused, len(tasks), seconds, failed)
 
 
 def _require(**whole: tuple[int, int]) -> None:
