@@ -20,6 +20,7 @@ STAYS = (
     "benchmarks/results/",
     "benchmarks/claims/",
     "benchmarks/experiments/",
+    "benchmarks/reliability/",
 )  # in the checkout
 
 pytestmark = pytest.mark.skipif(not (ROOT / ".git").exists(), reason="not a git checkout")

@@ -8,7 +8,7 @@ import numpy as np
 
 from gbnbench.analysis.spectrum.shells import EDGE
 from gbnbench.core.errors import InputError
-from gbnbench.core.memory import physical_memory
+from gbnbench.core.memory import memory_limit
 from gbnbench.core.sides import Sides
 
 MEMORY_SHARE = 0.5  # of the machine's memory that one cube may take
@@ -44,7 +44,7 @@ def check_fmax(fmax: object, d: int) -> int:
     """
     f = check_harmonic(fmax, d)
     count = (2 * f + 1) ** d
-    room = int(MEMORY_SHARE * physical_memory()) // BYTES
+    room = int(MEMORY_SHARE * memory_limit()) // BYTES
     if count > room:
         fitting = largest_fmax(room, d) if room >= 3**d else 0
         way_out = (

@@ -18,7 +18,7 @@ from gbnbench.analysis.spectrum.limits import LARGEST_COUNT, check_harmonic, che
 from gbnbench.analysis.spectrum.listed_shells import listed_count
 from gbnbench.analysis.spectrum.sorted_groups import count_pairs, two_sorted_groups
 from gbnbench.core.errors import InputError
-from gbnbench.core.memory import physical_memory
+from gbnbench.core.memory import memory_limit
 
 Frequencies = Literal["cube", "half cube", "shells", "listed"]
 SHELL_BYTES = 96  # for each shell: on the device, twice on the host, and where they are merged
@@ -96,7 +96,7 @@ def box_request(
         If the powers do not fit in memory.
     """
     count = math.prod(2 * f + 1 for f in harmonics)
-    room = limits.MEMORY_SHARE * physical_memory() / limits.BYTES
+    room = limits.MEMORY_SHARE * memory_limit() / limits.BYTES
     if count > room:
         raise InputError(
             f"|f_a| <= {', '.join(map(str, harmonics))} means {float(count):.3g} frequencies, of which "
@@ -218,7 +218,7 @@ def check_room(d: int, fmax: int, low: int, high: int) -> None:
     ball = math.pi ** (axes / 2) / math.gamma(axes / 2 + 1) * (math.sqrt(high) + math.sqrt(axes) / 2) ** axes
     listed = min(ball, float(2 * fmax + 1) ** axes)
     needed = max(SHELL_BYTES * (high - low + 1), GROUP_BYTES * listed)
-    room = limits.MEMORY_SHARE * physical_memory()
+    room = limits.MEMORY_SHARE * memory_limit()
     if needed > room:
         raise InputError(
             f"shells of |f|^2 from {low} to {high} in d={d} take {needed / 1e9:.3g} GB, more than half "

@@ -66,8 +66,8 @@ def check_window(points: ArrayLike, low: ArrayLike, high: ArrayLike) -> tuple[Fl
     Raises
     ------
     InputError
-        If points are no (n, d) real numbers, d is above 8, there are fewer than 16 of them or all are one, the
-        corners are no corners of a box, or a point lies outside.
+        If points are no (n, d) real numbers, d is above 8, there are fewer than 16 of them or all are one,
+        the corners are no corners of a box, or a point lies outside.
 
     Examples
     --------

@@ -182,8 +182,7 @@ class SineTapers:
 
 def _mean_wave(y: FloatArray) -> ComplexArray:
     """Integrate exp(i y u) over the unit interval."""
-    wave: ComplexArray = np.exp(0.5j * y) * np.sinc(y / (2 * math.pi))
-    return wave
+    return np.asarray(np.exp(0.5j * y) * np.sinc(y / (2 * math.pi)), np.complex128)
 
 
 def _transform(p: int, kappa: FloatArray) -> ComplexArray:

@@ -31,8 +31,8 @@ class Process:
         One set from a generator.
     structure_factor : callable
         S over directions, at wave numbers in radians a length.
-    intensity : float
-        Points a unit of volume.
+    intensity : float or None
+        Points a unit of volume; None where the number of points is fixed.
     s_zero : float
         S at k -> 0.
     exponent : float or None
@@ -47,7 +47,7 @@ class Process:
     sides: tuple[float, ...]
     draw: Draw
     structure_factor: Curve
-    intensity: float
+    intensity: float | None
     s_zero: float
     exponent: float | None = None
     pair_correlation: Curve | None = None
@@ -79,7 +79,9 @@ def poisson(sides: tuple[float, ...], n: float, *, fixed: bool = False) -> Proce
 
     mean = math.gamma(1 + 1 / d) / (ball * intensity) ** (1 / d)
     name = f"{'binomial' if fixed else 'Poisson'}, {d}D"
-    return Process(name, sides, draw, np.ones_like, intensity, 1.0, 0.0, np.ones_like, mean)
+    return Process(
+        name, sides, draw, np.ones_like, None if fixed else intensity, 1.0, 0.0, np.ones_like, mean
+    )
 
 
 def ginibre(side: float, kept: float = 1.0) -> Process:
@@ -99,15 +101,15 @@ def ginibre(side: float, kept: float = 1.0) -> Process:
     -------
     Process
     """
-    size = math.ceil(
-        (side / math.sqrt(2) + 4) ** 2
-    )  # of matrices whose disc holds the square, its edge apart
+    # Of matrices whose disc holds the square, its edge apart.
+    size = math.ceil((side / math.sqrt(2) + 4) ** 2)
 
     def draw(rng: np.random.Generator) -> FloatArray:
         matrix = rng.normal(size=(size, size)) + 1j * rng.normal(size=(size, size))
         values = np.linalg.eigvals(matrix / math.sqrt(2))
         x = np.stack([values.real, values.imag], axis=1) + side / 2
-        return x[((x >= 0) & (x <= side)).all(axis=1) & (rng.random(size) < kept)]
+        seen = ((x >= 0) & (x <= side)).all(axis=1) & (rng.random(size) < kept)
+        return np.asarray(x[seen], np.float64)
 
     def s(k: FloatArray) -> FloatArray:
         return 1 - kept * np.exp(-(k**2) / 4)

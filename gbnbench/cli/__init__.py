@@ -22,6 +22,7 @@ from gbnbench.cli.report import report
 from gbnbench.cli.spectrum import spectrum
 from gbnbench.cli.standard_streams import in_words, lasting_streams
 from gbnbench.core.errors import GbnbenchError
+from gbnbench.core.memory import memory_limit, too_little
 
 BAD, STOPPED, PIPE = 2, 130, 141  # exit codes; 0 is done, 1 is worse than a baseline or a failed check
 
@@ -92,7 +93,8 @@ for _commands in TASKS.values():
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command and exit: 0 done, 1 worse or failed check, 2 bad input or use, 130 stopped."""
     with lasting_streams() as output:
-        code = run(sys.argv[1:] if arguments is None else arguments)
+        fault = too_little()
+        code = _fail(fault, BAD) if fault else run(sys.argv[1:] if arguments is None else arguments)
         if output is not None and output.fault is not None:
             code = max(_fail(in_words(output.fault), BAD), code)
     sys.exit(code)
@@ -119,6 +121,10 @@ def run(arguments: Sequence[str]) -> int:
         # Python's own flush at the end would complain again.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return PIPE
+    except MemoryError:
+        return _fail(f"not enough memory: {memory_limit() / 1e9:.3g} GB are allowed; take fewer points", BAD)
+    except ImportError as error:
+        return _fail(f"a library cannot be loaded: {error}", BAD)
     except OSError as error:
         return _fail(f"{error.filename}: {error.strerror}" if error.filename else str(error), BAD)
     return 0

@@ -46,7 +46,7 @@ def analyze_window(
     InputError
         If the window cannot be meant so, or the picture's format is unknown.
     """
-    from gbnbench.io.points.reading_options import reading_options
+    from gbnbench.io.points.options import reading_options
 
     if reading.period is not None or reading.bounds is not None or reading.wrap:
         raise InputError("--window tells the box itself: leave out --period, --bounds and --wrap")

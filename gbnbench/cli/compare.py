@@ -65,7 +65,8 @@ def compare(
     in it. Stopped in any way, the same command goes on where it was.
     """
     from gbnbench.api.compare import compare as make
-    from gbnbench.runs.sources import DEFAULT_SOURCES, double_meanings
+    from gbnbench.runs.source_names import double_meanings
+    from gbnbench.runs.sources import DEFAULT_SOURCES
 
     for line in double_meanings(sources):
         click.echo(f"gbnbench: {line}", err=True)

@@ -107,7 +107,7 @@ def integrate(
     """
     from gbnbench.api.integration import integrate as make
     from gbnbench.cli.integrate_text import as_lines, as_record
-    from gbnbench.runs.sources import double_meanings
+    from gbnbench.runs.source_names import double_meanings
     from gbnbench.studies.integration.study import DEFAULT_INTEGRANDS, DEFAULT_SOURCES
 
     for line in double_meanings(sources):

@@ -198,7 +198,7 @@ def reading(command: F) -> F:
 
     @functools.wraps(command)
     def with_reading(*args: Any, **kwargs: Any) -> Any:
-        from gbnbench.io.points.reading_options import reading_options
+        from gbnbench.io.points.options import reading_options
 
         given = [kwargs.pop(name.removeprefix("--")) for name in (*_TEXTS, "--wrap")]
         return command(*args, reading=reading_options(*given), **kwargs)

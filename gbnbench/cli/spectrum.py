@@ -151,8 +151,8 @@ def spectrum(
     settings = SpectrumSettings(
         fmax, half, shells or corners or band is not None, band, corners, listed, precision, floor, sigma
     )
-    shapes = [(*one.x.shape[1:], one.sides) for one in sets] or [(n or 1024, d or 2, None)]
-    largest = max(shapes, key=lambda shape: shape[1])
+    shapes = [(one.x.shape[1], one.x.shape[2], one.sides) for one in sets] or [(n or 1024, d or 2, None)]
+    largest = sorted(shapes, key=lambda shape: shape[1])[-1]
     affordable = settings.affordable(*largest)
     if affordable != settings and not quiet:
         click.echo(

@@ -31,6 +31,17 @@ class ShortSpectrumError(RefusalError):
     """A measure needs frequencies beyond the end of the spectrum."""
 
 
+def in_one_line(text: str) -> str:
+    r"""Escape what is no printable sign: names within a file may hold line ends and a terminal's commands.
+
+    Examples
+    --------
+    >>> in_one_line("an array '\x1b[2J\n'")
+    "an array '\\x1b[2J\\n'"
+    """
+    return "".join(sign if sign.isprintable() else ascii(sign)[1:-1] for sign in text)
+
+
 class FormatError(InputError):
     """A file cannot be read as a point set.
 
@@ -46,7 +57,7 @@ class FormatError(InputError):
         self.path = Path(path)
         self.line = line
         where = f"{self.path}, line {line}" if line is not None else f"{self.path}"
-        super().__init__(f"{where}: {message}")
+        super().__init__(f"{where}: {in_one_line(message)}")
 
 
 class DeviceError(GbnbenchError, RuntimeError):

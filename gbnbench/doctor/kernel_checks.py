@@ -11,9 +11,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gbnbench.analysis.precision import PrecisionName
+from gbnbench.analysis.integration.integrands.gaussians import GaussianSum
+from gbnbench.analysis.integration.integrands.waves import WaveSum
+from gbnbench.analysis.precision import PrecisionName, precision_of
 from gbnbench.analysis.spatial.discrepancy import discrepancies
 from gbnbench.analysis.spectrum.evaluators.gridded.product import griddable
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import AXES
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.shell_spectrum import shells
 from gbnbench.core.errors import GbnbenchError
@@ -21,10 +24,12 @@ from gbnbench.core.torus import displacement
 from gbnbench.doctor.numpy_references import (
     numpy_box_gradient,
     numpy_centred_square,
+    numpy_gaussians,
     numpy_gradient,
     numpy_periodic_square,
     numpy_power,
     numpy_star_square,
+    numpy_waves,
 )
 from gbnbench.generators.fpo.relocation import Sweeps, move_afresh
 from gbnbench.generators.gbn.box import BoxEnergy
@@ -43,8 +48,12 @@ BOXES = (*QUICK_BOXES, (1500, 2, 0.5), (120, 3, 1.0), (60, 8, 1.0))
 SWEEP, QUICK_SWEEP = 101, 41  # points of the farthest-point kernel's sweep
 DISCREPANCIES = ((2111, 2), (83, 5))  # n, d; one more than a block of columns
 QUICK_DISCREPANCIES = ((83, 5),)
+INTEGRANDS = ((333, 1), (131, 3))  # n, d
+QUICK_INTEGRANDS = ((131, 3),)
+WIDTHS = (0.05, 0.2)  # of Gaussians, box sides: of one image, and of a polynomial
 DISTANCE = 1e-9  # a sweep's departure, in box sides
 AMPLITUDE = {"double": 1e-14, "float": 2e-6}  # error allowed, over sqrt(n)
+VALUE = 1e-12  # error allowed of a sum of 17 terms of at most 1
 SQUARE = 1e-13  # error allowed of a discrepancy's square
 GRADIENT = {"double": 1e-11, "float": 1e-4}  # over the largest component
 
@@ -124,6 +133,8 @@ def _periodogram(n: int, d: int, fmax: int, precision: PrecisionName) -> Iterato
     }
     if griddable(d, fmax, precision):
         found["gridded product"] = periodogram(x, fmax, precision, method="gridded").power.ravel()
+    if d <= AXES and choose().is_cpu:
+        found["gridded FFT"] = periodogram(x, fmax, precision, method="fft").power.ravel()
     for kernel, power in found.items():
         error = float(np.max(np.abs(np.sqrt(power) - expected)))
         yield Check(kernel, size, precision, error, AMPLITUDE[precision])
@@ -179,6 +190,19 @@ def _discrepancies(n: int, d: int, precision: str) -> Iterator[Check]:
         yield Check(f"discrepancy, {kind}", f"n={n} d={d}", precision, abs(float(error)), SQUARE)
 
 
+def _integrands(n: int, d: int, precision: PrecisionName) -> Iterator[Check]:
+    rng = np.random.default_rng(n)
+    x, centres = rng.random((n, d)), rng.random((17, d))
+    device = precision_of(precision)
+    for width in WIDTHS:
+        found = GaussianSum(centres, width).on_device(x, device)
+        error = float(np.max(np.abs(found - numpy_gaussians(x, centres, width))))
+        yield Check("integrand, gaussians", f"n={n} d={d} width={width}", precision, error, VALUE)
+    f, phases = rng.integers(-9, 10, (17, d)), rng.random(17)
+    error = float(np.max(np.abs(WaveSum(f, phases).on_device(x, device) - numpy_waves(x, f, phases))))
+    yield Check("integrand, waves", f"n={n} d={d}", precision, error, VALUE)
+
+
 def examine(quick: bool = False) -> Examination:
     """Try every kernel on the chosen device.
 
@@ -202,6 +226,7 @@ def examine(quick: bool = False) -> Examination:
             *((_box, case) for case in (QUICK_BOXES if quick else BOXES)),
         ]
         if precision == "double":
+            work.extend((_integrands, case) for case in (QUICK_INTEGRANDS if quick else INTEGRANDS))
             work.append((_farthest_points, (QUICK_SWEEP if quick else SWEEP,)))
             work.extend((_discrepancies, case) for case in (QUICK_DISCREPANCIES if quick else DISCREPANCIES))
         for check, case in work:

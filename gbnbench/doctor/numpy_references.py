@@ -131,3 +131,44 @@ def numpy_box_gradient(x: FloatArray, sigma: float) -> FloatArray:
     slope = np.exp(-((u / root) ** 2)) - np.exp(-(((side - u) / root) ** 2))
     pull = np.stack([slope[:, a] * np.prod(np.delete(within, a, axis=1), axis=1) for a in range(d)], axis=1)
     return np.asarray(-(pairs[..., None] * apart).sum(axis=1) / sigma**2 - pull)
+
+
+def numpy_gaussians(x: FloatArray, centres: FloatArray, width: float) -> FloatArray:
+    """Sum Gaussians over centres and over the images that count.
+
+    Parameters
+    ----------
+    x : (n, d) float64
+        Points of the unit torus.
+    centres : (count, d) float64
+        Likewise.
+    width : float
+        Box sides, at most 1/4.
+
+    Returns
+    -------
+    (n,) float64
+    """
+    u = x[:, None] - centres
+    images = sum(np.exp(-((u + j) ** 2) / (2 * width**2)) for j in range(-4, 5))
+    return np.asarray(images).prod(axis=-1).sum(axis=-1)
+
+
+def numpy_waves(x: FloatArray, frequencies: NDArray[np.int64], phases: FloatArray) -> FloatArray:
+    """Sum cosines of 2 pi (f.x + phase) over waves.
+
+    Parameters
+    ----------
+    x : (n, d) float64
+        Points of the unit torus.
+    frequencies : (count, d) int64
+        Cycles per unit length.
+    phases : (count,) float64
+        Turns.
+
+    Returns
+    -------
+    (n,) float64
+    """
+    turns = x @ frequencies.T.astype(np.float64) + phases
+    return np.cos(2 * np.pi * (turns - np.rint(turns))).sum(axis=-1)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import difflib
 import hashlib
 import re
 from collections import Counter
@@ -20,9 +19,10 @@ from gbnbench.core.settings import specification
 from gbnbench.core.sides import as_sides
 from gbnbench.core.torus import FloatArray, as_realizations
 from gbnbench.generators.protocol import Generator
-from gbnbench.generators.registry import GENERATORS, find, of_instance
+from gbnbench.generators.registry import GENERATORS, of_instance
 from gbnbench.io.points import ReadingOptions
 from gbnbench.runs.file_sets import read_groups
+from gbnbench.runs.source_names import generator_named
 
 DEFAULT_READING = ReadingOptions()
 DEFAULT_SOURCES = ("random", "jittered", "sobol", "lloyd", "fpo", "gbn")
@@ -172,7 +172,7 @@ def resolve(
             raise InputError(f"{name} is neither a file nor a folder")
         generator: Generator | None = None
         if isinstance(name, str):
-            generator = _generator(name)
+            generator = generator_named(name)
         elif not isinstance(name, Path):
             generator = of_instance(name)
         if generator is None:
@@ -190,54 +190,6 @@ def resolve(
     if not sources:
         raise RefusalError("; ".join(skipped) if skipped else "no source given: name one")
     return _distinct(sources), tuple(skipped)
-
-
-def _generator(name: str) -> Generator | None:
-    """Parse a generator's text; None where name is an existing path instead."""
-    base, bracket, _ = name.partition("[")
-    base = base.strip()
-    if base in GENERATORS:
-        try:
-            return find(name)
-        except InputError:
-            if bracket and Path(name).exists():  # a file such as ``sobol[1].txt``
-                return None
-            raise
-    if Path(name).exists():
-        return None
-    close = difflib.get_close_matches(base.lower(), GENERATORS, n=2)
-    near = f"; did you mean {' or '.join(close)}?" if close else "."
-    raise InputError(
-        f"{name!r} is neither a generator nor an existing file or folder{near} "
-        f"The generators are {', '.join(GENERATORS)}"
-    )
-
-
-def double_meanings(names: Iterable[object]) -> list[str]:
-    """Say what is taken of names that are those of a generator and of an existing file or folder.
-
-    Parameters
-    ----------
-    names : iterable
-        Sources as the user gave them.
-
-    Returns
-    -------
-    list of str
-        A sentence for each, with the way to ask for the other.
-    """
-    told = []
-    for name in dict.fromkeys(names):
-        if not isinstance(name, str) or name.partition("[")[0].strip() not in GENERATORS:
-            continue
-        if not Path(name).exists():
-            continue
-        what = "folder" if Path(name).is_dir() else "file"
-        if _generator(name) is None:
-            told.append(f"{name} is the {what} of that name; as settings of a generator it cannot be read")
-        else:
-            told.append(f"{name} is the generator; the {what} of that name is ./{name}")
-    return told
 
 
 def _title(path: Path) -> str:

@@ -72,7 +72,7 @@ def figure(speed: pd.DataFrame, machine: Mapping[str, Any]) -> Figure:
         left=0.6,
         between=0.46,
         under=0.46,
-        key=0.34,
+        key=0.58,
     )
     limits = float(drawn.error_rms.min()) / 30, float(drawn.error_rms.max()) * 6
     for (ax,), case, first in zip(sheet.cells, cases, sheet.first, strict=True):
@@ -85,7 +85,7 @@ def figure(speed: pd.DataFrame, machine: Mapping[str, Any]) -> Figure:
     sheet.figure.legend(
         handles=[_handle(family) for family in families],
         loc="lower center",
-        ncols=len(families),
+        ncols=-(-len(families) // 2),
         bbox_to_anchor=(0.5, (sheet.foot + 0.02) / height),
         handlelength=2.6,
         columnspacing=1.6,

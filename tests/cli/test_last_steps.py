@@ -17,7 +17,8 @@ from gbnbench.cli.integrate_text import as_lines, as_record
 from gbnbench.cli.json_text import json_text
 from gbnbench.core.footnotes import footnotes
 from gbnbench.reports.comparison import figure_files
-from gbnbench.runs.sources import double_meanings, resolve
+from gbnbench.runs.source_names import double_meanings
+from gbnbench.runs.sources import resolve
 
 
 @pytest.fixture(autouse=True)

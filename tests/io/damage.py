@@ -10,9 +10,9 @@ import numpy as np
 from hypothesis import settings
 from hypothesis import strategies as st
 
+from gbnbench.benchmarks.reliability.strict_text import NoPointsError, Sets
 from gbnbench.core.errors import FormatError
 from gbnbench.io.points import read, save
-from tests.oracles.text_points import NoPointsError, PointLists
 
 FUZZ = settings(max_examples=350, derandomize=True, deadline=None, database=None)
 
@@ -89,11 +89,11 @@ def outcome(path: Path, data: bytes) -> list[np.ndarray] | str:
     return said
 
 
-def verdict(path: Path, data: bytes, twin: Callable[[bytes], PointLists]) -> None:
+def verdict(path: Path, data: bytes, twin: Callable[[bytes], Sets]) -> None:
     """Our reader and the twin agree: both refuse, or both read the same sets bit for bit."""
     found = outcome(path, data)
     try:
-        expected: PointLists | str = twin(data)
+        expected: Sets | str = twin(data)
     except NoPointsError:
         expected = "no points"
     if isinstance(found, str) or isinstance(expected, str):

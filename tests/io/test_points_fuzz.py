@@ -12,11 +12,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from gbnbench.benchmarks.reliability.strict_formats import strict_eps, strict_npy, strict_rps
+from gbnbench.benchmarks.reliability.strict_text import DECIMAL, strict_text
 from gbnbench.core.errors import FormatError
 from gbnbench.io.points import PointSets, ReadingOptions, read, read_sets
 from tests.io.damage import DAMAGE, FUZZ, damaged, outcome, verdict, written
-from tests.oracles.binary_points import twin_eps, twin_npy, twin_rps
-from tests.oracles.text_points import DECIMAL, twin_text
 
 pytestmark = pytest.mark.slow  # thousands of damaged files
 
@@ -56,12 +56,12 @@ def test_damaged_text(seed: int, folder: Path) -> None:
     suffix, make = SEEDS[seed]
     data = make(folder)
     path = folder / f"damaged{suffix}"
-    verdict(path, data, twin_text)
+    verdict(path, data, strict_text)
 
     @FUZZ
     @given(DAMAGE)
     def check(edits: bytes) -> None:
-        verdict(path, damaged(data, edits), twin_text)
+        verdict(path, damaged(data, edits), strict_text)
 
     check()
 
@@ -77,7 +77,7 @@ PSA_HEAD = (
 def test_damaged_eps(folder: Path, edits: bytes, head: bool) -> None:
     body = b"0.600459 0.549315 p\n4.62451e-06 1 p\n0.5 0.25 p\ngrestore\n"
     data = PSA_HEAD + damaged(body, edits) if head else PSA_HEAD + body
-    verdict(folder / "damaged.eps", data, twin_eps)
+    verdict(folder / "damaged.eps", data, strict_eps)
 
 
 def test_damaged_rps(folder: Path) -> None:
@@ -90,7 +90,7 @@ def test_damaged_rps(folder: Path) -> None:
         numerals = set(data) <= set(
             b"0123456789+-.eE \t\r\n,#"
         )  # then it is text: none of these seeds comes to that
-        verdict(folder / "damaged.rps", seed if numerals else data, twin_rps)
+        verdict(folder / "damaged.rps", seed if numerals else data, strict_rps)
 
     check()
 
@@ -112,7 +112,7 @@ def test_damaged_npy(part: str, folder: Path) -> None:
         data = data if data.startswith(b"\x93NUMPY") else seed
         found = outcome(folder / "damaged.npy", data)
         if not isinstance(found, str):
-            assert [x.tolist() for x in found] == [[list(p) for p in s] for s in twin_npy(data)]
+            assert [x.tolist() for x in found] == [[list(p) for p in s] for s in strict_npy(data)]
 
     check()
 
@@ -144,7 +144,7 @@ def test_binary_junk(folder: Path, data: bytes, suffix: str) -> None:
     """Random bytes are refused in one line, unless they happen to be numbers."""
     found = outcome(folder / f"junk{suffix}", data)
     if not isinstance(found, str):
-        assert [[tuple(p) for p in x.tolist()] for x in found] == twin_text(data)
+        assert [[tuple(p) for p in x.tolist()] for x in found] == strict_text(data)
 
 
 COUNTED = b"4\n0.1 0.2\n0.3 0.4\n0.5 0.6\n0.7 0.8\n"
@@ -167,7 +167,7 @@ def test_one_token_replaced(folder: Path, row: int, column: int, text: str) -> N
         assert read(path)[0].tolist() == expected.tolist()
         return
     # blanks, commas, # and line ends can leave other good rows: then the twin must read the same
-    verdict(path, path.read_bytes(), twin_text)
+    verdict(path, path.read_bytes(), strict_text)
 
 
 @FUZZ

@@ -14,7 +14,8 @@ from gbnbench.analysis.integration.variance import variance_of
 from gbnbench.cli import run as command
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.studies.integration.blocks import instances_of
-from gbnbench.studies.integration.study import run_integration_study, variance
+from gbnbench.studies.integration.set_variance import variance
+from gbnbench.studies.integration.study import run_integration_study
 from gbnbench.studies.integration.study_folder import read_integration
 
 

@@ -38,9 +38,9 @@ from gbnbench.io.points.file_format import size_limit
 from gbnbench.io.points.formats.raw import read_raw
 from gbnbench.io.points.formats.registry import format_of
 from gbnbench.io.points.fractions_of_box import fractions_of_box
+from gbnbench.io.points.options import ReadingOptions, reading_options
 from gbnbench.io.points.point_file import PointFile, open_point_file
 from gbnbench.io.points.point_sets import FileContent, PointSets
-from gbnbench.io.points.reading_options import ReadingOptions, reading_options
 from gbnbench.io.points.writer import encode, write_atomically
 
 __all__ = ["PointSets", "ReadingOptions", "load", "read", "read_sets", "reading_options", "save"]

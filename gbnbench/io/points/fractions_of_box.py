@@ -8,8 +8,8 @@ import numpy as np
 
 from gbnbench.core.errors import FormatError
 from gbnbench.core.torus import FloatArray
+from gbnbench.io.points.options import ReadingOptions, listed
 from gbnbench.io.points.point_sets import Box, Coordinates, FileContent, PointSets
-from gbnbench.io.points.reading_options import ReadingOptions, listed
 
 ROUNDING = 1e-6  # in sides: float32 and six written digits leave the box by less
 FAR = 1.0  # sides beyond the unit torus up to which wrap is believed without a box

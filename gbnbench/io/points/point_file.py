@@ -14,7 +14,7 @@ from typing import IO
 
 from gbnbench.core.errors import FormatError
 from gbnbench.io.points.file_format import HEAD, look, readable, reason
-from gbnbench.io.points.reading_options import ReadingOptions
+from gbnbench.io.points.options import ReadingOptions
 
 # magic bytes, suffix and opener of each compression that Python's own library unpacks
 _Packed = gzip.GzipFile | bz2.BZ2File | lzma.LZMAFile

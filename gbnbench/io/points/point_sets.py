@@ -66,7 +66,7 @@ class Coordinates:
     lines : (n,) int64 or None
         1-based line of each point, where the format has lines.
     where : str
-        What an error says of its place in the file before anything else, such as ``array 'points': ``.
+        What an error says of its place in the file before anything else, such as the name of its array.
     scaled : bool
         Whether they are fractions of the box already, as LAMMPS's xs are.
     unwrapped : bool

@@ -12,16 +12,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from numpy.typing import ArrayLike
-
 from gbnbench import __version__
-from gbnbench.analysis.integration.integrands.protocol import Family
 from gbnbench.analysis.integration.integrands.registry import find as find_family
-from gbnbench.analysis.integration.variance import Variance, variance_of
 from gbnbench.core.errors import DeviceError, InputError, RefusalError
 from gbnbench.core.settings import specification
 from gbnbench.core.sides import as_sides
-from gbnbench.core.torus import as_realizations
 from gbnbench.execution.progress import Progress
 from gbnbench.opencl import choose
 from gbnbench.runs import comparison_folder
@@ -29,7 +24,8 @@ from gbnbench.runs.provenance import versions
 from gbnbench.runs.resumable import run_tasks
 from gbnbench.runs.resumable_folder import explain_interruption
 from gbnbench.runs.sources import Source, resolve
-from gbnbench.studies.integration.blocks import errors_of, instances_of, tasks_of
+from gbnbench.studies.integration.blocks import tasks_of
+from gbnbench.studies.integration.requirements import refuse, require
 from gbnbench.studies.integration.study_folder import IntegrationStudy, StudyFolder, read_integration
 from gbnbench.studies.integration.tables import gather, tables
 from gbnbench.studies.last_steps import failure_of
@@ -63,53 +59,6 @@ class IntegrationOutcome:
     pieces: int
     seconds: float
     failed: str = ""
-
-
-def variance(
-    x: ArrayLike, integrand: str = "gaussians", instances: int = 100, shifts: int = 0, seed: int = 0
-) -> Variance:
-    """Variance of the integral estimated by the mean over points.
-
-    Parameters
-    ----------
-    x : (n, d) or (realizations, n, d) float64
-        Points in [0, 1)^d.
-    integrand : str
-        A family of ``gbnbench.analysis.integration.integrands.registry``, with or without settings.
-    instances : int
-        Random integrands of the family, >= 1.
-    shifts : int
-        Random toroidal shifts of each set; 0 takes the sets as they are.
-    seed : int
-        Of the integrands and shifts.
-
-    Returns
-    -------
-    Variance
-        Over integrands and sets.
-
-    Raises
-    ------
-    InputError
-        If points, family or a number is wrong.
-    RefusalError
-        If the family has no integrand in d dimensions.
-
-    Examples
-    --------
-    >>> from gbnbench import generate
-    >>> x = generate("random", n=64, d=2, realizations=50)
-    >>> found = variance(x, "korobov", instances=20)
-    >>> found.low < ((1 + 2 * 1.0040773561979443) ** 2 - 1) / 64 < found.high  # zeta(8), by Parseval
-    True
-    """
-    sets = as_realizations(x)
-    family = find_family(integrand)
-    _require(instances=(instances, 1), shifts=(shifts, 0), seed=(seed, 0))
-    d = sets.shape[2]
-    _refuse(family, d)
-    drawn = instances_of(family, d, seed, instances)
-    return variance_of(errors_of(drawn, sets, 0, seed, shifts))
 
 
 def run_integration_study(
@@ -176,7 +125,7 @@ def run_integration_study(
     """
     began = time.monotonic()
     progress = progress or Progress()
-    _require(instances=(instances, 1), shifts=(shifts, 0), seed=(seed, 0), jobs=(jobs or 1, 1))
+    require(instances=(instances, 1), shifts=(shifts, 0), seed=(seed, 0), jobs=(jobs or 1, 1))
     families = tuple(dict.fromkeys(find_family(text) for text in integrands))
     if not families:
         raise InputError("no integrand given: name one, such as gaussians")
@@ -193,7 +142,7 @@ def run_integration_study(
                 "its box has unequal sides; gbnbench convert --fractions writes its points as those of a cube"
             )
         for family in families:
-            _refuse(family, source.d)
+            refuse(family, source.d)
     settings: dict[str, Any] = {
         "gbnbench": __version__,
         "seed": seed,
@@ -239,17 +188,6 @@ def run_integration_study(
         failed = failure_of(last_steps)
     seconds = time.monotonic() - began
     return IntegrationOutcome(study, store.path, work.reused, len(tasks), seconds, failed)
-
-
-def _require(**whole: tuple[int, int]) -> None:
-    for name, (value, least) in whole.items():
-        if value < least:
-            raise InputError(f"{name} must be at least {least}; got {value}")
-
-
-def _refuse(family: Family, d: int) -> None:
-    if why := family.refusal(d):
-        raise RefusalError(f"{specification(family)}: {why}")
 
 
 def _device() -> dict[str, Any] | str:

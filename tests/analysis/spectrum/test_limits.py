@@ -25,7 +25,7 @@ def named(call, *arguments):
 @pytest.mark.parametrize("beside", [-1, 0, 1])
 def test_the_largest_cube_that_fits_is_named(monkeypatch, d, base, beside):
     count = base**d + beside
-    monkeypatch.setattr(limits, "physical_memory", lambda: int(count * BYTES / MEMORY_SHARE))
+    monkeypatch.setattr(limits, "memory_limit", lambda: int(count * BYTES / MEMORY_SHARE))
     asked = {1: 10**9, 2: 10**6}.get(d, 10)
     largest = next(f for f in range(20, -1, -1) if (2 * f + 1) ** d <= count)
     while (2 * asked + 1) ** d > 1 << 63:
@@ -72,4 +72,4 @@ def test_numpys_integers_are_integers():
 
 
 def test_memory_is_that_of_the_machine():
-    assert 1 << 28 < limits.physical_memory() < 1 << 50
+    assert 1 << 28 < limits.memory_limit() < 1 << 50

@@ -179,7 +179,7 @@ def test_the_largest_harmonic_of_32_bits_is_the_one_that_is_named(d, corners):
 @pytest.mark.parametrize(("d", "fmax"), [(2, 8000), (3, 300)])
 def test_shells_and_groups_that_would_fill_the_memory_are_refused(monkeypatch, d, fmax):
     # There are 6.4e7 shells, or 2.8e5 frequencies in a group's ball.
-    monkeypatch.setattr(request, "physical_memory", lambda: 8 << 20)
+    monkeypatch.setattr(request, "memory_limit", lambda: 8 << 20)
     with pytest.raises(InputError, match="memory"):
         shell_request(10, d, fmax, 1, None, False)
 

@@ -25,7 +25,7 @@ from gbnbench.analysis.spectrum.evaluators.point_slots import TABLE_BYTES
 from gbnbench.analysis.spectrum.evaluators.work_model import ENTRY, TILE, WRITTEN, device_cost
 from gbnbench.analysis.spectrum.limits import BYTES, MEMORY_SHARE
 from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest
-from gbnbench.core.memory import physical_memory
+from gbnbench.core.memory import memory_limit
 from gbnbench.core.torus import FloatArray
 
 # Multiply-adds of carrying a frequency from a point to a node, and of folding it at a node.
@@ -138,4 +138,4 @@ def grid_fits(p: Precision, request: SpectrumRequest) -> bool:
     bool
     """
     grid, cube = grid_bytes(p, request), BYTES * (2 * request.fmax + 1) ** request.d
-    return grid <= p.runtime.largest_buffer and 2 * grid + cube <= MEMORY_SHARE * physical_memory()
+    return grid <= p.runtime.largest_buffer and 2 * grid + cube <= MEMORY_SHARE * memory_limit()

@@ -19,7 +19,7 @@ from gbnbench.analysis.spectrum.evaluators.protocol import Evaluator
 from gbnbench.analysis.spectrum.evaluators.work_model import device_cost
 from gbnbench.analysis.spectrum.limits import BYTES, MEMORY_SHARE
 from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest
-from gbnbench.core.memory import physical_memory
+from gbnbench.core.memory import memory_limit
 from gbnbench.core.torus import FloatArray
 
 # Multiply-adds that take as long as: a point on each axis, a node that it reaches, a node and level of the
@@ -47,7 +47,7 @@ class GriddedFFT(DeviceEvaluator):
         if request.d > AXES or super().offer(request, precision) is None:
             return None
         evaluator = cls(precision)
-        fits = evaluator._held(request) <= MEMORY_SHARE * physical_memory()
+        fits = evaluator._held(request) <= MEMORY_SHARE * memory_limit()
         return evaluator if fits and evaluator.on_device.runtime.device.is_cpu else None
 
     @classmethod

@@ -1,0 +1,1 @@
+"""Trials of what must not fail: damaged files, kills, full disks, crowds, little memory, wrong kernels."""

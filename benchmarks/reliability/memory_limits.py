@@ -1,0 +1,56 @@
+"""Limits of memory: a command ends as without one, or says in words that it has too little."""
+
+from __future__ import annotations
+
+import resource
+
+from gbnbench.benchmarks.reliability.commands import difference, empty_folder, in_words, run
+from gbnbench.benchmarks.reliability.trial import FAULT, Trials, shortened, summed
+
+# bytes of address space, on both sides of what the libraries need to start
+LIMITS = (
+    2_000_000_000,
+    300_000_000,
+    900_000_000,
+    64_000_000,
+    1_000_000_000,
+    860_000_000,
+    800_000_000,
+    1_200_000_000,
+)
+
+
+def memory_limits(name: str, count: int) -> list[Trials]:
+    """Run a command in small address spaces.
+
+    Parameters
+    ----------
+    name : str
+        One of ``COMMANDS``.
+    count : int
+        How many of ``LIMITS``.
+
+    Returns
+    -------
+    list of Trials
+    """
+    found = []
+    for limit in LIMITS[:count]:
+        tried = f"{limit / 1e6:.0f} MB"
+        with empty_folder() as folder:
+
+            def restrict(most: int = limit) -> None:
+                resource.setrlimit(resource.RLIMIT_AS, (most, most))
+
+            done = run(name, folder, preexec_fn=restrict)
+            differing = "" if done.returncode else difference(name, folder)
+        if in_words(done):
+            found.append(Trials(name, tried, "refused in words", note=shortened(done.stderr)))
+        elif done.returncode:
+            note = shortened(f"{done.returncode} {done.stderr[-1000:]}")
+            found.append(Trials(name, tried, "not said in words", FAULT, 1, note))
+        elif differing:
+            found.append(Trials(name, tried, "other bits", FAULT, 1, shortened(differing)))
+        else:
+            found.append(Trials(name, tried, "ended with the same bits"))
+    return summed(found)

@@ -1,0 +1,140 @@
+"""Wrong kernels planted one at a time: `gbnbench doctor` has to name each and trust the device no more."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from dataclasses import dataclass
+
+from gbnbench.benchmarks.reliability.commands import TIMEOUT
+from gbnbench.benchmarks.reliability.trial import FAULT, Trials, shortened
+
+PROGRAM = """
+import importlib, sys
+runtime = importlib.import_module("gbnbench.opencl.runtime")
+right, met = runtime.source, []
+file, old, new = {plant!r}
+
+def spoilt(package, files):
+    text = right(package, files)
+    if file in files and old in text:
+        met.append(1)
+        text = text.replace(old, new, 1)
+    return text
+
+runtime.source = spoilt
+from gbnbench.cli import run
+code = run(["doctor", "--quick", "--json"])
+sys.exit(code if met else 99)
+"""
+MET_NOTHING = 99
+
+
+@dataclass(frozen=True)
+class Plant:
+    """A mistake in the text of a kernel.
+
+    Attributes
+    ----------
+    file : str
+        Of the kernel.
+    right, wrong : str
+        What stands there, and what is planted.
+    kernel : str
+        What doctor has to name, or the beginning of it.
+    """
+
+    file: str
+    right: str
+    wrong: str
+    kernel: str
+
+
+PLANTS = {
+    "a sign in the product": Plant(
+        "product.cl", "cs##r += ca * sb;", "cs##r -= ca * sb;", "two-group product"
+    ),
+    "a square subtracted": Plant("power.cl", "re * re + im * im", "re * re - im * im", "two-group product"),
+    "a table's angle": Plant(
+        "tables.cl", "STOREV(su * cv + cu * sv", "STOREV(su * cv - cu * sv", "two-group product"
+    ),
+    "a sine for a cosine": Plant("selected.cl", "sines += w * s;", "sines += w * c;", "listed frequencies"),
+    "a point left out": Plant(
+        "selected.cl", "k = first; k < end", "k = first + LANES; k < end", "listed frequencies"
+    ),
+    "a Taylor term": Plant("/turns.cl", "1.0 / 24 ", "1.0 / 25 ", "two-group product"),
+    "a quarter turn": Plant("/turns.cl", "(quarter & (TURN)2)", "(quarter & (TURN)1)", "two-group product"),
+    "pairs counted once": Plant("shells.cl", "? 2 : 1", "? 1 : 1", "shells"),
+    "a shell at the edge": Plant("shells.cl", "square > high", "square >= high", "shells"),
+    "a window's sines": Plant("spread.cl", "s##m += by * sines;", "s##m -= by * sines;", "gridded product"),
+    "a window's odd part": Plant(
+        "grid_spread.cl", "= even1 + odd1 * s;", "= even1 - odd1 * s;", "gridded FFT"
+    ),
+    "a negative frequency": Plant("grid_power.cl", "f + wrap : f", "f + wrap - 1 : f", "gridded FFT"),
+    "a kernel of pairs": Plant("discrepancy_pairs.cl", "(t - t * t)", "(t + t * t)", "discrepancy, periodic"),
+    "a smaller for a larger": Plant(
+        "discrepancy_pairs.cl", "at[a] > other", "at[a] < other", "discrepancy, star"
+    ),
+    "a displacement's sign": Plant("gbn_images.cl", "u = k - l;", "u = l - k;", "gbn gradient, images"),
+    "an image of the box": Plant(
+        "gbn_images.cl", "m * side;", "m * side * (REAL)1.01;", "gbn gradient, images"
+    ),
+    "a sine's sign": Plant("gbn_theta.cl", "at[2 * a] - ck[a]", "at[2 * a] + ck[a]", "gbn gradient, theta"),
+    "a polynomial's last term": Plant("gbn_theta.cl", "value * c + w[0]", "value * c", "gbn gradient, theta"),
+    "two points mixed up": Plant(
+        "gbn_slopes.cl", "+= coefficient * right", "+= coefficient * left", "gbn gradient, harmonics"
+    ),
+    "an angle's sum": Plant(
+        "gbn_harmonics.cl",
+        "low_cos[r] - s * low_sin[r]",
+        "low_cos[r] + s * low_sin[r]",
+        "gbn gradient, harmonics",
+    ),
+    "strips too short": Plant(
+        "gbn_strips.cl", "return gap * gap;", "return gap * gap * 4;", "gbn gradient, strips"
+    ),
+    "a triangle too small": Plant(
+        "fpo.cl", "tree[2 * i] < tree", "tree[2 * i] > tree", "farthest-point sweep"
+    ),
+    "an integrand's term": Plant(
+        "gaussians.cl", "* c + shape[power]", "* c - shape[power]", "integrand, gaussians"
+    ),
+    "an integrand's image": Plant("gaussians.cl", "u - ((u + round) - round)", "u", "integrand, gaussians"),
+    "an integrand's phase": Plant("waves.cl", "total += cosine;", "total += sine;", "integrand, waves"),
+}
+
+
+def planted_kernel(name: str) -> list[Trials]:
+    """Plant a mistake and ask the doctor.
+
+    Parameters
+    ----------
+    name : str
+        One of ``PLANTS``.
+
+    Returns
+    -------
+    list of Trials
+    """
+    plant = PLANTS[name]
+    program = PROGRAM.format(plant=(plant.file, plant.right, plant.wrong))
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, timeout=TIMEOUT, check=False
+    )
+    tried = f"{name} ({plant.file.lstrip('/')})"
+    try:
+        checks = json.loads(done.stdout)
+    except ValueError:
+        return [
+            Trials(
+                "doctor", tried, "no verdict", FAULT, 1, shortened(f"{done.returncode} {done.stderr[-500:]}")
+            )
+        ]
+    failed = sorted({check["kernel"] for check in checks if not check["passed"]})
+    if done.returncode == MET_NOTHING:
+        return [Trials("doctor", tried, "the plant met no kernel", FAULT)]
+    if done.returncode != 1 or not any(kernel.startswith(plant.kernel) for kernel in failed):
+        said = shortened(f"exit code {done.returncode}; named: {', '.join(failed)}")
+        return [Trials("doctor", tried, "not noticed", FAULT, 1, said)]
+    return [Trials("doctor", tried, "named, and the device not trusted", note=", ".join(failed))]

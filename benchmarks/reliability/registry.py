@@ -1,0 +1,169 @@
+"""The parts of the trials: what each tries, in how many pieces, and what the page says of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from gbnbench.benchmarks.reliability.commands import COMMANDS
+from gbnbench.benchmarks.reliability.files import damaged_files
+from gbnbench.benchmarks.reliability.full_disk import full_disks, full_outputs, quotas
+from gbnbench.benchmarks.reliability.kills import kill_chain
+from gbnbench.benchmarks.reliability.memory_limits import memory_limits
+from gbnbench.benchmarks.reliability.planted_kernels import PLANTS, planted_kernel
+from gbnbench.benchmarks.reliability.runtimes import RUNTIMES, runtime_trials
+from gbnbench.benchmarks.reliability.seed_files import FORMATS
+from gbnbench.benchmarks.reliability.together import crowds
+from gbnbench.benchmarks.reliability.trial import Trials
+
+FILES, QUICK_FILES = 4000, 150  # of a piece
+FILE_PIECES = 3  # of a format
+KILLS, QUICK_KILLS = 5, 2  # of a chain
+CHAINS = 10  # of a command
+DISKS, MEMORIES, CROWDS = (
+    10,
+    12,
+    2,
+)  # of a command: full disks and quotas, limits of memory, crowds of each size
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A call whose trials are kept together.
+
+    Attributes
+    ----------
+    key : str
+        Unique, such as ``files/npz/0``.
+    function : callable
+        Gives the trials.
+    arguments : tuple
+        Its arguments.
+    """
+
+    key: str
+    function: Callable[..., list[Trials]]
+    arguments: tuple[Any, ...]
+
+
+@dataclass(frozen=True)
+class Part:
+    """A kind of trials.
+
+    Attributes
+    ----------
+    name : str
+        By which it is asked for.
+    title : str
+        On the page.
+    says : str
+        What is tried and what has to come of it.
+    pieces : callable
+        ``pieces(quick)``: its pieces, in order.
+    """
+
+    name: str
+    title: str
+    says: str
+    pieces: Callable[[bool], list[Piece]]
+
+
+def _files(quick: bool) -> list[Piece]:
+    count = QUICK_FILES if quick else FILES
+    return [
+        Piece(f"files/{name}/{k}", damaged_files, (name, k, count))
+        for k in range(1 if quick else FILE_PIECES)
+        for name in FORMATS
+    ]
+
+
+def _kills(quick: bool) -> list[Piece]:
+    count = QUICK_KILLS if quick else KILLS
+    return [
+        Piece(f"kills/{name}/{k}", kill_chain, (name, k, count))
+        for k in range(1 if quick else CHAINS)
+        for name in COMMANDS
+    ]
+
+
+def _disk(quick: bool) -> list[Piece]:
+    return [
+        Piece(f"disk/{function.__name__}/{name}", function, (name, 1 if quick else DISKS))
+        for function in (full_disks, quotas, full_outputs)
+        for name in COMMANDS
+    ]
+
+
+def _together(quick: bool) -> list[Piece]:
+    return [
+        Piece(f"together/{name}/{crowd}", crowds, (name, crowd, 1 if quick else CROWDS))
+        for crowd in (2, 4)
+        for name in COMMANDS
+    ]
+
+
+def _memory(quick: bool) -> list[Piece]:
+    return [Piece(f"memory/{name}", memory_limits, (name, 2 if quick else MEMORIES)) for name in COMMANDS]
+
+
+def _runtimes(_: bool) -> list[Piece]:
+    return [Piece(f"runtimes/{name}", runtime_trials, (name,)) for name in RUNTIMES]
+
+
+def _plants(quick: bool) -> list[Piece]:
+    return [
+        Piece(f"plants/{name}", planted_kernel, (name,))
+        for name in list(PLANTS)[: 2 if quick else len(PLANTS)]
+    ]
+
+
+PARTS = (
+    Part(
+        "files", "Damaged files",
+        "Sound files of every format, damaged in one to four ways: bits flipped, ends cut off, bytes and "
+        "lines inserted, deleted, doubled or swapped, numbers, counts and headers changed, two files in "
+        "one, packed, under another suffix, with reading options that do not fit, and bombs. Each has to "
+        "give the points that a strict reading in plain Python finds, which shares no code with the "
+        "readers, or be refused in one line that names it; within 10 s, 256 MB, finite and in [0, 1).",
+        _files,
+    ),
+    Part(
+        "kills", "Kills",
+        "A command is killed (SIGKILL) at a random moment, every other time with its workers, and started "
+        "again, five times over; every file that stands then has to be whole, and the last run has to end "
+        "with what an undisturbed one leaves, bit for bit but for times of day and CPU times. In one chain"
+        " of five no kernel is in the cache.",
+        _kills,
+    ),
+    Part(
+        "disk", "Full disks, quotas, full outputs",
+        "A file system (tmpfs) of a random size up to what the command leaves, a largest size of a file "
+        "(RLIMIT_FSIZE), and /dev/full as the output. The command has to say so in words with exit code 2;"
+        " with room again, the same command has to end with the same bits.",
+        _disk,
+    ),
+    Part(
+        "together", "Several at once",
+        "The same command started two or four times at once on one folder: one has to work, the others say"
+        " who holds it or do the same to the end, and what is left has the same bits as from one alone.",
+        _together,
+    ),
+    Part(
+        "memory", "Little memory",
+        "Address spaces (ulimit -v) from 64 MB to 2 GB, most of them near what the libraries need to "
+        "start: the command ends as without a limit, or says in words that it cannot.",
+        _memory,
+    ),
+    Part(
+        "runtimes", "OpenCL runtimes",
+        "`gbnbench doctor` in full and a spectrum against numpy under runtimes of several makers.",
+        _runtimes,
+    ),
+    Part(
+        "plants", "Wrong kernels",
+        "One mistake at a time is planted in the text of a kernel; `gbnbench doctor` has to say that the "
+        "device is not to be trusted, and name the kernel.",
+        _plants,
+    ),
+)  # fmt: skip

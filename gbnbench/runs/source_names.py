@@ -1,0 +1,75 @@
+"""Names of sources: generators, files and folders, and which of them a name means."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+from pathlib import Path
+
+from gbnbench.core.errors import InputError
+from gbnbench.generators.protocol import Generator
+from gbnbench.generators.registry import GENERATORS, find
+
+
+def generator_named(name: str) -> Generator | None:
+    """Parse a generator's text.
+
+    Parameters
+    ----------
+    name : str
+        A generator with or without settings, or a path.
+
+    Returns
+    -------
+    Generator or None
+        None where the name is an existing path instead, or a path with brackets that no generator reads.
+
+    Raises
+    ------
+    InputError
+        If it is neither.
+    """
+    base, bracket, _ = name.partition("[")
+    base = base.strip()
+    if base in GENERATORS:
+        try:
+            return find(name)
+        except InputError:
+            if bracket and Path(name).exists():  # a file such as ``sobol[1].txt``
+                return None
+            raise
+    if Path(name).exists():
+        return None
+    close = difflib.get_close_matches(base.lower(), GENERATORS, n=2)
+    near = f"; did you mean {' or '.join(close)}?" if close else "."
+    raise InputError(
+        f"{name!r} is neither a generator nor an existing file or folder{near} "
+        f"The generators are {', '.join(GENERATORS)}"
+    )
+
+
+def double_meanings(names: Iterable[object]) -> list[str]:
+    """Say what is taken of names that are those of a generator and of an existing file or folder.
+
+    Parameters
+    ----------
+    names : iterable
+        Sources as the user gave them.
+
+    Returns
+    -------
+    list of str
+        A sentence for each, with the way to ask for the other.
+    """
+    told = []
+    for name in dict.fromkeys(names):
+        if not isinstance(name, str) or name.partition("[")[0].strip() not in GENERATORS:
+            continue
+        if not Path(name).exists():
+            continue
+        what = "folder" if Path(name).is_dir() else "file"
+        if generator_named(name) is None:
+            told.append(f"{name} is the {what} of that name; as settings of a generator it cannot be read")
+        else:
+            told.append(f"{name} is the generator; the {what} of that name is ./{name}")
+    return told

@@ -1,0 +1,44 @@
+"""Requirements of an integration study: its numbers, and the dimensions of its families."""
+
+from __future__ import annotations
+
+from gbnbench.analysis.integration.integrands.protocol import Family
+from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.settings import specification
+
+
+def require(**whole: tuple[int, int]) -> None:
+    """Refuse numbers that are too small.
+
+    Parameters
+    ----------
+    **whole : (int, int)
+        By name, a value and the least that is allowed.
+
+    Raises
+    ------
+    InputError
+        If a value is below its least.
+    """
+    for name, (value, least) in whole.items():
+        if value < least:
+            raise InputError(f"{name} must be at least {least}; got {value}")
+
+
+def refuse(family: Family, d: int) -> None:
+    """Refuse a family of integrands in a dimension that it does not have.
+
+    Parameters
+    ----------
+    family : Family
+        The integrands.
+    d : int
+        Dimension.
+
+    Raises
+    ------
+    RefusalError
+        If it has none in d dimensions.
+    """
+    if why := family.refusal(d):
+        raise RefusalError(f"{specification(family)}: {why}")
