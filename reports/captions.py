@@ -2,21 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from functools import lru_cache
-
-from matplotlib.font_manager import findfont, get_font
+from collections.abc import Iterable, Mapping, Sequence
 
 from gbnbench.core.sides import sides_text
+from gbnbench.core.text_table import display_width
+from gbnbench.reports.fonts import has_sign
 from gbnbench.reports.source_groups import Group, groups, members
 from gbnbench.runs.comparison_result import Run, SourceResult
 
 NBSP = "\N{NO-BREAK SPACE}"
-
-
-@lru_cache(maxsize=4096)
-def _has_glyph(character: str) -> bool:
-    return bool(get_font(findfont("DejaVu Sans")).get_char_index(ord(character)))
 
 
 def shown(text: str, width: int = 26) -> str:
@@ -27,12 +21,13 @@ def shown(text: str, width: int = 26) -> str:
     text : str
         Text from the user, such as a label.
     width : int
-        Most characters; a longer text loses some of its middle.
+        Most characters, of which Chinese, Japanese and Korean ones count as two; a longer text loses some of
+        its middle.
 
     Returns
     -------
     str
-        The text with ``$`` escaped, and a box for each sign that the font lacks.
+        The text with ``$`` escaped, and a box for each sign that no installed font has.
 
     Examples
     --------
@@ -41,14 +36,43 @@ def shown(text: str, width: int = 26) -> str:
     >>> shown("a" * 40, 9)
     'aaaaa…aaa'
     """
-    if len(text) > width:
+    wide = display_width(text)
+    if wide > width:
+        width = max(width * len(text) // wide, 3)
         tail = (width - 1) * 2 // 5
         text = f"{text[: width - 1 - tail]}…{text[len(text) - tail :]}"
-    text = "".join(
-        c if _has_glyph(c) and (c.isprintable() or c == NBSP) else "\N{WHITE SQUARE}" for c in text
-    )
+    text = "".join(c if _drawn(c) else "\N{WHITE SQUARE}" for c in text)
     text = text.replace("$", r"\$")
     return f" {text}" if text.startswith("_") else text  # a legend drops labels that start with _
+
+
+def lacking_signs(labels: Iterable[str]) -> str:
+    """Name the letters of labels that no installed font has; empty where figures show them all.
+
+    Parameters
+    ----------
+    labels : iterable of str
+        Labels that figures show.
+
+    Returns
+    -------
+    str
+        A sentence, with the way out.
+
+    Examples
+    --------
+    >>> lacking_signs(["gbn", "sobol"])
+    ''
+    """
+    signs = dict.fromkeys(c for label in labels for c in label if c.isalpha() and not has_sign(c))
+    if not signs:
+        return ""
+    few = "".join(list(signs)[:12])
+    return f"no installed font has {few}: pictures show boxes instead; fonts such as Noto Sans CJK have them"
+
+
+def _drawn(character: str) -> bool:
+    return (character.isprintable() or character == NBSP) and has_sign(character)
 
 
 def name(source: SourceResult, run: Run, width: int = 26) -> str:
@@ -109,4 +133,6 @@ def settings(run: Run, group: Group | None = None) -> str:
         parts.append(str(label).strip())
     if run.manifest.get("version"):
         parts.append(f"gbnbench {run.manifest['version']}")
+    if lacking_signs(source.label for source in sources):
+        parts.append("\N{WHITE SQUARE}: a sign that no installed font has")
     return " · ".join(part.replace(" ", NBSP) for part in parts)

@@ -101,6 +101,7 @@ def _records(comparison: Comparison) -> list[dict[str, Any]]:
 
 def _show(comparison: Comparison, as_json: bool) -> None:
     """Print the table, warnings, the verdicts against the baseline, and where everything is."""
+    from gbnbench.reports.captions import lacking_signs
     from gbnbench.reports.comparison.terminal import terminal_text
 
     for line in comparison.skipped:
@@ -123,6 +124,8 @@ def _show(comparison: Comparison, as_json: bool) -> None:
     if comparison.run.manifest["baseline"] and not comparison.changes:
         click.echo("baseline: nothing better or worse beyond 3 standard errors", err=as_json)
     kept = f", {comparison.reused} of {comparison.pieces} pieces reused" if comparison.reused else ""
+    if lacking := lacking_signs(source.label for source in comparison.sources):
+        click.echo(f"gbnbench: {lacking}", err=True)
     if comparison.failed:
         raise last_step_failed(comparison.folder, comparison.failed)
     click.echo(f"report: {comparison.report()} ({comparison.seconds:.1f} s{kept})", err=as_json)

@@ -107,6 +107,7 @@ def integrate(
     """
     from gbnbench.api.integration import integrate as make
     from gbnbench.cli.integrate_text import as_lines, as_record
+    from gbnbench.reports.captions import lacking_signs
     from gbnbench.runs.source_names import double_meanings
     from gbnbench.studies.integration.study import DEFAULT_INTEGRANDS, DEFAULT_SOURCES
 
@@ -135,6 +136,8 @@ def integrate(
     else:
         for line in as_lines(made.study):
             click.echo(line)
+    if lacking := lacking_signs(made.table["source"]):
+        click.echo(f"gbnbench: {lacking}", err=True)
     if made.failed:
         raise last_step_failed(made.folder, made.failed)
     made.picture()

@@ -11,6 +11,7 @@ from rich.table import Table
 from rich.text import Text
 
 from gbnbench.core.footnotes import footnotes
+from gbnbench.core.text_table import display_width
 from gbnbench.reports.comparison.table import COLUMNS, MARKS, Cell, SourceRow, column_named, row_label, rows
 from gbnbench.reports.source_groups import Group, groups
 from gbnbench.runs.comparison_result import Run
@@ -42,7 +43,7 @@ def terminal_table(run: Run, width: int | None = None) -> Table:
     width = width or shutil.get_terminal_size((100, 24)).columns
     table_rows = rows(run)
     names = [row_label(row.source, run) for row in table_rows]
-    longest = max([6, *(len(label) for label in names)])
+    longest = max([6, *map(display_width, names)])
     first = min(longest, max(14, width // 4))
     every = [column.name for column in COLUMNS]
     errors, chosen = True, every
