@@ -105,7 +105,7 @@ def _replace(pattern: re.Pattern[bytes], instead: Sequence[bytes]) -> Damage:
         if not found:
             return _overwrite_bytes(data, rng)
         match = found[rng.integers(len(found))]
-        return data[: match.start()] + instead[rng.integers(len(instead))] + data[match.end() :]
+        return data[: match.start()] + instead[int(rng.integers(len(instead)))] + data[match.end() :]
 
     return damage
 

@@ -70,7 +70,7 @@ def damaged_files(format_name: str, piece: int, count: int, faults: Path | None 
         By what was done and what came of it.
     """
     rng = np.random.default_rng(np.random.SeedSequence(12, spawn_key=(FORMATS.index(format_name), piece)))
-    found = []
+    found: list[Trials] = []
     with tempfile.TemporaryDirectory() as folder:
         for number in range(count):
             tried, suffix, data, strict, options = _draw(format_name, rng)

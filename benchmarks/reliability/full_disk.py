@@ -17,7 +17,7 @@ from gbnbench.benchmarks.reliability.commands import (
     run,
     undisturbed,
 )
-from gbnbench.benchmarks.reliability.trial import FAULT, UNTRIED, Trials, shortened, summed
+from gbnbench.benchmarks.reliability.trial import FAULT, UNTRIED, Trials, shortened
 
 PAGE = 4096
 ROOM = "64m"  # of the file system once there is room again
@@ -25,92 +25,77 @@ SAID = "said in words, then the same bits"
 FITTED = "fitted, the same bits"
 
 
-def full_disks(name: str, count: int) -> list[Trials]:
-    """Run a command on small file systems that run full, then on the same with room.
+def full_disk(name: str, number: int) -> list[Trials]:
+    """Run a command on a small file system that runs full, then on the same with room.
 
     Parameters
     ----------
     name : str
         One of ``COMMANDS``.
-    count : int
-        File systems, of random sizes up to what the command leaves.
+    number : int
+        Names the stream of the random size, which goes up to what the command leaves.
 
     Returns
     -------
     list of Trials
+        The one.
     """
-    rng = np.random.default_rng(np.random.SeedSequence(56, spawn_key=([*COMMANDS].index(name), 0)))
     tried = "a full disk"
-    found = []
-    for size in rng.integers(1, undisturbed(name).size // PAGE + 8, count).tolist():
-        with empty_folder() as folder:
-            try:
-                _mount(folder, f"{size * PAGE}", "")
-            except (OSError, subprocess.CalledProcessError) as error:
-                why = f"no file system could be mounted, which takes root on Linux: {error}"
-                return [Trials(name, tried, UNTRIED, UNTRIED, 0, shortened(why))]
-            try:
-                found.append(
-                    _judged(name, tried, folder, run(name, folder), lambda: _mount(folder, ROOM, "remount,"))
-                )
-            finally:
-                subprocess.run(["umount", "--lazy", folder], check=True)
-    return summed(found)
+    pages = int(_random(name, 0, number).integers(1, undisturbed(name).size // PAGE + 8))
+    with empty_folder() as folder:
+        try:
+            _mount(folder, f"{pages * PAGE}", "")
+        except (OSError, subprocess.CalledProcessError) as error:
+            why = f"no file system could be mounted, which takes root on Linux: {error}"
+            return [Trials(name, tried, UNTRIED, UNTRIED, 0, shortened(why))]
+        try:
+            return [_judged(name, tried, folder, run(name, folder), lambda: _mount(folder, ROOM, "remount,"))]
+        finally:
+            subprocess.run(["umount", "--lazy", folder], check=True)
 
 
-def quotas(name: str, count: int) -> list[Trials]:
+def quota(name: str, number: int) -> list[Trials]:
     """Run a command with a largest size of files, then without.
 
     Parameters
     ----------
     name : str
         One of ``COMMANDS``.
-    count : int
-        Limits, random up to the largest file that the command leaves.
+    number : int
+        Names the stream of the random limit, which goes up to the largest file that the command leaves.
 
     Returns
     -------
     list of Trials
+        The one.
     """
-    rng = np.random.default_rng(np.random.SeedSequence(56, spawn_key=([*COMMANDS].index(name), 1)))
-    found = []
-    for limit in rng.integers(1, undisturbed(name).largest, count).tolist():
-        with empty_folder() as folder:
+    limit = int(_random(name, 1, number).integers(1, undisturbed(name).largest))
 
-            def restrict(most: int = limit) -> None:
-                resource.setrlimit(resource.RLIMIT_FSIZE, (most, resource.RLIM_INFINITY))
+    def restrict() -> None:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (limit, resource.RLIM_INFINITY))
 
-            done = run(name, folder, preexec_fn=restrict)
-            found.append(_judged(name, "a quota", folder, done, lambda: None))
-    return summed(found)
+    with empty_folder() as folder:
+        return [_judged(name, "a quota", folder, run(name, folder, preexec_fn=restrict), lambda: None)]
 
 
-def full_outputs(name: str, _: int) -> list[Trials]:
-    """Run a command whose standard output is full; the files are there and it fails in words.
-
-    Parameters
-    ----------
-    name : str
-        One of ``COMMANDS``.
-    _ : int
-        Not used: there is one such output.
-
-    Returns
-    -------
-    list of Trials
-    """
+def full_output(name: str) -> list[Trials]:
+    """Run a command whose standard output is full: it says so, and its files are there."""
     tried = "/dev/full as standard output"
     with empty_folder() as folder, Path("/dev/full").open("w") as full:
         done = run(name, folder, stdout=full)
         if not in_words(done):
-            return [
-                Trials(
-                    name, tried, "not said in words", FAULT, 1, shortened(f"{done.returncode} {done.stderr}")
-                )
-            ]
+            said = shortened(f"{done.returncode} {done.stderr}")
+            return [Trials(name, tried, "not said in words", FAULT, 1, said)]
         differing = difference(name, folder)
-    verdict = (FAULT, 1, shortened(differing)) if differing else ()
-    return [Trials(name, tried, "other bits" if differing else "said in words, files whole", *verdict)]
+    if differing:
+        return [Trials(name, tried, "other bits", FAULT, 1, shortened(differing))]
+    return [Trials(name, tried, "said in words, files whole")]
+
+
+def _random(name: str, kind: int, number: int) -> np.random.Generator:
+    return np.random.default_rng(
+        np.random.SeedSequence(56, spawn_key=([*COMMANDS].index(name), kind, number))
+    )
 
 
 def _judged(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import resource
 
 from gbnbench.benchmarks.reliability.commands import difference, empty_folder, in_words, run
-from gbnbench.benchmarks.reliability.trial import FAULT, Trials, shortened, summed
+from gbnbench.benchmarks.reliability.trial import FAULT, Trials, shortened
 
 # bytes of address space, on both sides of what the libraries need to start
 LIMITS = (
@@ -20,37 +20,34 @@ LIMITS = (
 )
 
 
-def memory_limits(name: str, count: int) -> list[Trials]:
-    """Run a command in small address spaces.
+def memory_limit(name: str, limit: int) -> list[Trials]:
+    """Run a command in a small address space.
 
     Parameters
     ----------
     name : str
         One of ``COMMANDS``.
-    count : int
-        How many of ``LIMITS``.
+    limit : int
+        Bytes.
 
     Returns
     -------
     list of Trials
+        The one.
     """
-    found = []
-    for limit in LIMITS[:count]:
-        tried = f"{limit / 1e6:.0f} MB"
-        with empty_folder() as folder:
+    tried = f"{limit / 1e6:.0f} MB"
 
-            def restrict(most: int = limit) -> None:
-                resource.setrlimit(resource.RLIMIT_AS, (most, most))
+    def restrict() -> None:
+        resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
 
-            done = run(name, folder, preexec_fn=restrict)
-            differing = "" if done.returncode else difference(name, folder)
-        if in_words(done):
-            found.append(Trials(name, tried, "refused in words", note=shortened(done.stderr)))
-        elif done.returncode:
-            note = shortened(f"{done.returncode} {done.stderr[-1000:]}")
-            found.append(Trials(name, tried, "not said in words", FAULT, 1, note))
-        elif differing:
-            found.append(Trials(name, tried, "other bits", FAULT, 1, shortened(differing)))
-        else:
-            found.append(Trials(name, tried, "ended with the same bits"))
-    return summed(found)
+    with empty_folder() as folder:
+        done = run(name, folder, preexec_fn=restrict)
+        differing = "" if done.returncode else difference(name, folder)
+    if in_words(done):
+        return [Trials(name, tried, "refused in words", note=shortened(done.stderr))]
+    if done.returncode:
+        note = shortened(f"{done.returncode} {done.stderr[-1000:]}")
+        return [Trials(name, tried, "not said in words", FAULT, 1, note)]
+    if differing:
+        return [Trials(name, tried, "other bits", FAULT, 1, shortened(differing))]
+    return [Trials(name, tried, "ended with the same bits")]

@@ -39,23 +39,26 @@ def page(table: Table) -> str:
     faults = sum(one.count for one in every if one.verdict == FAULT)
     counts = f"{sum(one.count for one in every):,} trials, {faults or 'no'} fault{'s' * (faults != 1)}."
     minutes = sum(result.seconds for result in table.values()) / 60
-    time = f"; one after the other the pieces took {minutes:.0f} minutes, and two ran at a time"
+    time = f"; its pieces took\n{minutes:.0f} minutes one after the other, and two ran at a time"
     head = resources.files(PACKAGE).joinpath(HEAD).read_text(encoding="utf-8")
     lines = [head.replace("{counts}", counts).replace("{time}", time)]
-    lines += ["| part | trials | faults | not tried |", "|---|--:|--:|--:|"]
-    for part in PARTS:
-        trials = trials_of(part, table)
-        number = {v: sum(one.count for one in trials if one.verdict == v) for v in (FAULT,)}
-        untried = sum(one.verdict == UNTRIED for one in trials)
-        total = sum(one.count for one in trials)
-        lines.append(
-            f"| [{part.title}](#{_anchor(part.title)}) | {total:,} | {number[FAULT]:,} | {untried or ''} |"
-        )
+    lines += ["| part | pieces carried out | trials | faults | not to be had here |", "|---|--:|--:|--:|--:|"]
+    lines += [_part_row(part, table) for part in PARTS]
     for part in PARTS:
         lines += ["", f"## {part.title}", "", part.says, ""]
         trials = trials_of(part, table)
         lines += _file_table(trials) if part.name == "files" else _plain_table(trials)
     return "\n".join(lines) + "\n"
+
+
+def _part_row(part: Part, table: Table) -> str:
+    trials, pieces = trials_of(part, table), part.pieces(False)
+    done = sum(piece.key in table for piece in pieces)
+    faults = sum(one.count for one in trials if one.verdict == FAULT)
+    untried = sum(one.verdict == UNTRIED for one in trials)
+    total = sum(one.count for one in trials)
+    title = f"[{part.title}](#{_anchor(part.title)})"
+    return f"| {title} | {done} of {len(pieces)} | {total:,} | {faults:,} | {untried or ''} |"
 
 
 def _plain_table(trials: list[Trials]) -> Iterator[str]:

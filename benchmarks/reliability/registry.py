@@ -8,24 +8,20 @@ from typing import Any
 
 from gbnbench.benchmarks.reliability.commands import COMMANDS
 from gbnbench.benchmarks.reliability.files import damaged_files
-from gbnbench.benchmarks.reliability.full_disk import full_disks, full_outputs, quotas
+from gbnbench.benchmarks.reliability.full_disk import full_disk, full_output, quota
 from gbnbench.benchmarks.reliability.kills import kill_chain
-from gbnbench.benchmarks.reliability.memory_limits import memory_limits
+from gbnbench.benchmarks.reliability.memory_limits import LIMITS, memory_limit
 from gbnbench.benchmarks.reliability.planted_kernels import PLANTS, planted_kernel
 from gbnbench.benchmarks.reliability.runtimes import RUNTIMES, runtime_trials
 from gbnbench.benchmarks.reliability.seed_files import FORMATS
-from gbnbench.benchmarks.reliability.together import crowds
+from gbnbench.benchmarks.reliability.together import crowd
 from gbnbench.benchmarks.reliability.trial import Trials
 
 FILES, QUICK_FILES = 4000, 150  # of a piece
 FILE_PIECES = 3  # of a format
 KILLS, QUICK_KILLS = 5, 2  # of a chain
 CHAINS = 10  # of a command
-DISKS, MEMORIES, CROWDS = (
-    10,
-    12,
-    2,
-)  # of a command: full disks and quotas, limits of memory, crowds of each size
+DISKS, CROWDS = 4, 2  # of a command: full disks and quotas, and crowds of each size
 
 
 @dataclass(frozen=True)
@@ -72,7 +68,7 @@ class Part:
 def _files(quick: bool) -> list[Piece]:
     count = QUICK_FILES if quick else FILES
     return [
-        Piece(f"files/{name}/{k}", damaged_files, (name, k, count))
+        Piece(f"files/{name}/{k}/{count}", damaged_files, (name, k, count))
         for k in range(1 if quick else FILE_PIECES)
         for name in FORMATS
     ]
@@ -81,30 +77,37 @@ def _files(quick: bool) -> list[Piece]:
 def _kills(quick: bool) -> list[Piece]:
     count = QUICK_KILLS if quick else KILLS
     return [
-        Piece(f"kills/{name}/{k}", kill_chain, (name, k, count))
+        Piece(f"kills/{name}/{k}/{count}", kill_chain, (name, k, count))
         for k in range(1 if quick else CHAINS)
         for name in COMMANDS
     ]
 
 
 def _disk(quick: bool) -> list[Piece]:
-    return [
-        Piece(f"disk/{function.__name__}/{name}", function, (name, 1 if quick else DISKS))
-        for function in (full_disks, quotas, full_outputs)
+    trials = {
+        f"{function.__name__}/{name}/{k}": (function, (name, k))
+        for k in range(1 if quick else DISKS)
+        for function in (full_disk, quota)
         for name in COMMANDS
-    ]
+    } | {f"full_output/{name}": (full_output, (name,)) for name in COMMANDS}
+    return [Piece(f"disk/{key}", *called) for key, called in trials.items()]
 
 
 def _together(quick: bool) -> list[Piece]:
     return [
-        Piece(f"together/{name}/{crowd}", crowds, (name, crowd, 1 if quick else CROWDS))
-        for crowd in (2, 4)
+        Piece(f"together/{name}/{size}/{k}", crowd, (name, size))
+        for k in range(1 if quick else CROWDS)
+        for size in (2, 4)
         for name in COMMANDS
     ]
 
 
 def _memory(quick: bool) -> list[Piece]:
-    return [Piece(f"memory/{name}", memory_limits, (name, 2 if quick else MEMORIES)) for name in COMMANDS]
+    return [
+        Piece(f"memory/{name}/{limit / 1e6:.0f}", memory_limit, (name, limit))
+        for limit in LIMITS[: 2 if quick else len(LIMITS)]
+        for name in COMMANDS
+    ]
 
 
 def _runtimes(_: bool) -> list[Piece]:

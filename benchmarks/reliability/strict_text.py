@@ -141,9 +141,8 @@ def strict_text(data: bytes) -> Sets:
         axes = [name for name in names if name not in ("set", "realization")]
         need(not axes or _axes(axes))
     lines = [re.sub(QUOTED, r"\1", line) for line in lines]
-    rows = [line for line in lines if line and line[0] != "#"]
-    tokens = [_tokens(row) for row in rows]
-    need(rows)
+    tokens = [_tokens(line) for line in lines if line and line[0] != "#"]
+    need(tokens)
     need(all(re.fullmatch(DECIMAL, t, re.ASCII) for row in tokens for t in row))
     for line in lines:
         struck = _tokens(line.lstrip("#").strip()) if line[:1] == "#" else []

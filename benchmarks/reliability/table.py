@@ -46,8 +46,10 @@ def read(path: Path) -> Table:
 
 
 def _trials(row: Mapping[str, str]) -> Trials:
-    words = (row[name] for name in ("subject", "tried", "outcome", "verdict"))
-    return Trials(*words, int(row["count"]), row["note"], float(row["slowest"]), float(row["memory"]))
+    return Trials(
+        row["subject"], row["tried"], row["outcome"], row["verdict"], int(row["count"]), row["note"],
+        float(row["slowest"]), float(row["memory"]),
+    )  # fmt: skip
 
 
 def write(path: Path, table: Table) -> None:

@@ -11,45 +11,40 @@ from gbnbench.benchmarks.reliability.commands import (
     environment,
     in_words,
 )
-from gbnbench.benchmarks.reliability.trial import FAULT, Trials, shortened, summed
+from gbnbench.benchmarks.reliability.trial import FAULT, Trials, shortened
 
 NUMBERS = {2: "two at once", 4: "four at once"}
 
 
-def crowds(name: str, crowd: int, rounds: int) -> list[Trials]:
+def crowd(name: str, size: int) -> list[Trials]:
     """Start a command several times at once in one folder.
 
     Parameters
     ----------
     name : str
         One of ``COMMANDS``.
-    crowd : int
+    size : int
         How many at once: 2 or 4.
-    rounds : int
-        How often.
 
     Returns
     -------
     list of Trials
-        A round each.
+        The one.
     """
-    found = []
-    for _ in range(rounds):
-        with empty_folder() as folder:
-            busy = [
-                subprocess.Popen(
-                    arguments(name), cwd=folder, env=environment(), text=True, errors="replace",
-                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-                )
-                for _ in range(crowd)
-            ]  # fmt: skip
-            ended = [
-                subprocess.CompletedProcess(one.args, one.returncode, "", said)
-                for one in busy
-                for _, said in [one.communicate()]
-            ]
-            found.append(_judged(name, NUMBERS[crowd], ended, difference(name, folder)))
-    return summed(found)
+    with empty_folder() as folder:
+        busy = [
+            subprocess.Popen(
+                arguments(name), cwd=folder, env=environment(), text=True, errors="replace",
+                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+            )
+            for _ in range(size)
+        ]  # fmt: skip
+        ended = [
+            subprocess.CompletedProcess(one.args, one.returncode, "", said)
+            for one in busy
+            for _, said in [one.communicate()]
+        ]
+        return [_judged(name, NUMBERS[size], ended, difference(name, folder))]
 
 
 def _judged(name: str, tried: str, ended: list[subprocess.CompletedProcess[str]], differing: str) -> Trials:

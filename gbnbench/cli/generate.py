@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import click
 
 from gbnbench.cli import options
+from gbnbench.core.atomic_write import remove_leftovers_of
 from gbnbench.core.errors import InputError
 
 if TYPE_CHECKING:
@@ -94,6 +95,7 @@ def generate(
             click.echo(f"wrote {beside}: radial power after {reached} gradients")
     if checkpoint is not None:
         checkpoint.unlink(missing_ok=True)
+        remove_leftovers_of(checkpoint)
 
 
 def _check_folder(path: Path | None) -> None:

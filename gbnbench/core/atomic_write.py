@@ -3,12 +3,20 @@
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import os
 import secrets
 import shutil
 import sys
+import time
 from collections.abc import Mapping
 from pathlib import Path
+from typing import IO
+
+if sys.platform != "win32":
+    import fcntl
+
+YOUNG = 1.0  # seconds that a temporary file has to be locked after it was made
 
 
 def write_whole(path: Path, data: bytes, *, make_folder: bool = True) -> None:
@@ -30,10 +38,19 @@ def write_whole(path: Path, data: bytes, *, make_folder: bool = True) -> None:
     """
     if make_folder:
         path.parent.mkdir(parents=True, exist_ok=True)
+    remove_leftovers_of(path)
     temporary = _temporary(path)
     try:
-        _write_synced(temporary, data)
-        temporary.replace(path)
+        with temporary.open("xb") as file:
+            with contextlib.suppress(OSError):  # a file system without locks
+                _hold(file)
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+            if sys.platform != "win32":  # still held, so that nobody takes it for a leftover
+                temporary.replace(path)
+        if sys.platform == "win32":  # no open file can be renamed there
+            temporary.replace(path)
     except BaseException as error:
         with contextlib.suppress(OSError):
             temporary.unlink(missing_ok=True)
@@ -83,9 +100,36 @@ def remove_leftovers(folder: Path) -> None:
             leftover.unlink(missing_ok=True)
 
 
+def remove_leftovers_of(path: Path) -> None:
+    """Delete the temporary files that killed processes left of this one file, none that is being written."""
+    for leftover in path.parent.glob(f"{_stem(path)}*.tmp"):
+        with contextlib.suppress(OSError):  # another process has it, or was faster
+            if time.time() - leftover.stat().st_mtime > YOUNG:
+                with leftover.open("r+b") as file:
+                    _hold(file)
+                leftover.unlink()
+
+
 def _temporary(path: Path) -> Path:
     """Name a file beside path that no other process writes, short enough for any file system."""
-    return path.parent / f".gbnbench-{secrets.token_hex(6)}.tmp"
+    return path.parent / f"{_stem(path)}{secrets.token_hex(4)}.tmp"
+
+
+def _stem(path: Path) -> str:
+    """Begin the names of a file's temporary ones."""
+    return f".gbnbench-{hashlib.sha256(os.fsencode(path.name)).hexdigest()[:8]}-"
+
+
+def _hold(file: IO[bytes]) -> None:
+    """Lock a file until it is closed.
+
+    Raises
+    ------
+    OSError
+        If another process has it, or the file system has no locks.
+    """
+    if sys.platform != "win32":  # where nobody deletes an open file
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
 
 def _write_synced(path: Path, data: bytes) -> None:

@@ -150,8 +150,9 @@ def numpy_gaussians(x: FloatArray, centres: FloatArray, width: float) -> FloatAr
     (n,) float64
     """
     u = x[:, None] - centres
-    images = sum(np.exp(-((u + j) ** 2) / (2 * width**2)) for j in range(-4, 5))
-    return np.asarray(images).prod(axis=-1).sum(axis=-1)
+    images = np.sum([np.exp(-((u + j) ** 2) / (2 * width**2)) for j in range(-4, 5)], axis=0)
+    total: FloatArray = images.prod(axis=-1).sum(axis=-1)
+    return total
 
 
 def numpy_waves(x: FloatArray, frequencies: NDArray[np.int64], phases: FloatArray) -> FloatArray:
@@ -171,4 +172,5 @@ def numpy_waves(x: FloatArray, frequencies: NDArray[np.int64], phases: FloatArra
     (n,) float64
     """
     turns = x @ frequencies.T.astype(np.float64) + phases
-    return np.cos(2 * np.pi * (turns - np.rint(turns))).sum(axis=-1)
+    total: FloatArray = np.cos(2 * np.pi * (turns - np.rint(turns))).sum(axis=-1)
+    return total

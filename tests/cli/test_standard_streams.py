@@ -48,7 +48,7 @@ def shell(text: str, folder: Path, **environment: str) -> subprocess.CompletedPr
 def test_output_that_cannot_be_written_is_said_and_files_are_kept(folder: Path, redirection: str, why: str):
     done = shell(f"$G generate 'gbn[iterations=10]' -n 16 -o y.txt --trace t.csv {redirection}", folder)
     assert done.returncode == 2
-    assert done.stderr == (
+    assert done.stderr.endswith(  # after progress, on a slow machine
         f"gbnbench: error: standard output cannot be written ({why}): what was printed is lost, files and "
         "folders are kept\n"
     )

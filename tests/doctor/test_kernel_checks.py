@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 
 from gbnbench.core import cache_folder
 from gbnbench.core.errors import DeviceError
 from gbnbench.doctor import kernel_checks, numpy_references, trust
+from gbnbench.opencl import program
 from tests.oracles.discrepancy import squares
 from tests.oracles.power import direct_power
+from tests.paths import ROOT
 
 
 def test_its_numpy_twins_are_right_themselves():
@@ -71,3 +75,21 @@ def test_a_device_is_examined_once_and_remembered(monkeypatch, tmp_path):
     assert len(list(tmp_path.glob("trusted*"))) == 1
     monkeypatch.setattr(trust, "examine", lambda **_: pytest.fail("examined again"))
     trust.ensure_trusted()
+
+
+KERNELS = re.compile(r"__kernel\s+void\s+(\w+)")
+NO_RESULTS = {"probe", "fma_chains"}  # they measure the device: its vectors' widths, and its speed
+
+
+def test_the_doctor_runs_every_kernel_in_the_tree(monkeypatch):
+    run = set()
+    launch = program.Program.run
+
+    def noted(self, name, *arguments):
+        run.add(name)
+        launch(self, name, *arguments)
+
+    monkeypatch.setattr(program.Program, "run", noted)
+    assert kernel_checks.examine(quick=True).trusted
+    files = [*ROOT.glob("*/kernels/*.cl"), *ROOT.glob("gbnbench/opencl/kernels/*.cl")]
+    assert {name for path in files for name in KERNELS.findall(path.read_text())} - NO_RESULTS <= run

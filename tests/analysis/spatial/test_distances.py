@@ -120,8 +120,8 @@ def test_figures_of_psa(name: str, least: str, mean: str) -> None:
 def test_refusals() -> None:
     with pytest.raises(RefusalError, match="n >= 2"):
         min_distance([[0.1, 0.2]])
-    with pytest.raises(RefusalError, match="d=9"):
-        mean_distance(np.random.default_rng(2).random((5, 9)))
+    with pytest.raises(RefusalError, match="d=25"):
+        mean_distance(np.random.default_rng(2).random((5, 25)))
 
 
 @settings(deadline=None, max_examples=30)

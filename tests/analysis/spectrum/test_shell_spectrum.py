@@ -141,7 +141,8 @@ print(json.dumps([s.count.tolist(), float(s.power @ s.count), memory]))
     [
         (2, {"fmax": 0}, "at least 1"),
         (2, {"fmax": 2.5}, "integer"),
-        (30, {"fmax": 2}, "more than 2^63"),
+        (30, {"fmax": 2, "corners": True}, "more than 2^63"),
+        (100, {"fmax": 4}, "cannot be listed"),
         (2, {"fmax": 5, "band": (1.2, 1.3)}, "no integer frequency"),
         (2, {"fmax": 5, "band": (0, 0)}, "no integer frequency"),
         (2, {"fmax": 5, "band": (1.7, 1.75)}, "no integer frequency"),  # 3 is no sum of two squares
