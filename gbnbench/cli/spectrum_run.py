@@ -163,7 +163,7 @@ def compute(
     plans = [settings.plan(one.x.shape[1], one.x.shape[2], len(one.x), one.sides) for one in sets]
     if out is not None:
         for plan in plans:
-            check_format(out, plan)
+            check_format(out, plan, shells=settings.shells)
     weighing = _weights(weights, sets)
     seconds = sum(plan.seconds for plan in plans)
     if seconds > SLOW and not quiet:
