@@ -42,7 +42,8 @@ def write(n: int, d: int) -> np.ndarray:
 def test_a_backend_of_another_machine_stops_no_picture(backend: str) -> None:
     write(9, 2)
     done = subprocess.run(
-        [*COMMAND, "spectrum", "x.csv", "-o", "p.png", "--quiet"], capture_output=True, text=True, check=False,
+        [*COMMAND, "spectrum", "x.csv", "-o", "p.png", "--quiet"],
+        capture_output=True, text=True, check=False,
         env={**os.environ, "MPLBACKEND": backend, "LC_ALL": "C", "TERM": "dumb", "NO_COLOR": "1"},
     )  # fmt: skip
     assert (done.returncode, done.stderr) == (0, "")
