@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
+from gbnbench.core.readable_text import display_width
 from gbnbench.core.sides import sides_text
-from gbnbench.core.text_table import display_width
-from gbnbench.reports.fonts import has_sign
+from gbnbench.reports.fonts import has_glyph
 from gbnbench.reports.source_groups import Group, groups, members
 from gbnbench.runs.comparison_result import Run, SourceResult
 
@@ -27,7 +27,7 @@ def shown(text: str, width: int = 26) -> str:
     Returns
     -------
     str
-        The text with ``$`` escaped, and a box for each sign that no installed font has.
+        The text with ``$`` escaped, and a box for each sign that no font has.
 
     Examples
     --------
@@ -41,38 +41,9 @@ def shown(text: str, width: int = 26) -> str:
         width = max(width * len(text) // wide, 3)
         tail = (width - 1) * 2 // 5
         text = f"{text[: width - 1 - tail]}…{text[len(text) - tail :]}"
-    text = "".join(c if _drawn(c) else "\N{WHITE SQUARE}" for c in text)
+    text = "".join(c if (c.isprintable() or c == NBSP) and has_glyph(c) else "\N{WHITE SQUARE}" for c in text)
     text = text.replace("$", r"\$")
     return f" {text}" if text.startswith("_") else text  # a legend drops labels that start with _
-
-
-def lacking_signs(labels: Iterable[str]) -> str:
-    """Name the letters of labels that no installed font has; empty where figures show them all.
-
-    Parameters
-    ----------
-    labels : iterable of str
-        Labels that figures show.
-
-    Returns
-    -------
-    str
-        A sentence, with the way out.
-
-    Examples
-    --------
-    >>> lacking_signs(["gbn", "sobol"])
-    ''
-    """
-    signs = dict.fromkeys(c for label in labels for c in label if c.isalpha() and not has_sign(c))
-    if not signs:
-        return ""
-    few = "".join(list(signs)[:12])
-    return f"no installed font has {few}: pictures show boxes instead; fonts such as Noto Sans CJK have them"
-
-
-def _drawn(character: str) -> bool:
-    return (character.isprintable() or character == NBSP) and has_sign(character)
 
 
 def name(source: SourceResult, run: Run, width: int = 26) -> str:
@@ -133,6 +104,4 @@ def settings(run: Run, group: Group | None = None) -> str:
         parts.append(str(label).strip())
     if run.manifest.get("version"):
         parts.append(f"gbnbench {run.manifest['version']}")
-    if lacking_signs(source.label for source in sources):
-        parts.append("\N{WHITE SQUARE}: a sign that no installed font has")
     return " · ".join(part.replace(" ", NBSP) for part in parts)

@@ -1,53 +1,56 @@
-"""Fonts of figures: DejaVu Sans, and beside it installed fonts for Chinese, Japanese and Korean labels."""
+"""Fonts for the signs that a label needs and the figures' own font lacks, such as Chinese or Korean ones."""
 
 from __future__ import annotations
 
 import contextlib
 import logging
 from collections.abc import Iterator
-from functools import lru_cache
+from functools import cache
 
-from matplotlib.font_manager import FontProperties, findfont, findSystemFonts, fontManager, get_font
+import matplotlib as mpl
+from matplotlib.font_manager import findfont, findSystemFonts, fontManager, get_font
 
-MAIN = "DejaVu Sans"  # comes with matplotlib
-SAMPLES = "中あ한"  # a sign of each script that a fallback is sought for
-# In the order of preference: free fonts, then those of Windows and macOS.
-FALLBACKS = (
-    "Noto Sans CJK SC", "Noto Sans CJK TC", "Noto Sans CJK JP", "Noto Sans CJK KR", "Noto Sans SC",
-    "Noto Sans TC", "Noto Sans JP", "Noto Sans KR", "Source Han Sans SC", "Source Han Sans CN",
-    "Source Han Sans TW", "Source Han Sans JP", "Source Han Sans", "Source Han Sans KR",
-    "WenQuanYi Zen Hei", "WenQuanYi Micro Hei", "IPAexGothic", "IPAGothic", "IPAPGothic", "TakaoGothic",
-    "VL Gothic", "NanumGothic", "UnDotum", "Baekmuk Gulim", "Droid Sans Fallback", "AR PL UMing CN",
-    "Microsoft YaHei", "SimHei", "SimSun", "Microsoft JhengHei", "Yu Gothic", "Meiryo", "MS Gothic",
-    "Malgun Gothic", "PingFang SC", "PingFang HK", "Heiti TC", "STHeiti", "Hiragino Sans GB",
-    "Hiragino Sans", "Apple SD Gothic Neo", "AppleGothic", "Arial Unicode MS",
-)  # fmt: skip
+OWN = "DejaVu Sans"
+LIKELY = ("cjk", "noto sans", "han", "gothic", "hei", "song", "ming", "unicode", "wqy", "droid", "nanum")
+
+_fallbacks: list[str] = []  # families beside our own that the labels of this process needed
+_without: dict[str, None] = {}  # signs that no font has
 
 
-@lru_cache(maxsize=1)
-def families() -> tuple[str, ...]:
-    """Return the families that figures are drawn with: a sign is taken from the first that has it.
+def families() -> list[str]:
+    """Return the families of fonts of all figures: our own, then those that labels needed so far."""
+    return [OWN, *_fallbacks]
 
-    Returns
-    -------
-    tuple of str
-        ``DejaVu Sans`` and, for each script of ``SAMPLES``, the first installed fallback that has it.
+
+def has_glyph(sign: str) -> bool:
+    """Whether a figure can show a sign; a font that has it is looked for, and kept for all figures.
+
+    Parameters
+    ----------
+    sign : str
+        One character.
     """
-    found = _fallbacks()
-    if None in found:  # matplotlib's own list of fonts is as old as its cache
-        known = {font.fname for font in fontManager.ttflist}
-        for path in findSystemFonts():
-            if path not in known:
-                with contextlib.suppress(RuntimeError, OSError, ValueError):  # not every file is a font
-                    fontManager.addfont(path)
-        found = _fallbacks()
-    return tuple(dict.fromkeys([MAIN, *(family for family in found if family is not None)]))
+    if _in_own(sign):
+        return True
+    family = _family_with(sign)
+    if family is None:
+        if sign.isprintable():
+            _without[sign] = None
+        return False
+    if family not in _fallbacks:
+        _fallbacks.append(family)
+    mpl.rcParams["font.family"] = families()  # of the figure that is being drawn
+    return True
 
 
-@lru_cache(maxsize=4096)
-def has_sign(sign: str) -> bool:
-    """Whether a font of ``families`` has a sign."""
-    return any(_has(family, sign) for family in families())
+def shortage() -> str:
+    """Say which signs no installed font has, and forget them; empty where there are none."""
+    signs = "".join(_without)
+    _without.clear()
+    if not signs:
+        return ""
+    few = signs if len(signs) <= 12 else f"{signs[:12]}…"
+    return f"no installed font has {few}: pictures show a box for each; install one, such as Noto Sans CJK"
 
 
 @contextlib.contextmanager
@@ -62,14 +65,39 @@ def without_font_warnings() -> Iterator[None]:
         logger.setLevel(before)
 
 
-def _fallbacks() -> list[str | None]:
-    """For each script the first installed fallback."""
-    installed = {font.name for font in fontManager.ttflist}
-    there = [family for family in FALLBACKS if family in installed]
-    return [next((family for family in there if _has(family, sign)), None) for sign in SAMPLES]
+@cache
+def _in_own(sign: str) -> bool:
+    return bool(get_font(findfont(OWN)).get_char_index(ord(sign)))
 
 
-def _has(family: str, sign: str) -> bool:
-    with without_font_warnings():
-        path = findfont(FontProperties(family=[family]), fallback_to_default=False)
-    return bool(get_font(path).get_char_index(ord(sign)))
+@cache
+def _family_with(sign: str) -> str | None:
+    """Name a family of installed fonts that has a sign, likely ones first."""
+    _find_new_fonts()
+    known = [entry for entry in fontManager.ttflist if entry.name in _fallbacks]
+    others = sorted(
+        (entry for entry in fontManager.ttflist if entry.name != OWN and "Last Resort" not in entry.name),
+        key=lambda entry: (
+            not any(word in entry.name.lower() for word in LIKELY),
+            entry.style != "normal",
+            abs(int(entry.weight) - 400) if isinstance(entry.weight, int) else 0,
+            entry.name,
+        ),
+    )
+    for entry in (*known, *others):
+        try:
+            if get_font(entry.fname).get_char_index(ord(sign)):
+                return entry.name
+        except (OSError, RuntimeError):  # a font that was taken away, or cannot be read
+            continue
+    return None
+
+
+@cache
+def _find_new_fonts() -> None:
+    """Add fonts that were installed after matplotlib made its list, which it keeps in a cache."""
+    listed = {entry.fname for entry in fontManager.ttflist}
+    for path in findSystemFonts():
+        if path not in listed:
+            with contextlib.suppress(RuntimeError, OSError, ValueError):  # not every file is a font
+                fontManager.addfont(path)

@@ -10,7 +10,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from gbnbench.core.text_table import display_width
+from gbnbench.core.readable_text import display_width
 from gbnbench.reports.captions import shown
 from gbnbench.reports.style import FAINT, RULE
 
@@ -138,7 +138,7 @@ def beside(ax: Axes, handles: Sequence[Artist], labels: Sequence[str]) -> None:
 
 def legend_room(labels: Sequence[str]) -> float:
     """Return the width in inches that a legend of these labels takes beside axes."""
-    return 0.75 + 0.078 * max((display_width(label) for label in labels), default=0)
+    return 0.75 + 0.078 * max(map(display_width, labels), default=0)
 
 
 def empty(ax: Axes, reason: str) -> None:

@@ -9,7 +9,7 @@ from typing import Any, ParamSpec, TypeVar
 
 import matplotlib as mpl
 
-from gbnbench.reports.fonts import families, without_font_warnings
+from gbnbench.reports import fonts
 from gbnbench.runs.comparison_result import Run
 
 # Okabe & Ito (2008), told apart with any colour vision; their yellow is darkened to be read on white.
@@ -19,6 +19,8 @@ DPI = 130  # of every PNG
 INK, FAINT, RULE = "#1d2430", "#667080", "#d5dae1"
 
 STYLE: dict[str, Any] = {
+    "font.family": "sans-serif",
+    "font.sans-serif": ["DejaVu Sans"],
     "font.size": 8,
     "axes.titlesize": 9,
     "axes.labelsize": 8,
@@ -64,10 +66,10 @@ def styled(draw: Callable[P, T]) -> Callable[P, T]:
 
     @wraps(draw)
     def inside(*args: P.args, **kwargs: P.kwargs) -> T:
-        with mpl.rc_context(), without_font_warnings():
+        with mpl.rc_context(), fonts.without_font_warnings():
             mpl.rcdefaults()
             mpl.rcParams.update(STYLE)  # type: ignore[arg-type]
-            mpl.rcParams["font.family"] = list(families())
+            mpl.rcParams["font.family"] = fonts.families()  # matplotlib falls back within these alone
             return draw(*args, **kwargs)
 
     return inside

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from gbnbench.analysis.spectrum.limits import LARGEST_COUNT, LARGEST_NU, MOST_KEPT, default_shell_fmax
 from gbnbench.analysis.spectrum.shells import EDGE
+from gbnbench.core import integer_frequencies
 from gbnbench.core.errors import InputError
 
 MOST_COORDINATES = 1 << 23  # of the frequencies of one half space: 64 MB as they are listed, by default
@@ -63,18 +64,12 @@ def half_ball(d: int, high: int, low: int = 1) -> tuple[NDArray[np.int64], NDArr
     frequencies : (m, d) int64
         Of each pair f and -f the one whose first coordinate that is not 0 is positive.
     """
-    digits = np.arange(-math.isqrt(high), math.isqrt(high) + 1)
-    listed, square = np.zeros((1, 0), np.int16), np.zeros(1, np.int64)
-    for _ in range(d):
-        total = square[:, None] + digits**2
-        keep = (total <= high) & ((square > 0)[:, None] | (digits >= 0))
-        row, digit = np.nonzero(keep)
-        listed = np.column_stack([listed[row], digits[digit].astype(np.int16)])
-        square = total[keep]
+    frequencies = integer_frequencies.half_ball(d, high)
+    square = (frequencies * frequencies).sum(axis=1)
     wanted = square >= low
-    listed, square = listed[wanted], square[wanted]
+    frequencies, square = frequencies[wanted], square[wanted]
     order = np.argsort(square, kind="stable")
-    return square[order], listed[order].astype(np.int64)
+    return square[order], frequencies[order]
 
 
 def affordable_square(n: int, d: int, realizations: int = 1) -> int:

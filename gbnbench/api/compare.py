@@ -120,5 +120,5 @@ def compare(
         done.reused,
         done.pieces,
         done.seconds,
-        done.failed,
+        done.undrawn,
     )

@@ -17,6 +17,7 @@ from gbnbench.runs.baseline import Change
 from gbnbench.runs.comparison_folder import read_run
 from gbnbench.runs.comparison_result import Run, SourceResult
 from gbnbench.runs.comparison_tables import long_table, wide_table
+from gbnbench.studies.drawing import make_each
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -46,8 +47,8 @@ class Comparison:
         Pieces of work found finished in the folder, and all of them.
     seconds : float
         Wall time of the call.
-    failed : str
-        Why tables, pictures or the report could not be written; empty where they were.
+    undrawn : str
+        Why pictures that were asked for could not be made; empty where they were.
 
     Examples
     --------
@@ -66,7 +67,7 @@ class Comparison:
     reused: int = 0
     pieces: int = 0
     seconds: float = 0.0
-    failed: str = ""
+    undrawn: str = ""
 
     @classmethod
     def read(cls, folder: str | Path) -> Comparison:
@@ -200,13 +201,15 @@ def draw(run: Run, folder: Path) -> None:
 
     Raises
     ------
-    Exception
-        What a picture or the report raised, when all others are written.
+    UndrawnError
+        If any of them cannot be made; all others are.
     """
-    try:
-        write_figures(run, folder / FIGURES)
-    finally:  # a picture that fails takes no other with it
-        write_report(run, folder / REPORT)
+    make_each(
+        [
+            (FIGURES, lambda: write_figures(run, folder / FIGURES)),
+            (REPORT, lambda: write_report(run, folder / REPORT)),
+        ]
+    )
 
 
 def _html_table(run: Run) -> str:

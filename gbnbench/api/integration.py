@@ -48,8 +48,8 @@ class Integration:
         Pieces of work found finished in the folder, and all of them.
     seconds : float
         Wall time of the call.
-    failed : str
-        Why tables or the picture could not be written; empty where they were.
+    undrawn : str
+        Why pictures that were asked for could not be made; empty where they were.
 
     Examples
     --------
@@ -68,7 +68,7 @@ class Integration:
     reused: int = 0
     pieces: int = 0
     seconds: float = 0.0
-    failed: str = ""
+    undrawn: str = ""
 
     @classmethod
     def read(cls, folder: str | Path) -> Integration:
@@ -217,7 +217,7 @@ def integrate(
                 progress=shown,
                 draw=draw if pictures else None,
             )
-    return Integration(done.study, done.folder, done.reused, done.pieces, done.seconds, done.failed)
+    return Integration(done.study, done.folder, done.reused, done.pieces, done.seconds, done.undrawn)
 
 
 def draw(study: IntegrationStudy, folder: Path) -> None:

@@ -105,6 +105,7 @@ def run(arguments: Sequence[str]) -> int:
     try:
         with gbnbench.make_context("gbnbench", list(arguments)) as context:
             gbnbench.invoke(context)
+            _tell_of_fonts()
         sys.stdout.flush()
     except click.exceptions.Exit as done:
         return done.exit_code
@@ -128,6 +129,13 @@ def run(arguments: Sequence[str]) -> int:
     except OSError as error:
         return _fail(f"{error.filename}: {error.strerror}" if error.filename else str(error), BAD)
     return 0
+
+
+def _tell_of_fonts() -> None:
+    """Say once which signs the pictures could not show, if any were drawn."""
+    fonts = sys.modules.get("gbnbench.reports.fonts")
+    if fonts is not None and (shortage := fonts.shortage()):
+        click.echo(f"gbnbench: warning: {shortage}", err=True)
 
 
 def _fail(text: str, code: int) -> int:

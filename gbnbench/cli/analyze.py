@@ -13,6 +13,7 @@ import click
 from gbnbench.cli import options
 from gbnbench.cli.point_files import naming, read_torus
 from gbnbench.core.errors import GbnbenchError, RefusalError
+from gbnbench.core.readable_text import display_width, in_one_line, left, right
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -176,7 +177,6 @@ def _table(rows: list[tuple[Path, int, int, int, Measures]], boxes: list[Sides |
     from gbnbench.analysis.measure_definitions import BY_NAME
     from gbnbench.core.footnotes import footnotes
     from gbnbench.core.sides import sides_text
-    from gbnbench.core.text_table import display_width, padded
 
     told = any(sides is not None for sides in boxes)
     box = ["sides"] if told else []
@@ -185,11 +185,11 @@ def _table(rows: list[tuple[Path, int, int, int, Measures]], boxes: list[Sides |
     for (path, index, n, d, found), sides in zip(rows, boxes, strict=True):
         numbers = ["-" if math.isnan(v) else f"{v:.4g}" for v in found.values()]
         box = ["-" if sides is None else sides_text(sides)] if told else []
-        cells.append([str(path), str(index), str(n), str(d), *box, *numbers])
+        cells.append([in_one_line(path), str(index), str(n), str(d), *box, *numbers])
     widths = [max(display_width(row[i]) for row in cells) for i in range(len(heads))]
     for row in cells:
-        rest = [padded(cell, width, right=True) for cell, width in zip(row[1:], widths[1:], strict=True)]
-        click.echo("  ".join([padded(row[0], widths[0]), *rest]))
+        numbers = [right(cell, width) for cell, width in zip(row[1:], widths[1:], strict=True)]
+        click.echo("  ".join([left(row[0], widths[0]), *numbers]))
     missing = [(BY_NAME[name].title, text) for *_, found in rows for name, text in found.reasons.items()]
     for line in footnotes(missing, shutil.get_terminal_size((100, 24)).columns):
         click.echo(line)

@@ -12,8 +12,8 @@ import click
 
 from gbnbench.cli import options
 from gbnbench.cli.json_text import json_text, records
-from gbnbench.cli.last_step import last_step_failed
 from gbnbench.cli.standard_streams import wants_colour
+from gbnbench.cli.undrawn import undrawn
 
 if TYPE_CHECKING:
     from gbnbench.api.comparison import Comparison
@@ -101,7 +101,6 @@ def _records(comparison: Comparison) -> list[dict[str, Any]]:
 
 def _show(comparison: Comparison, as_json: bool) -> None:
     """Print the table, warnings, the verdicts against the baseline, and where everything is."""
-    from gbnbench.reports.captions import lacking_signs
     from gbnbench.reports.comparison.terminal import terminal_text
 
     for line in comparison.skipped:
@@ -124,8 +123,6 @@ def _show(comparison: Comparison, as_json: bool) -> None:
     if comparison.run.manifest["baseline"] and not comparison.changes:
         click.echo("baseline: nothing better or worse beyond 3 standard errors", err=as_json)
     kept = f", {comparison.reused} of {comparison.pieces} pieces reused" if comparison.reused else ""
-    if lacking := lacking_signs(source.label for source in comparison.sources):
-        click.echo(f"gbnbench: {lacking}", err=True)
-    if comparison.failed:
-        raise last_step_failed(comparison.folder, comparison.failed)
+    if comparison.undrawn:
+        undrawn(comparison.folder, comparison.undrawn)
     click.echo(f"report: {comparison.report()} ({comparison.seconds:.1f} s{kept})", err=as_json)

@@ -12,7 +12,7 @@ import click
 
 from gbnbench.cli import options
 from gbnbench.cli.json_text import json_text
-from gbnbench.cli.last_step import last_step_failed
+from gbnbench.cli.undrawn import undrawn
 
 if TYPE_CHECKING:
     from gbnbench.analysis.integration.integrands.protocol import Family
@@ -107,7 +107,6 @@ def integrate(
     """
     from gbnbench.api.integration import integrate as make
     from gbnbench.cli.integrate_text import as_lines, as_record
-    from gbnbench.reports.captions import lacking_signs
     from gbnbench.runs.source_names import double_meanings
     from gbnbench.studies.integration.study import DEFAULT_INTEGRANDS, DEFAULT_SOURCES
 
@@ -136,10 +135,8 @@ def integrate(
     else:
         for line in as_lines(made.study):
             click.echo(line)
-    if lacking := lacking_signs(made.table["source"]):
-        click.echo(f"gbnbench: {lacking}", err=True)
-    if made.failed:
-        raise last_step_failed(made.folder, made.failed)
+    if made.undrawn:
+        undrawn(made.folder, made.undrawn)
     made.picture()
     kept = f", {made.reused} of {made.pieces} pieces reused" if made.reused else ""
     click.echo(f"{'' if as_json else chr(10)}folder: {made.folder} ({made.seconds:.1f} s{kept})", err=as_json)

@@ -122,12 +122,9 @@ def write(path: Path, result: Spectrum | ShellSpectrum, label: str, sources: Seq
     if suffix in DATA:
         data = encode(suffix, result, sources)
     else:
-        from gbnbench.reports.captions import lacking_signs
         from gbnbench.reports.comparison import figure_files
         from gbnbench.reports.comparison.single_spectrum import figure
 
-        if lacking := lacking_signs([label]):
-            click.echo(f"gbnbench: {lacking}", err=True)
         drawn = figure(result, label)
         data = figure_files.png(drawn) if suffix == ".png" else figure_files.pdf(drawn)
     replaced = ", replacing what was there" if path.exists() else ""

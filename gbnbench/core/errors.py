@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from gbnbench.core.readable_text import in_one_line
+
 
 class GbnbenchError(Exception):
     """Base of every error that gbnbench raises on purpose; its text is meant for the user.
@@ -31,17 +33,6 @@ class ShortSpectrumError(RefusalError):
     """A measure needs frequencies beyond the end of the spectrum."""
 
 
-def in_one_line(text: str) -> str:
-    r"""Escape what is no printable sign: names within a file may hold line ends and a terminal's commands.
-
-    Examples
-    --------
-    >>> in_one_line("an array '\x1b[2J\n'")
-    "an array '\\x1b[2J\\n'"
-    """
-    return "".join(sign if sign.isprintable() else ascii(sign)[1:-1] for sign in text)
-
-
 class FormatError(InputError):
     """A file cannot be read as a point set.
 
@@ -56,7 +47,8 @@ class FormatError(InputError):
     def __init__(self, path: str | Path, message: str, line: int | None = None) -> None:
         self.path = Path(path)
         self.line = line
-        where = f"{self.path}, line {line}" if line is not None else f"{self.path}"
+        name = in_one_line(self.path)
+        where = f"{name}, line {line}" if line is not None else name
         super().__init__(f"{where}: {in_one_line(message)}")
 
 

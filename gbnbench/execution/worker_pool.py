@@ -154,7 +154,8 @@ class Pool:
     def _start(self, complaints: IO[bytes]) -> subprocess.Popen[bytes] | None:
         """Start a child that imports from where this process imports, unless the pool is closing."""
         complaints.seek(0)
-        complaints.truncate()
+        with contextlib.suppress(OSError):  # the null device has no length
+            complaints.truncate()
         program = f"import sys; sys.path[:] = {sys.path!r}; from {__name__} import serve; serve()"
         with self._lock:
             if self._closing:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import json
-import re
 import zipfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -13,6 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from gbnbench.core.errors import FormatError
+from gbnbench.core.readable_text import without_bytes
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -57,9 +57,11 @@ def read_json(path: Path) -> dict[str, Any]:
 
 
 def to_json(content: object) -> bytes:
-    """Indented UTF-8 JSON with a final newline; odd bytes of a file's name are escaped as JSON has it."""
-    text = json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
-    return text.encode(errors="backslashreplace")
+    """Indented UTF-8 JSON with a final newline; a file name's bytes that are no UTF-8 become escapes."""
+    try:
+        return (json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False) + "\n").encode()
+    except UnicodeEncodeError:
+        return (json.dumps(content, indent=2, allow_nan=False) + "\n").encode()
 
 
 def to_npz(**arrays: NDArray[Any]) -> bytes:
@@ -76,9 +78,9 @@ def read_npz(path: Path) -> dict[str, NDArray[Any]]:
 
 
 def to_csv(table: pd.DataFrame) -> bytes:
-    """UTF-8 CSV whose floats are the shortest that read back the same; odd bytes of names are escaped."""
+    """UTF-8 CSV whose floats are the shortest that read back the same."""
     text: str = table.to_csv(index=False, lineterminator="\n", na_rep="nan")
-    return text.encode(errors="backslashreplace")
+    return without_bytes(text).encode()
 
 
 def read_csv(path: Path, text: Sequence[str] = ()) -> pd.DataFrame:
@@ -104,16 +106,8 @@ def read_csv(path: Path, text: Sequence[str] = ()) -> pd.DataFrame:
 
     texts = pd.read_csv(path, dtype=str, keep_default_na=False)
     return pd.DataFrame(
-        {
-            name: column.map(_unescaped) if name in text else _numbers(column.tolist())
-            for name, column in texts.items()
-        }
+        {name: column if name in text else _numbers(column.tolist()) for name, column in texts.items()}
     )
-
-
-def _unescaped(text: str) -> str:
-    """Return text with the odd bytes of a file's name that ``to_csv`` escaped."""
-    return re.sub(r"\\u(dc[89a-f][0-9a-f])", lambda found: chr(int(found[1], 16)), text)
 
 
 def _numbers(texts: list[str]) -> NDArray[Any]:

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.readable_text import without_bytes
 from gbnbench.core.settings import specification
 from gbnbench.core.sides import as_sides
 from gbnbench.core.torus import FloatArray, as_realizations
@@ -213,9 +214,10 @@ def _distinct(sources: list[Source]) -> tuple[Source, ...]:
     keys: set[str] = set()
     result = []
     for source in sources:
-        seen[source.label, source.n, source.d] += 1
-        times = seen[source.label, source.n, source.d]
-        text = source.label if times == 1 else f"{source.label} ({times})"
+        label = without_bytes(source.label)
+        seen[label, source.n, source.d] += 1
+        times = seen[label, source.n, source.d]
+        text = label if times == 1 else f"{label} ({times})"
         slug = re.sub(r"[^a-z0-9.]+", "-", text.lower()).strip("-.")[:60] or "set"
         stem = key = f"{slug}_n{source.n}_d{source.d}"
         twin = 1

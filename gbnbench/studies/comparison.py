@@ -23,7 +23,7 @@ from gbnbench.runs.resumable import run_tasks
 from gbnbench.runs.resumable_folder import explain_interruption
 from gbnbench.runs.sources import Source
 from gbnbench.studies.comparison_tasks import comparison_tasks
-from gbnbench.studies.last_steps import failure_of
+from gbnbench.studies.drawing import failure_of
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class ComparisonOutcome:
         Pieces (sets made and sources measured) found finished in the folder, of how many.
     seconds : float
         Wall time of this call.
-    failed : str
+    undrawn : str
         Why tables, pictures or the report could not be written; empty where they were.
     """
 
@@ -55,7 +55,7 @@ class ComparisonOutcome:
     reused: int
     pieces: int
     seconds: float
-    failed: str = ""
+    undrawn: str = ""
 
     @property
     def worse(self) -> bool:
@@ -175,9 +175,9 @@ def run_comparison(
                 draw(run, store.path)
             store.finish(manifest)
 
-        failed = failure_of(last_steps)
+        undrawn = failure_of(last_steps)
     seconds = time.monotonic() - began
-    return ComparisonOutcome(run, store.path, changes, notes, work.reused, len(tasks), seconds, failed)
+    return ComparisonOutcome(run, store.path, changes, notes, work.reused, len(tasks), seconds, undrawn)
 
 
 def _require_common(sources: Sequence[Source], earlier: Run, baseline: Path | None) -> None:

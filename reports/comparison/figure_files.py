@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -25,6 +26,7 @@ from gbnbench.reports.comparison import (
 )
 from gbnbench.reports.source_groups import Group, groups, members
 from gbnbench.runs.comparison_result import Run, SourceResult
+from gbnbench.studies.drawing import make_each
 
 
 class Kind(NamedTuple):
@@ -114,23 +116,19 @@ def write_figures(run: Run, folder: str | Path) -> list[Path]:
 
     Raises
     ------
-    Exception
-        What the first figure raised that failed, with its name in a note, when all others are written.
+    UndrawnError
+        If a figure cannot be made or written; every other one is.
     """
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     written: list[Path] = []
-    failures: list[Exception] = []
-    for stem, draw, group in planned(run):
-        try:
-            figure = draw(run, group)
-            for ending, content in (("png", png(figure)), ("pdf", pdf(figure))):
-                path = folder / f"{stem}.{ending}"
-                write_whole(path, content)
-                written.append(path)
-        except Exception as error:
-            error.add_note(f"figure {stem}")
-            failures.append(error)
-    if failures:
-        raise failures[0]
+
+    def make(stem: str, draw: Callable[[Run, Group | None], Figure], group: Group | None) -> None:
+        figure = draw(run, group)
+        for ending, content in (("png", png(figure)), ("pdf", pdf(figure))):
+            path = folder / f"{stem}.{ending}"
+            write_whole(path, content)
+            written.append(path)
+
+    make_each((f"figure {one[0]}", partial(make, *one)) for one in planned(run))
     return written

@@ -11,7 +11,7 @@ from rich.table import Table
 from rich.text import Text
 
 from gbnbench.core.footnotes import footnotes
-from gbnbench.core.text_table import display_width
+from gbnbench.core.readable_text import display_width
 from gbnbench.reports.comparison.table import COLUMNS, MARKS, Cell, SourceRow, column_named, row_label, rows
 from gbnbench.reports.source_groups import Group, groups
 from gbnbench.runs.comparison_result import Run
@@ -21,6 +21,9 @@ HEADLINE = (
     "noise_floor", "power_at_1", "peak", "cpu_seconds", "psi6", "min_distance", "evacuated_energy",
     "anisotropy_db", "effective_nyquist", "valence6", "oscillations", "mean_distance",
 )  # fmt: skip
+
+
+NARROWEST = 30  # characters in a line, below which a table is no table
 
 
 def terminal_table(run: Run, width: int | None = None) -> Table:
@@ -40,7 +43,7 @@ def terminal_table(run: Run, width: int | None = None) -> Table:
         and otherwise the main ones alone; the caption says what is left out. ``*`` marks the best of a
         column.
     """
-    width = width or shutil.get_terminal_size((100, 24)).columns
+    width = max(width or shutil.get_terminal_size((100, 24)).columns, NARROWEST)
     table_rows = rows(run)
     names = [row_label(row.source, run) for row in table_rows]
     longest = max([6, *map(display_width, names)])
@@ -97,7 +100,7 @@ def terminal_text(run: Run, width: int | None = None, *, colour: bool = False) -
     str
         Lines without trailing blanks; below the table the reasons of missing values.
     """
-    width = width or shutil.get_terminal_size((100, 24)).columns
+    width = max(width or shutil.get_terminal_size((100, 24)).columns, NARROWEST)
     console = Console(
         file=io.StringIO(), width=width, force_terminal=colour, color_system="standard" if colour else None
     )

@@ -68,7 +68,7 @@ def page(run: Run) -> str:
         manifest=json.dumps(run.manifest, indent=2, ensure_ascii=False, default=str),
         colour_bar=colour_bar(),
     )
-    return text.encode("utf-16", "surrogatepass").decode("utf-16", "replace")  # odd bytes of file names
+    return text.encode("utf-8", "replace").decode("utf-8")  # odd file names hold lone surrogates
 
 
 def _environment() -> Environment:

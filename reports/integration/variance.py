@@ -13,7 +13,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogFormatterSciNotation, LogLocator, NullLocator
 
 from gbnbench.analysis.integration.variance import MOST_SCATTER
-from gbnbench.core.text_table import display_width
+from gbnbench.core.readable_text import display_width
 from gbnbench.reports import captions, layout, style
 from gbnbench.studies.integration.study_folder import IntegrationStudy
 

@@ -1,92 +1,62 @@
-"""Names of files that are no UTF-8, and wide ones: in tables, JSON, CSV, pictures, reports and folders."""
+"""Files whose names are no UTF-8, or hold line ends, blanks and the signs of HTML and the shell."""
 
 from __future__ import annotations
 
 import json
 import os
-import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 import pytest
 
-import gbnbench
-from gbnbench.core.text_table import display_width
-from gbnbench.io.data_files import read_csv, read_json, to_csv, to_json
-from gbnbench.reports.html.page import page
-from gbnbench.runs.comparison_result import Run
-from tests.reports import samples
+from tests.processes import command
 
-ODD = os.fsdecode(b"caf\xe9")
+pytestmark = [
+    pytest.mark.skipif(sys.platform != "linux", reason="other systems refuse such names"),
+    pytest.mark.slow,
+]
+NAMES = [b"caf\xe9.txt", b"two\nlines.txt", b"<b>$x_1$ & 'q'.txt", "点集.txt".encode()]
+LABELS = ["caf\\xe9", "two\nlines", "<b>$x_1$ & 'q'", "点集"]
 
 
 @pytest.fixture
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.chdir(tmp_path)
-    try:
-        np.savetxt(f"{ODD}.txt", np.random.default_rng(1).random((16, 2)))
-    except OSError:
-        pytest.skip("this file system takes UTF-8 alone")
-    return tmp_path
+def files(tmp_path: Path) -> list[str]:
+    for k, name in enumerate(NAMES):
+        np.savetxt(tmp_path / os.fsdecode(name), np.random.default_rng(k).random((32, 2)))
+    return [os.fsdecode(name) for name in NAMES]
 
 
-def command(*words: object, **environment: str) -> subprocess.CompletedProcess[bytes]:
-    done = subprocess.run(
-        [sys.executable, "-m", "gbnbench", *map(str, words)], capture_output=True, check=False, timeout=300,
-        env={**os.environ, **environment},
-    )  # fmt: skip
-    assert b"Traceback" not in done.stderr
-    return done
+def test_a_comparison_keeps_such_names_in_every_file(files: list[str], tmp_path: Path) -> None:
+    folder = os.fsdecode(b"run\xe9")
+    for reused in (False, True):
+        done = command("compare", *files, "--quiet", "-o", folder, cwd=tmp_path, errors="surrogateescape")
+        assert done.returncode == 0, done.stderr
+        assert ("4 of 4 pieces reused" in done.stdout) == reused
+    run = tmp_path / folder
+    settings = json.loads((run / "settings.json").read_text("utf-8"))
+    assert [source["label"] for source in settings["sources"]] == LABELS
+    assert "caf\\xe9," in (run / "table.csv").read_text("utf-8")
+    page = (run / "report.html").read_text("utf-8")
+    assert "caf\\xe9" in page
+    assert "<b>$x" not in page
+    again = command("compare", files[0], "--quiet", "-o", "next", "--baseline", folder, cwd=tmp_path)
+    assert again.returncode == 0, again.stderr
+    assert command("report", folder, cwd=tmp_path, errors="surrogateescape").returncode == 0
 
 
-def test_odd_names_in_text_and_json(here: Path) -> None:
-    done = command("analyze", f"{ODD}.txt")
-    assert done.returncode == 0
-    assert done.stdout.splitlines()[1].startswith(b"caf\xe9.txt ")
-    done = command("analyze", f"{ODD}.txt", "--json", PYTHONIOENCODING="ascii", LC_ALL="C")
-    (row,) = json.loads(done.stdout.decode("ascii"))
-    assert row["path"] == f"{ODD}.txt"
-
-
-def test_odd_names_are_read_back_from_json_and_csv(tmp_path: Path) -> None:
-    (tmp_path / "a.json").write_bytes(to_json({"label": ODD, "wide": "蓝"}))
-    assert read_json(tmp_path / "a.json") == {"label": ODD, "wide": "蓝"}
-    assert "蓝" in (tmp_path / "a.json").read_text(encoding="utf-8")
-    table = pd.DataFrame({"source": [ODD, "蓝", r"C:\users\dc80"], "n": [1, 2, 3]})
-    (tmp_path / "a.csv").write_bytes(to_csv(table))
-    (tmp_path / "a.csv").read_text(encoding="utf-8")
-    assert read_csv(tmp_path / "a.csv", text=("source",)).source.tolist() == table.source.tolist()
-
-
-def test_odd_names_in_the_report() -> None:
-    source = samples.source(ODD, samples.random(9, 2, 2), 3)
-    assert "caf\N{REPLACEMENT CHARACTER}" in page(Run({}, (source,)))
-
-
-@pytest.mark.slow
-def test_odd_names_in_a_whole_run(here: Path) -> None:
-    Path(f"{ODD} dir").mkdir()
-    np.savetxt(Path(f"{ODD} dir", "\udcff.txt"), np.random.default_rng(2).random((16, 2)))
-    words = ("compare", f"{ODD}.txt", f"{ODD} dir", "-o", f"run {ODD}", "--quiet")
-    assert command(*words).returncode == 0
-    made = gbnbench.Comparison.read(f"run {ODD}")
-    assert [source.label for source in made.sources] == [ODD, f"{ODD} dir"]
-    again = command(*words, PYTHONIOENCODING="ascii", LC_ALL="C")
-    assert b"2 of 2 pieces reused" in again.stdout
-    done = command("compare", f"{ODD}.txt", "-o", "b", "--quiet", "--baseline", f"run {ODD}")
-    assert done.returncode == 0
-    done = command("spectrum", f"{ODD}.txt", "-o", f"{ODD}.png")
-    assert done.returncode == 0
-    assert Path(f"{ODD}.png").stat().st_size > 1000
-    done = command("integrate", f"{ODD}.txt", "--instances", 2, "-o", f"i {ODD}", "--quiet")
-    assert done.returncode == 0
-    assert gbnbench.Integration.read(f"i {ODD}").table.source.tolist() == [ODD] * 2
-
-
-def test_wide_names_keep_the_columns(here: Path) -> None:
-    np.savetxt("蓝噪声采样.txt", np.random.default_rng(1).random((16, 2)))
-    done = command("analyze", "蓝噪声采样.txt", f"{ODD}.txt", PYTHONIOENCODING="utf-8")
-    head, first, *_ = done.stdout.decode("utf-8", "replace").splitlines()
-    assert display_width(first[: first.index(" 16  2 ") + 3]) == len(head[: head.index(" n ") + 2])
+def test_every_other_command_reads_and_writes_such_names(files: list[str], tmp_path: Path) -> None:
+    rows = json.loads(command("analyze", *files, "--json", cwd=tmp_path).stdout)
+    assert [row["path"] for row in rows] == files  # as the system knows them, so that they can be opened
+    table = command("analyze", *files, cwd=tmp_path).stdout
+    assert all(name in table for name in ("caf\\xe9.txt", "two\\nlines.txt", "点集.txt"))
+    for ending in ("csv", "npz", "png"):
+        out = os.fsdecode(b"o\xff.") + ending
+        done = command("spectrum", files[0], "-o", out, cwd=tmp_path, errors="surrogateescape")
+        assert done.returncode == 0, done.stderr
+        assert (tmp_path / out).exists()
+    done = command("integrate", files[0], "--quiet", "--instances", "2", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    lost = command("analyze", os.fsdecode(b"no\xe9"), cwd=tmp_path)
+    assert lost.returncode == 2
+    assert lost.stderr.startswith(r"gbnbench: error: no\xe9: ")

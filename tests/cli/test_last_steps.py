@@ -83,8 +83,8 @@ def test_a_picture_that_fails_takes_nothing_with_it(
     said = capsys.readouterr()
     assert re.search(r"^jittered", said.out, re.MULTILINE)
     assert said.err.splitlines()[-1] == (
-        "gbnbench: error: the last step failed: figure radial: an odd curve. All results are in run; "
-        "the same command tries it again"
+        "gbnbench: error: what comes last could not be made: figure radial: an odd curve. "
+        "All results are in run, and the same command tries the pictures again"
     )
     assert {path.stem for path in (here / "run" / "figures").iterdir()} == {"points"}
     assert (here / "run" / "report.html").exists()
@@ -110,7 +110,8 @@ def test_a_report_that_cannot_be_written(here: Path) -> None:
     assert done.returncode == 2
     assert re.search(r"^jittered", done.stdout, re.MULTILINE)
     assert re.fullmatch(
-        r"gbnbench: error: the last step failed: run/report.html: \w.*\. All results are in run; .*",
+        r"gbnbench: error: what comes last could not be made: report.html: "
+        r".*'run/report.html'\. All results are in run.*",
         done.stderr.strip(),
     )
     assert not list(here.rglob("*.tmp"))

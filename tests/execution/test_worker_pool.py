@@ -7,8 +7,11 @@ import sys
 import time
 from pathlib import Path
 
+import pytest
+
 from gbnbench.core.errors import InputError
-from gbnbench.execution.worker_pool import ONE_THREAD, Pool
+from gbnbench.execution import worker_pool
+from gbnbench.execution.worker_pool import ONE_THREAD, Finished, Pool
 
 
 def work(number: int) -> tuple[int, int, str | None]:
@@ -68,3 +71,20 @@ def alive(pid: int) -> bool:
     except (FileNotFoundError, ProcessLookupError):
         return False
     return state != "Z"
+
+
+def test_a_pool_without_any_temporary_file_still_answers(monkeypatch: pytest.MonkeyPatch) -> None:
+    def full() -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(worker_pool.tempfile, "TemporaryFile", full)
+    with Pool(1) as pool:
+        pool.submit("one", abs, -1)
+        assert pool.next() == Finished("one", 1)
+
+
+def test_a_child_that_cannot_be_started_fails_its_task_in_words(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(worker_pool.sys, "executable", "/nonexistent/python")
+    with Pool(1) as pool:
+        pool.submit("one", abs, -1)
+        assert pool.next().failure.startswith("no process can be started for it: [Errno 2]")

@@ -24,11 +24,11 @@ from gbnbench.runs.provenance import versions
 from gbnbench.runs.resumable import run_tasks
 from gbnbench.runs.resumable_folder import explain_interruption
 from gbnbench.runs.sources import Source, resolve
+from gbnbench.studies.drawing import failure_of
 from gbnbench.studies.integration.blocks import tasks_of
 from gbnbench.studies.integration.requirements import refuse, require
 from gbnbench.studies.integration.study_folder import IntegrationStudy, StudyFolder, read_integration
 from gbnbench.studies.integration.tables import gather, tables
-from gbnbench.studies.last_steps import failure_of
 
 DEFAULT_SOURCES = ("random", "jittered", "sobol", "gbn")
 DEFAULT_INTEGRANDS = ("gaussians", "half-space")
@@ -49,7 +49,7 @@ class IntegrationOutcome:
         Pieces found finished in the folder, of how many.
     seconds : float
         Wall time of this call.
-    failed : str
+    undrawn : str
         Why tables or the picture could not be written; empty where they were.
     """
 
@@ -58,7 +58,7 @@ class IntegrationOutcome:
     reused: int
     pieces: int
     seconds: float
-    failed: str = ""
+    undrawn: str = ""
 
 
 def run_integration_study(
@@ -185,9 +185,9 @@ def run_integration_study(
                 draw(study, store.path)
             store.finish(manifest)
 
-        failed = failure_of(last_steps)
+        undrawn = failure_of(last_steps)
     seconds = time.monotonic() - began
-    return IntegrationOutcome(study, store.path, work.reused, len(tasks), seconds, failed)
+    return IntegrationOutcome(study, store.path, work.reused, len(tasks), seconds, undrawn)
 
 
 def _device() -> dict[str, Any] | str:
