@@ -54,8 +54,8 @@ def write_whole(path: Path, data: bytes, *, make_folder: bool = True) -> None:
     except BaseException as error:
         with contextlib.suppress(OSError):
             temporary.unlink(missing_ok=True)
-        if isinstance(error, OSError):
-            error.filename, error.filename2 = os.fspath(path), None  # the name that the user knows
+        if isinstance(error, OSError) and error.errno is not None:  # the name that the user knows
+            raise OSError(error.errno, error.strerror, os.fspath(path)) from error
         raise
     _sync_folder(path.parent)
 
