@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from gbnbench.core.readable_text import display_width
 from gbnbench.core.sides import sides_text
 from gbnbench.reports.fonts import has_glyph
 from gbnbench.reports.source_groups import Group, groups, members
@@ -20,7 +21,8 @@ def shown(text: str, width: int = 26) -> str:
     text : str
         Text from the user, such as a label.
     width : int
-        Most characters; a longer text loses some of its middle.
+        Most characters, of which Chinese, Japanese and Korean ones count as two; a longer text loses some of
+        its middle.
 
     Returns
     -------
@@ -34,7 +36,9 @@ def shown(text: str, width: int = 26) -> str:
     >>> shown("a" * 40, 9)
     'aaaaa…aaa'
     """
-    if len(text) > width:
+    wide = display_width(text)
+    if wide > width:
+        width = max(width * len(text) // wide, 3)
         tail = (width - 1) * 2 // 5
         text = f"{text[: width - 1 - tail]}…{text[len(text) - tail :]}"
     text = "".join(c if (c.isprintable() or c == NBSP) and has_glyph(c) else "\N{WHITE SQUARE}" for c in text)

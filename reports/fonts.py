@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
+import logging
+from collections.abc import Iterator
 from functools import cache
 
 import matplotlib as mpl
-from matplotlib.font_manager import findfont, fontManager, get_font
+from matplotlib.font_manager import findfont, findSystemFonts, fontManager, get_font
 
 OWN = "DejaVu Sans"
 LIKELY = ("cjk", "noto sans", "han", "gothic", "hei", "song", "ming", "unicode", "wqy", "droid", "nanum")
@@ -50,6 +53,18 @@ def shortage() -> str:
     return f"no installed font has {few}: pictures show a box for each; install one, such as Noto Sans CJK"
 
 
+@contextlib.contextmanager
+def without_font_warnings() -> Iterator[None]:
+    """Keep matplotlib from saying that a font without a bold face is drawn in its regular one."""
+    logger = logging.getLogger("matplotlib.font_manager")
+    before = logger.level
+    logger.setLevel(logging.ERROR)
+    try:
+        yield
+    finally:
+        logger.setLevel(before)
+
+
 @cache
 def _in_own(sign: str) -> bool:
     return bool(get_font(findfont(OWN)).get_char_index(ord(sign)))
@@ -58,6 +73,7 @@ def _in_own(sign: str) -> bool:
 @cache
 def _family_with(sign: str) -> str | None:
     """Name a family of installed fonts that has a sign, likely ones first."""
+    _find_new_fonts()
     known = [entry for entry in fontManager.ttflist if entry.name in _fallbacks]
     others = sorted(
         (entry for entry in fontManager.ttflist if entry.name != OWN and "Last Resort" not in entry.name),
@@ -75,3 +91,13 @@ def _family_with(sign: str) -> str | None:
         except (OSError, RuntimeError):  # a font that was taken away, or cannot be read
             continue
     return None
+
+
+@cache
+def _find_new_fonts() -> None:
+    """Add fonts that were installed after matplotlib made its list, which it keeps in a cache."""
+    listed = {entry.fname for entry in fontManager.ttflist}
+    for path in findSystemFonts():
+        if path not in listed:
+            with contextlib.suppress(RuntimeError, OSError, ValueError):  # not every file is a font
+                fontManager.addfont(path)

@@ -66,7 +66,7 @@ def styled(draw: Callable[P, T]) -> Callable[P, T]:
 
     @wraps(draw)
     def inside(*args: P.args, **kwargs: P.kwargs) -> T:
-        with mpl.rc_context():
+        with mpl.rc_context(), fonts.without_font_warnings():
             mpl.rcdefaults()
             mpl.rcParams.update(STYLE)  # type: ignore[arg-type]
             mpl.rcParams["font.family"] = fonts.families()  # matplotlib falls back within these alone

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
+import math
 import shlex
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from gbnbench.cli import options
-from gbnbench.cli.json_text import json_text
-from gbnbench.cli.missing_numbers import MEASURES, with_reasons
+from gbnbench.cli.json_text import json_text, records
 from gbnbench.cli.standard_streams import wants_colour
 from gbnbench.cli.undrawn import undrawn
 
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from gbnbench.api.comparison import Comparison
     from gbnbench.io.points import ReadingOptions
 
+NO_ERROR = "a standard error needs the measure of two sets or more"
 EPILOG = """\b
 Examples:
   gbnbench compare                                  six classics, a minute or so
@@ -64,10 +65,10 @@ def compare(
     in it. Stopped in any way, the same command goes on where it was.
     """
     from gbnbench.api.compare import compare as make
-    from gbnbench.runs.source_names import hidden_paths
+    from gbnbench.runs.source_names import double_meanings
     from gbnbench.runs.sources import DEFAULT_SOURCES
 
-    for line in hidden_paths(sources):
+    for line in double_meanings(sources):
         click.echo(f"gbnbench: {line}", err=True)
     comparison = make(
         list(sources or DEFAULT_SOURCES),
@@ -88,6 +89,16 @@ def compare(
         click.get_current_context().exit(1)
 
 
+def _records(comparison: Comparison) -> list[dict[str, Any]]:
+    """Rows of the table of measures, each with ``reasons`` why numbers in it are null."""
+    found = []
+    for row in records(comparison.measures):
+        reasons = {"value": row["reason"], "standard_error": row["reason"] or NO_ERROR}
+        missing = {name: reason for name, reason in reasons.items() if math.isnan(row[name])}
+        found.append({**row, "reasons": missing})
+    return found
+
+
 def _show(comparison: Comparison, as_json: bool) -> None:
     """Print the table, warnings, the verdicts against the baseline, and where everything is."""
     from gbnbench.reports.comparison.terminal import terminal_text
@@ -95,7 +106,7 @@ def _show(comparison: Comparison, as_json: bool) -> None:
     for line in comparison.skipped:
         click.echo(f"gbnbench: skipped: {line}", err=True)
     if as_json:
-        click.echo(json_text(with_reasons(comparison.measures, MEASURES)))
+        click.echo(json_text(_records(comparison)))
     else:
         click.echo(terminal_text(comparison.run, colour=wants_colour()))
     for source in comparison.sources:

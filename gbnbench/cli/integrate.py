@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 import shlex
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,20 +12,12 @@ import click
 
 from gbnbench.cli import options
 from gbnbench.cli.json_text import json_text
-from gbnbench.cli.missing_numbers import SLOPE, SLOPES, VARIANCE, with_reasons
 from gbnbench.cli.undrawn import undrawn
-from gbnbench.core.footnotes import footnotes
-from gbnbench.core.text_table import aligned, number
 
 if TYPE_CHECKING:
-    import pandas as pd
-
     from gbnbench.analysis.integration.integrands.protocol import Family
     from gbnbench.io.points import ReadingOptions
-    from gbnbench.studies.integration.study_folder import IntegrationStudy
 
-PREDICTED = ", [what the points' spectrum predicts]"
-UNPREDICTED = " (nothing predicted: not periodic, or its spectrum not known or too long here)"
 EPILOG = """\b
 Examples:
   gbnbench integrate                                    random, jittered, sobol, gbn in 2D
@@ -43,6 +34,7 @@ def _list(context: click.Context, _: click.Parameter, asked: bool) -> None:
     if not asked:
         return
     from gbnbench.analysis.integration.integrands.registry import FAMILIES
+    from gbnbench.core.text_table import aligned
 
     for line in aligned(
         ("family", "periodic", "what"),
@@ -114,10 +106,11 @@ def integrate(
     same command goes on where it was.
     """
     from gbnbench.api.integration import integrate as make
-    from gbnbench.runs.source_names import hidden_paths
+    from gbnbench.cli.integrate_text import as_lines, as_record
+    from gbnbench.runs.source_names import double_meanings
     from gbnbench.studies.integration.study import DEFAULT_INTEGRANDS, DEFAULT_SOURCES
 
-    for line in hidden_paths(sources):
+    for line in double_meanings(sources):
         click.echo(f"gbnbench: {line}", err=True)
     made = make(
         list(sources or DEFAULT_SOURCES),
@@ -138,74 +131,12 @@ def integrate(
     for line in made.skipped:
         click.echo(f"gbnbench: skipped: {line}", err=True)
     if as_json:
-        tables = {"variance": with_reasons(made.table, VARIANCE), "slopes": with_reasons(made.slopes, SLOPES)}
-        click.echo(json_text(tables))
+        click.echo(json_text(as_record(made.study)))
     else:
-        for line in report(made.study):
+        for line in as_lines(made.study):
             click.echo(line)
     if made.undrawn:
         undrawn(made.folder, made.undrawn)
     made.picture()
     kept = f", {made.reused} of {made.pieces} pieces reused" if made.reused else ""
     click.echo(f"{'' if as_json else chr(10)}folder: {made.folder} ({made.seconds:.1f} s{kept})", err=as_json)
-
-
-def report(study: IntegrationStudy) -> Iterator[str]:
-    """Lay out a table for each family and d: a row a source, a column an n, and the slope."""
-    missing: list[tuple[str, str]] = []
-    for _, part in study.variance.groupby(["integrand", "d"], sort=False):
-        family, d = str(part["integrand"].iloc[0]), int(part["d"].iloc[0])
-        sizes = sorted(part["n"].unique())
-        predicted = PREDICTED if part["foretold"].notna().any() else UNPREDICTED
-        yield f"\n{family}, d={d}: variance, its standard error{predicted}"
-        yield from aligned(
-            ("source", *(f"n={n}" for n in sizes), "slope"),
-            [
-                (
-                    label,
-                    *(_cell(rows, n) for n in sizes),
-                    _slope(study.slopes, str(label), d, family),
-                )
-                for label, rows in part.groupby("source", sort=False)
-            ],
-        )
-        for label, rows in part.groupby("source", sort=False):
-            absent = [f"n={n}" for n in sizes if n not in set(rows["n"])]
-            missing += [(title, "a source has no sets of that size") for title in absent]
-            if rows["n"].nunique() < 2:
-                missing.append(("slope", "it takes sets of two sizes"))
-            elif _slope(study.slopes, str(label), d, family) == "-":
-                missing.append(("slope", SLOPE))
-    if missing:
-        yield ""
-        yield from footnotes(missing)
-
-
-def _cell(rows: pd.DataFrame, n: int) -> str:
-    there = rows[rows["n"] == n]
-    if there.empty:
-        return "-"
-    row = there.iloc[0]
-    known = row["foretold"] == row["foretold"]
-    predicted = f" [{_predicted(row['foretold'], row['beyond'])}]" if known else ""
-    spread = "" if row["standard_error"] != row["standard_error"] else f" ± {number(row['standard_error'])}"
-    return f"{number(row['variance'])}{spread}{predicted}"
-
-
-def _predicted(least: float, beyond: float) -> str:
-    """Write what is predicted, as a range where the frequencies left out may matter."""
-    most = f" to {number(least + beyond)}" if beyond > 0.02 * least else ""
-    return number(least) + most
-
-
-def _slope(slopes: pd.DataFrame, label: str, d: int, family: str) -> str:
-    found = slopes[(slopes["source"] == label) & (slopes["d"] == d) & (slopes["integrand"] == family)]
-    if found.empty:
-        return "-"
-    from gbnbench.analysis.integration.variance import MOST_SCATTER
-
-    row = found.iloc[0]
-    if row["slope"] != row["slope"]:
-        return "-"
-    bent = " bent" if row["scatter"] > MOST_SCATTER else ""
-    return f"{row['slope']:.2f} ± {row['standard_error']:.2f}{bent}"

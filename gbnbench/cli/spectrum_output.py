@@ -78,7 +78,7 @@ def check_place(out: Path) -> None:
         raise InputError(f"cannot write {out}: there is no folder {out.parent}")
 
 
-def check_format(out: Path, plan: SpectrumPlan) -> None:
+def check_format(out: Path, plan: SpectrumPlan, *, shells: bool) -> None:
     """Refuse what the format cannot hold.
 
     Parameters
@@ -87,6 +87,8 @@ def check_format(out: Path, plan: SpectrumPlan) -> None:
         File to write.
     plan : SpectrumPlan
         Of the spectrum.
+    shells : bool
+        Whether shells are made of the plan's frequencies, which in many dimensions are listed.
 
     Raises
     ------
@@ -94,11 +96,12 @@ def check_format(out: Path, plan: SpectrumPlan) -> None:
         If the format has no room for such a spectrum.
     """
     suffix, request = out.suffix.lower(), plan.request
-    if suffix in PICTURES and request.what == "listed":
+    what = "shells" if shells else request.what
+    if suffix in PICTURES and what == "listed":
         raise InputError(f"{out}: listed frequencies make no picture; write .csv, .npz or .npy")
     rows = request.high if request.what == "shells" else request.frequencies
     if suffix in DATA:
-        check_writable(suffix, request.what, rows)
+        check_writable(suffix, what, rows)
 
 
 def write(path: Path, result: Spectrum | ShellSpectrum, label: str, sources: Sequence[str]) -> None:

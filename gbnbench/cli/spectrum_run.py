@@ -163,7 +163,7 @@ def compute(
     plans = [settings.plan(one.x.shape[1], one.x.shape[2], len(one.x), one.sides) for one in sets]
     if out is not None:
         for plan in plans:
-            check_format(out, plan)
+            check_format(out, plan, shells=settings.shells)
     weighing = _weights(weights, sets)
     seconds = sum(plan.seconds for plan in plans)
     if seconds > SLOW and not quiet:
@@ -179,7 +179,11 @@ def compute(
             with naming(Path(one.label)), _bar(plan.request.frequencies, quiet) as tell:
                 result = settings.evaluate(one.x, w, tell, one.sides)
             if paths:
-                write(paths[k], result, one.label, one.sources)
+                try:
+                    write(paths[k], result, one.label, one.sources)
+                except Exception:
+                    click.echo(as_text(result, one.label))  # what was found is shown, if it cannot be kept
+                    raise
                 written += 1
             elif as_json:
                 printed.append(as_record(result, one.label))

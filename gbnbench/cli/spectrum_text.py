@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from gbnbench.analysis.radial.profile_measures import noise_floor, peak, power_at_1
 from gbnbench.analysis.radial.radial_power import shells_from_cube
 from gbnbench.analysis.spectrum.evaluators.registry import title_of
-from gbnbench.cli.missing_numbers import SPECTRUM, with_reasons
+from gbnbench.cli.json_text import records
 from gbnbench.core.errors import RefusalError
-from gbnbench.core.readable_text import display_width, right
+from gbnbench.core.footnotes import footnotes
 from gbnbench.core.results.radial import ShellSpectrum
 from gbnbench.core.results.resolution import resolvable_power
 from gbnbench.core.results.spectrum import Spectrum
@@ -21,6 +21,9 @@ from gbnbench.core.sides import sides_text
 from gbnbench.runs.spectrum_files import columns
 
 ROWS = 16  # printed
+NO_ANISOTROPY = (
+    "the powers of such a ring are 0 or equal to rounding, or it has no two independent frequencies"
+)
 
 
 def as_text(result: Spectrum | ShellSpectrum, label: str) -> str:
@@ -48,13 +51,16 @@ def as_text(result: Spectrum | ShellSpectrum, label: str) -> str:
         del rows["deviation"]
         again = np.diff(rows["ring"], prepend=-1) == 0  # a ring's number stands by its first shell
         rows["ring"] = np.where(again, "", rows["ring"].astype(str))
-        rows["anisotropy_db"] = np.where(again, np.nan, rows["anisotropy_db"])
+        decibels = np.array(["-" if math.isnan(v) else f"{v:.4g}" for v in rows["anisotropy_db"].tolist()])
+        rows["anisotropy_db"] = np.where(again, "", decibels)
     more = len(rows["power"]) - ROWS
     rows = {name: values[:ROWS] for name, values in rows.items()}
     told_apart = {name: _apart(rows[name]) for name in ("frequency", "nu")}
     power = {"power": np.array([_power(p, result) for p in rows["power"].tolist()])}
     lines += ["", *_aligned(rows | told_apart | power)]
-    return "\n".join([*lines, f"... {more:,} more: -o FILE.csv has all"] if more > 0 else lines)
+    lines += [f"... {more:,} more: -o FILE.csv has all"] if more > 0 else []
+    missing = [("anisotropy_db", NO_ANISOTROPY)] if "-" in rows.get("anisotropy_db", ()) else []
+    return "\n".join([*lines, *footnotes(missing)])
 
 
 def as_record(result: Spectrum | ShellSpectrum, label: str) -> dict[str, Any]:
@@ -70,7 +76,9 @@ def as_record(result: Spectrum | ShellSpectrum, label: str) -> dict[str, Any]:
     Returns
     -------
     dict
-        The label, how it was found, its errors, and ``rows``: one a shell or listed frequency.
+        The label, how it was found, its errors, and ``rows``: one a shell or listed frequency. Of shells also
+        ``measures``, the noise floor, the power at 1, the peak and its nu; and ``reasons``, why any of them,
+        or ``anisotropy_db`` in a row, is null.
     """
     import pandas as pd
 
@@ -78,25 +86,54 @@ def as_record(result: Spectrum | ShellSpectrum, label: str) -> dict[str, Any]:
     about = {name: getattr(result, name) for name in names}
     if result.sides is not None:
         about["sides"] = list(result.sides)
-    if isinstance(result, Spectrum) and result.frequencies is None:
+    if isinstance(result, Spectrum):
+        if result.frequencies is not None:
+            return {"label": label, **about, "rows": records(pd.DataFrame(columns(result)))}
         result = shells_from_cube(result)
-    return {"label": label, **about, "rows": with_reasons(pd.DataFrame(columns(result)), SPECTRUM)}
+    rows = columns(result)
+    measures, reasons = _measures(result)
+    if np.isnan(rows["anisotropy_db"]).any():
+        reasons["anisotropy_db"] = NO_ANISOTROPY
+    return {
+        "label": label,
+        **about,
+        "measures": measures,
+        "reasons": reasons,
+        "rows": records(pd.DataFrame(rows)),
+    }
+
+
+def _measures(shells: ShellSpectrum) -> tuple[dict[str, float], dict[str, str]]:
+    """Noise floor, power at 1, peak and its nu, of shells that are whole from the first; or why not."""
+    names: tuple[str, ...] = ("noise_floor", "power_at_1", "peak", "peak_nu")
+    found = dict.fromkeys(names, math.nan)
+    reasons: dict[str, str] = {}
+    if shells.frequency[0] > 1 or shells.frequency[-1] > shells.fmax:
+        return found, dict.fromkeys(names, "measured of whole shells from the lowest on, which these are not")
+    profile = shells.radial()
+    found["power_at_1"] = power_at_1(profile)
+    try:
+        found["noise_floor"] = noise_floor(profile)
+    except RefusalError as refusal:
+        reasons["noise_floor"] = str(refusal)
+    try:
+        found["peak"], found["peak_nu"] = peak(profile)
+    except RefusalError as refusal:
+        reasons["peak"] = reasons["peak_nu"] = str(refusal)
+    return found, reasons
 
 
 def _of_note(shells: ShellSpectrum, result: Spectrum | ShellSpectrum) -> list[str]:
-    """Noise floor, power at 1 and peak, of shells that are whole from the first."""
-    if shells.frequency[0] > 1 or shells.frequency[-1] > shells.fmax:
+    """Write the measures of shells that are whole from the first, and why one of them is missing."""
+    found, reasons = _measures(shells)
+    if math.isnan(found["power_at_1"]):
         return []
-    profile, said = shells.radial(), []
-    try:
-        said += [f"noise floor {_power(noise_floor(profile), result)}"]
-        lowest = "P(|f|=1)" if shells.sides is None else "P at the lowest |k|"
-        said += [f"{lowest} {_power(power_at_1(profile), result)}"]
-        height, nu = peak(profile)
-        said += [f"peak {_power(height, result)} at nu = {nu:.3g}"]
-    except RefusalError:  # these shells do not reach so far
-        pass
-    return [f"  {', '.join(said)}"] if said else []
+    lowest = "P(|f|=1)" if shells.sides is None else "P at the lowest |k|"
+    titles = {"noise_floor": "noise floor", "power_at_1": lowest, "peak": "peak"}
+    told = {name: f"{title} {_power(found[name], result)}" for name, title in titles.items()}
+    told["peak"] += f" at nu = {found['peak_nu']:.3g}"
+    missing = [f"  no {titles[name]}: {text}" for name, text in reasons.items() if name in titles]
+    return ["  " + ", ".join(told[name] for name in titles if name not in reasons), *missing]
 
 
 def headline(result: Spectrum | ShellSpectrum, label: str) -> str:
@@ -164,15 +201,13 @@ def _apart(values: NDArray[np.float64]) -> NDArray[Any]:
 def _aligned(rows: dict[str, NDArray[Any]]) -> list[str]:
     """Lines of right-aligned columns under their heads."""
     cells = {name: [_cell(value) for value in values.tolist()] for name, values in rows.items()}
-    widths = {name: max(map(display_width, [name, *values])) for name, values in cells.items()}
-    lines = ["  ".join(right(name, width) for name, width in widths.items())]
+    widths = {name: max(map(len, [name, *values])) for name, values in cells.items()}
+    lines = ["  ".join(name.rjust(width) for name, width in widths.items())]
     for row in zip(*cells.values(), strict=True):
-        line = "  ".join(right(cell, width) for cell, width in zip(row, widths.values(), strict=True))
+        line = "  ".join(cell.rjust(width) for cell, width in zip(row, widths.values(), strict=True))
         lines.append(line.rstrip())
     return lines
 
 
 def _cell(value: object) -> str:
-    if isinstance(value, float):
-        return "" if math.isnan(value) else f"{value:.4g}"
-    return str(value)
+    return f"{value:.4g}" if isinstance(value, float) else str(value)

@@ -24,6 +24,6 @@ def undrawn(folder: Path, fault: str) -> NoReturn:
         Always.
     """
     raise UnfinishedError(
-        f"pictures and report could not be made: {fault}. All results are in {folder}, and the same command "
+        f"what comes last could not be made: {fault}. All results are in {folder}, and the same command "
         "tries the pictures again"
     )

@@ -51,9 +51,11 @@ def write_whole(path: Path, data: bytes, *, make_folder: bool = True) -> None:
                 temporary.replace(path)
         if sys.platform == "win32":  # no open file can be renamed there
             temporary.replace(path)
-    except BaseException:
+    except BaseException as error:
         with contextlib.suppress(OSError):
             temporary.unlink(missing_ok=True)
+        if isinstance(error, OSError) and error.errno is not None:  # the name that the user knows
+            raise OSError(error.errno, error.strerror, os.fspath(path)) from error
         raise
     _sync_folder(path.parent)
 

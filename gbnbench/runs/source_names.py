@@ -48,8 +48,8 @@ def generator_named(name: str) -> Generator | None:
     )
 
 
-def hidden_paths(names: Iterable[object]) -> list[str]:
-    """Say which files and folders are not read, since a generator has their name.
+def double_meanings(names: Iterable[object]) -> list[str]:
+    """Say what is taken of names that are those of a generator and of an existing file or folder.
 
     Parameters
     ----------
@@ -59,11 +59,17 @@ def hidden_paths(names: Iterable[object]) -> list[str]:
     Returns
     -------
     list of str
-        A sentence for each, with the way to ask for the path.
+        A sentence for each, with the way to ask for the other.
     """
     told = []
     for name in dict.fromkeys(names):
-        if isinstance(name, str) and Path(name).exists() and generator_named(name) is not None:
-            what = "folder" if Path(name).is_dir() else "file"
+        if not isinstance(name, str) or name.partition("[")[0].strip() not in GENERATORS:
+            continue
+        if not Path(name).exists():
+            continue
+        what = "folder" if Path(name).is_dir() else "file"
+        if generator_named(name) is None:
+            told.append(f"{name} is the {what} of that name; as settings of a generator it cannot be read")
+        else:
             told.append(f"{name} is the generator; the {what} of that name is ./{name}")
     return told

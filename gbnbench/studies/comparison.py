@@ -6,7 +6,6 @@ import os
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -46,7 +45,7 @@ class ComparisonOutcome:
     seconds : float
         Wall time of this call.
     undrawn : str
-        Why the pictures or the report could not be made; empty where they were, or were not asked for.
+        Why tables, pictures or the report could not be written; empty where they were.
     """
 
     run: Run
@@ -167,14 +166,16 @@ def run_comparison(
             "verdicts": [{"source": c.key, "measure": c.measure, "verdict": c.verdict} for c in changes],
         }
         run = replace(run, manifest=manifest, verdicts=_verdicts(changes))
-        progress.advance("writing the tables", 0)
-        store.write_tables(run)
-        undrawn = ""
-        if draw is not None:
-            progress.advance("drawing", 0)
-            undrawn = failure_of(partial(draw, run, store.path))
-        if not undrawn:
+
+        def last_steps() -> None:
+            progress.advance("writing the tables", 0)
+            store.write_tables(run)
+            if draw is not None:
+                progress.advance("drawing", 0)
+                draw(run, store.path)
             store.finish(manifest)
+
+        undrawn = failure_of(last_steps)
     seconds = time.monotonic() - began
     return ComparisonOutcome(run, store.path, changes, notes, work.reused, len(tasks), seconds, undrawn)
 

@@ -10,6 +10,7 @@ from matplotlib.ticker import MaxNLocator
 
 from gbnbench.reports import captions, layout, style
 from gbnbench.reports.comparison import points, radial, spectrum, valence, zone_plate
+from gbnbench.reports.comparison.left_out import left_out
 from gbnbench.reports.source_groups import Group, members
 from gbnbench.runs.comparison_result import Run, SourceResult
 
@@ -71,7 +72,7 @@ def figure(run: Run, group: Group | None = None) -> Figure:
     lines = rows(run, sources)
     names = [name for name, _, _ in lines]
     width = 2.4
-    notes = [*map(points.note, sources), *map(spectrum.note, sources)]
+    notes = [*map(points.note, sources), *map(spectrum.note, sources), left_out(sources)]
     caption = (
         "Rows: first realization; log10 of power, zero frequency in the middle, one scale for all; "
         "radial power on exact shells against nu; anisotropy with the line of isotropic noise"

@@ -60,7 +60,7 @@ def power_panel(ax: Axes, source: SourceResult, stroke: style.Stroke, top: float
         markersize=2.6,
         rasterized=len(nu) > 4000,
     )
-    ax.set_xlim(0, float(nu.max()) * 1.02 if len(nu) else 1.0)
+    ax.set_xlim(0, _reach(source))
     ax.set_ylim(0, top)
     ax.xaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10], prune="upper"))
     finite = power[np.isfinite(power)]
@@ -76,6 +76,12 @@ def power_panel(ax: Axes, source: SourceResult, stroke: style.Stroke, top: float
             color=style.FAINT,
             bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.2, "alpha": 0.85},
         )
+
+
+def _reach(source: SourceResult) -> float:
+    """End of the axis of nu: past the last shell and the last ring, which may lie beyond a part of it."""
+    nu = [*source.radial.nu[-1:], *source.anisotropy["nu"][-1:]]
+    return 1.02 * float(max(nu)) if nu else 1.0
 
 
 def anisotropy_panel(
@@ -107,7 +113,7 @@ def anisotropy_panel(
         marker="o" if len(nu) < FEW else "",
         markersize=2.2,
     )
-    ax.set_xlim(0, float(source.radial.nu.max()) * 1.02 if len(source.radial.nu) else 1.0)
+    ax.set_xlim(0, _reach(source))
     ax.set_ylim(*limits)
     # A mark at the top would touch the 0 of the radial power above.
     ax.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10], prune="upper"))

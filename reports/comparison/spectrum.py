@@ -20,6 +20,8 @@ from gbnbench.runs.comparison_result import Run, SourceResult
 
 CEILING = 10.0
 LOWEST = 1e-14  # the log10 map reaches no deeper, lest a lattice's exact zeros flatten everybody else's map
+UNEVALUATED = "#9aa3af", "#c6dbef"  # in the log10 map, where DC is left out too, and beside the tones of grey
+BEYOND = "Grey: frequencies that are not affordable."
 ROUNDING = 1e-24  # what double precision leaves of a lattice's exact zeros stays below this and sets no scale
 
 
@@ -80,14 +82,16 @@ def norm(sources: Sequence[SourceResult]) -> LogNorm:
 
 def palette() -> Colormap:
     """Return the colour map of power: dark where it is low, grey at DC and where it was not evaluated."""
-    return colormaps["magma"].with_extremes(bad="#9aa3af")
+    return colormaps["magma"].with_extremes(bad=UNEVALUATED[0])
 
 
 def note(source: SourceResult) -> str:
     """Say what part of the spectrum the picture shows; empty in 2D, where it shows the whole."""
     if source.d == 1:
         return "1D: every row is the same."
-    return "" if source.d == 2 else f"Slice of the first two of {source.d} frequencies, the others 0."
+    cut = [] if source.d == 2 else [f"Slice of the first two of {source.d} frequencies, the others 0."]
+    listed = [] if source.spectrum.frequencies is None else [BEYOND]
+    return " ".join(cut + listed)
 
 
 def panel(ax: Axes, source: SourceResult, scale: LogNorm | None, *, ticks: bool = True) -> None:
@@ -115,9 +119,8 @@ def panel(ax: Axes, source: SourceResult, scale: LogNorm | None, *, ticks: bool 
     )
     extent = (-reach, reach, -reach, reach) if source.sides is None else (-right, right, -up, up)
     if scale is None:
-        ax.imshow(
-            tone_map(image).T, cmap="gray", vmin=0, vmax=1, origin="lower", extent=extent, aspect="equal"
-        )
+        grey = colormaps["gray"].with_extremes(bad=UNEVALUATED[1])
+        ax.imshow(tone_map(image).T, cmap=grey, vmin=0, vmax=1, origin="lower", extent=extent, aspect="equal")
     else:
         safe = np.maximum(without_dc(image), float(scale.vmin or LOWEST))
         ax.imshow(safe.T, cmap=palette(), norm=scale, origin="lower", extent=extent, aspect="equal")
@@ -157,6 +160,8 @@ def figure(run: Run, group: Group | None = None) -> Figure:
         f"Upper picture of a pair: log10, one scale for all sources, clipped at {scale.vmin:.0e} and "
         f"{CEILING:g}, DC left out; lower: grey = log2(1 + sqrt(P)/4), white from P = 16 (PSA). {notes} "
     ).replace("  ", " ")
+    if BEYOND in caption:
+        caption = caption.replace(BEYOND, f"{BEYOND[:-1]}, light blue in the lower picture.")
     sheet = layout.sheet(
         "Power spectra",
         caption + captions.settings(run, group),

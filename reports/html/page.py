@@ -15,6 +15,7 @@ from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.number_text import NOTHING
 from gbnbench.reports import captions, style
 from gbnbench.reports.comparison import gallery, loglog, points, rdf, spectrum, sweep, table, valence
+from gbnbench.reports.comparison.left_out import left_out
 from gbnbench.reports.html import notes
 from gbnbench.reports.html.pictures import colour_bar, figure_picture, gallery_panel
 from gbnbench.reports.source_groups import Group, groups, members
@@ -161,7 +162,7 @@ def _gallery(run: Run, sources: Sequence[SourceResult]) -> dict[str, Any]:
         )
         for name, ratio, draw in gallery.rows(run, sources)
     ]
-    remarks = [*map(points.note, sources), *map(spectrum.note, sources)]
+    remarks = [*map(points.note, sources), *map(spectrum.note, sources), left_out(sources)]
     return {
         "heads": [(source.label, strokes[source.key]) for source in sources],
         "rows": rows,

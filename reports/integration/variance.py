@@ -13,6 +13,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogFormatterSciNotation, LogLocator, NullLocator
 
 from gbnbench.analysis.integration.variance import MOST_SCATTER
+from gbnbench.core.readable_text import display_width
 from gbnbench.reports import captions, layout, style
 from gbnbench.studies.integration.study_folder import IntegrationStudy
 
@@ -140,7 +141,7 @@ def figure(study: IntegrationStudy) -> Figure:
     caption += f"{shifts} random shifts of each set. " if shifts else ""
     caption += f"Seed {study.manifest.get('seed')} · gbnbench {study.manifest.get('version')}"
     keys = {key: _key(study, part) for key, part in parts}
-    longest = max((len(label) for labels in keys.values() for label in labels), default=0)
+    longest = max((display_width(label) for labels in keys.values() for label in labels), default=0)
     columns = min(2 if len(parts) <= 4 else 3, len(parts))
     sheet = layout.sheet(
         "Variance of integration", caption, len(parts), 3.4, [2.9], columns=columns, left=0.7,

@@ -72,7 +72,8 @@ def test_a_full_disk_is_one_line_and_loses_nothing(tmp_path: Path) -> None:
     )
     assert full.returncode == 2
     assert full.stderr == (
-        "gbnbench: error: run: File too large; what is finished is kept and the same command goes on\n"
+        "gbnbench: error: run/parts/random_n200000_d2/000000.npz: File too large; what is finished is kept "
+        "and the same command goes on\n"
     )
     left = {path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*") if path.is_file()}
     assert left == {

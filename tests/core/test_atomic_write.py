@@ -55,3 +55,12 @@ def test_a_write_that_fails_leaves_nothing_and_the_old_content(tmp_path: Path, m
         write_whole(path, b"new")
     assert [p.name for p in tmp_path.iterdir()] == ["x.txt"]
     assert path.read_bytes() == b"old"
+
+
+def test_a_fault_names_the_file_that_was_meant(tmp_path: Path) -> None:
+    place = tmp_path / "report.html"
+    place.mkdir()
+    with pytest.raises(OSError, match=r"report\.html'$") as caught:
+        write_whole(place, b"content")
+    assert caught.value.filename == str(place)
+    assert list(tmp_path.iterdir()) == [place]

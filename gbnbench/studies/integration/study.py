@@ -9,7 +9,6 @@ import os
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -51,7 +50,7 @@ class IntegrationOutcome:
     seconds : float
         Wall time of this call.
     undrawn : str
-        Why the picture could not be made; empty where it was, or was not asked for.
+        Why tables or the picture could not be written; empty where they were.
     """
 
     study: IntegrationStudy
@@ -178,13 +177,15 @@ def run_integration_study(
             "skipped": list(skipped),
         }
         study = IntegrationStudy(manifest, *tables(given, families, instances, shifts, errors))
-        store.write_tables(study)
-        undrawn = ""
-        if draw is not None:
-            progress.advance("drawing", 0)
-            undrawn = failure_of(partial(draw, study, store.path))
-        if not undrawn:
+
+        def last_steps() -> None:
+            store.write_tables(study)
+            if draw is not None:
+                progress.advance("drawing", 0)
+                draw(study, store.path)
             store.finish(manifest)
+
+        undrawn = failure_of(last_steps)
     seconds = time.monotonic() - began
     return IntegrationOutcome(study, store.path, work.reused, len(tasks), seconds, undrawn)
 

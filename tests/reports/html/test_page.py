@@ -123,7 +123,9 @@ def test_marks_of_the_table(text: str) -> None:
 def test_any_dimension(n: int, d: int, fmax: int, sets: int) -> None:
     run = Run({}, (samples.source("random", samples.random(n, d, sets), fmax, cpu=math.nan),))
     words = " ".join(Reader(page(run)).words)
-    assert ("zone plate" in words) == (d == 2)
+    said = "Not made for want of data: zone plate (in the plane)"
+    assert ("zone plate" in words.replace(said, "")) == (d == 2)
+    assert (said in words) == (d != 2)
     assert ("Slice of the first two of" in words) == (d > 2)
 
 
