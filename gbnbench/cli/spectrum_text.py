@@ -106,7 +106,7 @@ def as_record(result: Spectrum | ShellSpectrum, label: str) -> dict[str, Any]:
 def _measures(shells: ShellSpectrum) -> tuple[dict[str, float], dict[str, str]]:
     """Noise floor, power at 1, peak and its nu, of shells that are whole from the first; or why not."""
     names: tuple[str, ...] = ("noise_floor", "power_at_1", "peak", "peak_nu")
-    found = dict.fromkeys(names, math.nan)
+    found: dict[str, float] = dict.fromkeys(names, math.nan)
     reasons: dict[str, str] = {}
     if shells.frequency[0] > 1 or shells.frequency[-1] > shells.fmax:
         return found, dict.fromkeys(names, "measured of whole shells from the lowest on, which these are not")
