@@ -142,8 +142,8 @@ PARTS = (
     Part(
         "disk", "Full disks, quotas, full outputs",
         "A file system (tmpfs) of a random size up to what the command leaves, a largest size of a file "
-        "(RLIMIT_FSIZE), and /dev/full as the output. The command has to say so in words with exit code 2;"
-        " with room again, the same command has to end with the same bits.",
+        "(RLIMIT_FSIZE) set at a random moment, and /dev/full as the output. The command has to say so in "
+        "words with exit code 2; with room again, the same command has to end with the same bits.",
         _disk,
     ),
     Part(
