@@ -58,8 +58,8 @@ class TaskRun:
     Attributes
     ----------
     results : dict of str
-        Results by key of the tasks that no other task requires. The results of the others are let go as soon
-        as nothing needs them any more.
+        Results by key of the tasks that no other task requires, in the order of the tasks, whichever was
+        finished first. The results of the others are let go as soon as nothing needs them any more.
     failures : dict of str
         What went wrong, by key.
     reused : int
@@ -76,7 +76,7 @@ class TaskRun:
         self._store = store
         self._tasks = {task.key: task for task in tasks}
         self._required = {key for task in tasks for key in task.requires}
-        self.results: dict[str, Any] = {}
+        self._results: dict[str, Any] = {}
         self.failures: dict[str, str] = {}
         self.missing: list[Task] = []
         seen: set[str] = set()
@@ -90,6 +90,11 @@ class TaskRun:
         for task in self.missing:
             for key in task.requires:
                 self._users[key].append(task.key)
+
+    @property
+    def results(self) -> dict[str, Any]:
+        """Results by key, as said above."""
+        return {key: self._results[key] for key in self._tasks if key in self._results}
 
     def complete(
         self, jobs: int | None, progress: Progress, *, doing: str = "", prove_device: bool = True
@@ -149,7 +154,7 @@ class TaskRun:
         seen.add(task.key)
         result = self._store.read(task.key) if self._store else None
         if result is not None:
-            self.results[task.key] = result
+            self._results[task.key] = result
             return
         for key in task.requires:
             self._find(self._tasks[key], seen)
@@ -159,7 +164,7 @@ class TaskRun:
         return (*task.arguments, self._inputs(task)) if task.requires else task.arguments
 
     def _inputs(self, task: Task) -> list[Any]:
-        return [self.results[key] for key in task.requires]
+        return [self._results[key] for key in task.requires]
 
     def _settle(self, done: Finished, progress: Progress) -> Finished:
         """Keep a result, tell the progress, and let go of what nobody needs any more."""
@@ -171,13 +176,13 @@ class TaskRun:
         result = task.assemble(done.value, self._inputs(task)) if task.assemble else done.value
         if self._store:
             self._store.write(task.key, result)
-        self.results[task.key] = result
+        self._results[task.key] = result
         for key in self._users[task.key]:
             self._awaits[key].discard(task.key)
         for key in task.requires:
             self._users[key].remove(task.key)
             if not self._users[key]:
-                del self.results[key]
+                del self._results[key]
         progress.advance(task.done or task.label)
         return Finished(task.key, result)
 

@@ -176,3 +176,13 @@ def test_a_requirement_alone_is_not_made_again(tmp_path):
     for path in (folder.path / "pieces/roots").iterdir():
         path.unlink()
     assert run_tasks(sums(3, 4), folder, 1, Progress()).reused == 3
+
+
+def test_results_stand_in_the_order_of_the_tasks_whichever_was_there_first(tmp_path):
+    folder = Counted(tmp_path, {"what": "roots"})
+    folder.begin()
+    tasks = [Task(f"roots/{k}", f"roots {k}", roots, (k,)) for k in (3, 4, 5)]
+    list(TaskRun(tasks[1:2], folder).complete(None, Progress()))
+    run = TaskRun(tasks, folder)
+    assert [finished.key for finished in run.complete(None, Progress())] == ["roots/3", "roots/5"]
+    assert list(run.results) == ["roots/3", "roots/4", "roots/5"]
