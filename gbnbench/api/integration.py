@@ -152,7 +152,8 @@ def integrate(
     realizations : int
         Sets of each generator, >= 1.
     integrands : str or sequence of str
-        Families of integrands with or without settings, such as ``"gaussians[count=16]"``.
+        Families of integrands with or without settings, such as ``"gaussians[count=16]"``; a dimension where
+        one has no integrands is skipped and said.
     instances : int
         Random integrands of each family, >= 1, the same for all sources and n.
     shifts : int
@@ -184,7 +185,7 @@ def integrate(
     InputError
         If a source, a family or a number is wrong, or the folder holds something else.
     RefusalError
-        If nothing remains of the sources, or a family has no integrand in one of the dimensions.
+        If nothing remains of the sources, or no family has integrands in any of the dimensions.
     DeviceError
         If a device is named and fits none or several.
     UnfinishedError

@@ -164,6 +164,19 @@ def test_a_family_that_has_none_in_a_dimension_is_refused_before_any_work(tmp_pa
         variance(np.zeros((4, 500)), "half-space")
 
 
+def test_a_dimension_without_integrands_of_a_family_is_skipped_and_said(tmp_path):
+    made = study(
+        tmp_path / "run", ("random",), d=(2, 50), n=(4, 8), integrands=("gaussians", "half-space"),
+        instances=1, realizations=1,
+    ).study  # fmt: skip
+    assert list(made.slopes.integrand) == ["gaussians", "half-space"]
+    assert list(made.variance.d.unique()) == [2]
+    assert made.manifest["skipped"] == [
+        "gaussians: sums of Gaussians are for d = 1 to 20; got d=50",
+        "half-space: half spaces are for d = 1 to 20; got d=50",
+    ]
+
+
 def test_reading_what_is_no_study_is_refused(tmp_path, done):
     with pytest.raises(InputError, match="no study"):
         read_integration(tmp_path)

@@ -26,7 +26,7 @@ from gbnbench.runs.resumable_folder import explain_interruption
 from gbnbench.runs.sources import Source, resolve
 from gbnbench.studies.drawing import failure_of
 from gbnbench.studies.integration.blocks import tasks_of
-from gbnbench.studies.integration.requirements import refuse, require
+from gbnbench.studies.integration.requirements import require, served
 from gbnbench.studies.integration.study_folder import IntegrationStudy, StudyFolder, read_integration
 from gbnbench.studies.integration.tables import gather, tables
 
@@ -91,7 +91,8 @@ def run_integration_study(
     realizations : int
         Sets of each generator.
     integrands : sequence of str
-        Families with settings, such as ``gaussians[count=16]``.
+        Families with settings, such as ``gaussians[count=16]``; a dimension where one has no integrands is
+        skipped and said.
     instances : int
         Integrands of each family, the same for all sources and n.
     shifts : int
@@ -118,8 +119,8 @@ def run_integration_study(
     InputError
         If a name or number is wrong, or the folder holds something else.
     RefusalError
-        If nothing remains of the sources, a family has no integrand in one of the dimensions, or points lie
-        on a torus with unequal sides.
+        If nothing remains of the sources, no family has integrands in any of the dimensions, or points lie on
+        a torus with unequal sides.
     UnfinishedError
         If pieces failed; every other piece is kept.
     """
@@ -141,8 +142,11 @@ def run_integration_study(
                 f"{source.label} (n={source.n}, d={source.d}): the integrands are functions of a cube, and "
                 "its box has unequal sides; gbnbench convert --fractions writes its points as those of a cube"
             )
-        for family in families:
-            refuse(family, source.d)
+    families_in = {d: served(families, d) for d in dict.fromkeys(source.d for source in given)}
+    without = [sentence for _, refused in families_in.values() for sentence in refused]
+    if not any(kept for kept, _ in families_in.values()):
+        raise RefusalError("; ".join(without))
+    skipped = (*skipped, *without)
     settings: dict[str, Any] = {
         "gbnbench": __version__,
         "seed": seed,
@@ -154,7 +158,11 @@ def run_integration_study(
     }
     store = StudyFolder(Path(folder or comparison_folder.default_folder(settings, "integrate")), settings)
     largest_first = sorted(given, key=lambda source: -source.n * source.d)
-    tasks = [task for source in largest_first for task in tasks_of(source, families, instances, shifts, seed)]
+    tasks = [
+        task
+        for source in largest_first if families_in[source.d][0]
+        for task in tasks_of(source, families_in[source.d][0], instances, shifts, seed)
+    ]  # fmt: skip
     with store.lock(), explain_interruption(store.path):
         if store.whole:
             study = read_integration(store.path)
@@ -163,7 +171,7 @@ def run_integration_study(
         work = run_tasks(tasks, store, jobs or os.cpu_count() or 1, progress)
         errors = {
             (source.key, specification(family)): gather(work.results, source, family)
-            for source in given for family in families
+            for source in given for family in families_in[source.d][0]
         }  # fmt: skip
         manifest = {
             "command": command,

@@ -80,7 +80,8 @@ def tables(
     instances, shifts : int
         As asked for.
     errors : mapping
-        (source key, specification of a family) -> what ``gather`` found.
+        (source key, specification of a family) -> what ``gather`` found; not where the family has no
+        integrands in the source's dimension.
 
     Returns
     -------
@@ -92,7 +93,8 @@ def tables(
     rows, lines = [], []
     for family in families:
         text = specification(family)
-        for source in sources:
+        with_it = [source for source in sources if (source.key, text) in errors]
+        for source in with_it:
             gathered = errors[source.key, text]
             rows.append(
                 {
@@ -101,8 +103,8 @@ def tables(
                     **_row(gathered),
                 }
             )  # fmt: skip
-        for label, d in dict.fromkeys((source.label, source.d) for source in sources):
-            group = sorted((s.n, s.key) for s in sources if (s.label, s.d) == (label, d))
+        for label, d in dict.fromkeys((source.label, source.d) for source in with_it):
+            group = sorted((s.n, s.key) for s in with_it if (s.label, s.d) == (label, d))
             if len(group) > 1:
                 slope = slope_of([n for n, _ in group], [errors[key, text].errors for _, key in group])
                 lines.append(
