@@ -73,6 +73,7 @@ PLANTS = {
     ),
     "a negative frequency": Plant("grid_power.cl", "f + wrap : f", "f + wrap - 1 : f", "gridded FFT"),
     "a kernel of pairs": Plant("discrepancy_pairs.cl", "(t - t * t)", "(t + t * t)", "discrepancy, periodic"),
+    "a lane too many": Plant("pair_distances.cl", "end - j : LANES", "LANES : LANES", "pair distances"),
     "a smaller for a larger": Plant(
         "discrepancy_pairs.cl", "at[a] > other", "at[a] < other", "discrepancy, star"
     ),

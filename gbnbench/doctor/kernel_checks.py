@@ -15,6 +15,7 @@ from gbnbench.analysis.integration.integrands.gaussians import GaussianSum
 from gbnbench.analysis.integration.integrands.waves import WaveSum
 from gbnbench.analysis.precision import PrecisionName, precision_of
 from gbnbench.analysis.spatial.discrepancy import discrepancies
+from gbnbench.analysis.spatial.pair_counts import pair_counts
 from gbnbench.analysis.spectrum.evaluators.gridded.product import griddable
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import AXES
 from gbnbench.analysis.spectrum.periodogram import periodogram
@@ -26,6 +27,7 @@ from gbnbench.doctor.numpy_references import (
     numpy_centred_square,
     numpy_gaussians,
     numpy_gradient,
+    numpy_pairs,
     numpy_periodic_square,
     numpy_power,
     numpy_star_square,
@@ -48,6 +50,9 @@ BOXES = (*QUICK_BOXES, (1500, 2, 0.5), (120, 3, 1.0), (60, 8, 1.0))
 SWEEP, QUICK_SWEEP = 101, 41  # points of the farthest-point kernel's sweep
 DISCREPANCIES = ((2111, 2), (83, 5))  # n, d; one more than a block of columns
 QUICK_DISCREPANCIES = ((83, 5),)
+PAIRS = ((1111, 2), (333, 3))  # n, d
+QUICK_PAIRS = ((333, 3),)
+PAIR_BINS, REACH = 40, 0.25
 INTEGRANDS = ((333, 1), (131, 3))  # n, d
 QUICK_INTEGRANDS = ((131, 3),)
 WIDTHS = (0.05, 0.2)  # of Gaussians, box sides: of one image, and of a polynomial
@@ -112,8 +117,7 @@ class Examination:
         if failed:
             return (
                 f"do not trust {self.device.label}: {', '.join(failed)} departs from numpy. Choose another "
-                f"device "
-                "(gbnbench devices), or update its driver and run gbnbench doctor again"
+                "device (gbnbench devices), or update its driver and run gbnbench doctor again"
             )
         precisions = " and ".join(sorted({check.precision for check in self.checks}))
         return (
@@ -190,6 +194,14 @@ def _discrepancies(n: int, d: int, precision: str) -> Iterator[Check]:
         yield Check(f"discrepancy, {kind}", f"n={n} d={d}", precision, abs(float(error)), SQUARE)
 
 
+def _pairs(n: int, d: int, precision: str) -> Iterator[Check]:
+    x = np.random.default_rng(n).random((n, d))
+    sides = (1.5,) + (1.0,) * (d - 2) + (1 / 1.5,)
+    found = pair_counts(x, PAIR_BINS, REACH / PAIR_BINS, sides)
+    error = float(np.max(np.abs(found - numpy_pairs(x, PAIR_BINS, REACH, sides))))
+    yield Check("pair distances", f"n={n} d={d}", precision, error, 0.0)
+
+
 def _integrands(n: int, d: int, precision: PrecisionName) -> Iterator[Check]:
     rng = np.random.default_rng(n)
     x, centres = rng.random((n, d)), rng.random((17, d))
@@ -227,6 +239,7 @@ def examine(quick: bool = False) -> Examination:
         ]
         if precision == "double":
             work.extend((_integrands, case) for case in (QUICK_INTEGRANDS if quick else INTEGRANDS))
+            work.extend((_pairs, case) for case in (QUICK_PAIRS if quick else PAIRS))
             work.append((_farthest_points, (QUICK_SWEEP if quick else SWEEP,)))
             work.extend((_discrepancies, case) for case in (QUICK_DISCREPANCIES if quick else DISCREPANCIES))
         for check, case in work:

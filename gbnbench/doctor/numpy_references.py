@@ -174,3 +174,27 @@ def numpy_waves(x: FloatArray, frequencies: NDArray[np.int64], phases: FloatArra
     turns = x @ frequencies.T.astype(np.float64) + phases
     total: FloatArray = np.cos(2 * np.pi * (turns - np.rint(turns))).sum(axis=-1)
     return total
+
+
+def numpy_pairs(x: FloatArray, bins: int, reach: float, sides: tuple[float, ...]) -> NDArray[np.int64]:
+    """Count pairs by their distance on the torus.
+
+    Parameters
+    ----------
+    x : (n, d) float64
+        Points of the unit torus.
+    bins : int
+        Bins of equal width from 0 to reach.
+    reach : float
+        Longest distance, at most half the shortest side.
+    sides : tuple of d floats
+        Sides of the box.
+
+    Returns
+    -------
+    (bins,) int64
+    """
+    i, j = np.triu_indices(len(x), 1)
+    step = x[i] - x[j]
+    distance = np.sqrt((((step - np.rint(step)) * sides) ** 2).sum(axis=-1))
+    return np.histogram(distance, bins, (0, reach))[0].astype(np.int64)

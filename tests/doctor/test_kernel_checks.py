@@ -53,6 +53,13 @@ def test_a_wrong_sum_over_pairs_is_named(form, monkeypatch):
     assert failed == {f"discrepancy, {form}"}
 
 
+def test_a_wrong_count_of_pairs_is_named(monkeypatch):
+    right = kernel_checks.numpy_pairs
+    monkeypatch.setattr(kernel_checks, "numpy_pairs", lambda *a: right(*a) + (np.arange(40) == 7))
+    (check,) = kernel_checks._pairs(333, 3, "double")
+    assert (check.kernel, check.error, check.passed) == ("pair distances", 1.0, False)
+
+
 @pytest.mark.slow
 def test_this_device_passes_in_full():
     examination = kernel_checks.examine()

@@ -8,7 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
-from gbnbench.analysis.spatial.rdf import pair_counts, pair_density, rdf
+from gbnbench.analysis.precision import double_device
+from gbnbench.analysis.spatial.pair_counts import _numpy_counts, pair_counts
+from gbnbench.analysis.spatial.pair_counts_device import device_counts, row_windows
+from gbnbench.analysis.spatial.rdf import pair_density, rdf
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import wrap
 from tests.oracles.lattices import grid
@@ -35,6 +38,41 @@ def test_many_points_against_a_tree(d: int) -> None:
     tree = cKDTree(x, boxsize=1.0)
     cumulative = (tree.count_neighbors(tree, edges) - len(x)) // 2
     np.testing.assert_array_equal(pair_counts(x, 20, 0.05 / 20), np.diff(np.r_[0, cumulative[1:]]))
+
+
+@pytest.mark.parametrize("reach", [0.3, 0.25, 0.2, 0.013, 1e-6])
+@pytest.mark.parametrize("d", [2, 3, 6])
+@pytest.mark.parametrize("kind", ["random", "corner", "grid", "coincident", "border"])
+def test_the_device_counts_what_numpy_does(kind: str, d: int, reach: float) -> None:
+    rng = np.random.default_rng(d)
+    x = {
+        "random": rng.random((700, d)),
+        "corner": rng.random((700, d)) ** 4,
+        "grid": wrap(grid({2: 26, 3: 9, 6: 3}[d], d) + 0.123),
+        "coincident": np.repeat(rng.random((7, d)), 100, axis=0),
+        "border": rng.choice([0.0, 2.0**-60, 1 - 2.0**-53, 0.5, 1 / 9], (700, d)),
+    }[kind]
+    device = double_device()
+    if device is None:
+        pytest.skip("no device computes in double here")
+    for box in ((1.0,) * d, (1.25, *(1.0,) * (d - 2), 0.8)):
+        windows = row_windows(x, reach, box)
+        assert windows is not None
+        counted = device_counts(device, windows, 41, 41 / reach, box)
+        assert counted.tolist() == _numpy_counts(x, 41, reach, 41 / reach, box).tolist()
+
+
+def test_windows_hold_few_pairs_that_are_too_far() -> None:
+    x = np.random.default_rng(5).random((5000, 2))
+    windows = row_windows(x, 0.25, (1.0, 1.0))
+    assert windows is not None
+    met = int((windows.ends[1::2] - windows.ends[::2]).sum(dtype=np.int64))
+    assert 1 < met / (5000**2 / 2 * math.pi / 16) < 1.25
+
+
+@pytest.mark.parametrize(("d", "reach"), [(1, 0.1), (2, 0.49)])
+def test_no_windows_where_nothing_can_be_cut(d: int, reach: float) -> None:
+    assert row_windows(np.random.default_rng(6).random((600, d)), reach, (1.0,) * d) is None
 
 
 def test_grid_has_its_shells() -> None:

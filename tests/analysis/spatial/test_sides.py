@@ -12,7 +12,8 @@ from gbnbench.analysis.spatial.bond_order import bond_order, psi6
 from gbnbench.analysis.spatial.delaunay import neighbours
 from gbnbench.analysis.spatial.distances import mean_distance, min_distance, nearest_distances
 from gbnbench.analysis.spatial.edge_density import edge_density
-from gbnbench.analysis.spatial.rdf import pair_counts, pair_density, rdf
+from gbnbench.analysis.spatial.pair_counts import pair_counts
+from gbnbench.analysis.spatial.rdf import pair_density, rdf
 from gbnbench.analysis.spatial.valence import valence, valence6
 from gbnbench.analysis.spatial.zone_plate import zone_plate
 from gbnbench.core.errors import InputError
