@@ -12,6 +12,7 @@ from gbnbench.core.torus import FloatArray
 
 MOST_DIMENSIONS = 8
 LEAST_POINTS = 16  # fewer points give no estimate worth its error
+VOLUMES = (1e-140, 1e140)
 
 
 @dataclass(frozen=True)
@@ -67,7 +68,8 @@ def check_window(points: ArrayLike, low: ArrayLike, high: ArrayLike) -> tuple[Fl
     ------
     InputError
         If points are no (n, d) real numbers, d is above 8, there are fewer than 16 of them or all are one,
-        the corners are no corners of a box, or a point lies outside.
+        the corners are no corners of a box, its volume is not between 1e-140 and 1e140, or a point lies
+        outside.
 
     Examples
     --------
@@ -105,6 +107,12 @@ def check_window(points: ArrayLike, low: ArrayLike, high: ArrayLike) -> tuple[Fl
         raise InputError(
             f"low must be below high on every axis, and both finite; got low={least.tolist()}, "
             f"high={most.tolist()}"
+        )
+    volume = float(np.prod(sides))
+    if not VOLUMES[0] < volume < VOLUMES[1]:
+        raise InputError(
+            f"the window's volume is {volume:g}, whose square is too small or too large for a number: give "
+            "points and window in another unit"
         )
     outside = ~((x >= least) & (x <= most))
     if outside.any():

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 MODES = {1: 4096, 2: 128, 3: 24}  # half steps of pi / L over which the variance of n is summed
-
+UNSEEN = 0.25  # standard errors by which hidden neighbours may lower the mean distance
 LOWEST = 0.05  # of the first bin's wave number, below which S is taken there
 
 TITLES: Mapping[str, str] = {
@@ -160,9 +160,6 @@ def in_window(
     told.advance("nearest neighbours")
     low_band = hyperuniformity(spectrum, covariance)
     intensity = n / window.volume
-    no_neighbour = (
-        "" if len(nearest.distance) else "no point has its nearest neighbour nearer than the border"
-    )
     alpha = low_band.exponent
     relative = count_variance(spectrum, window, 0.0 if alpha.reason else alpha.value - alpha.error)
     found = {
@@ -172,7 +169,7 @@ def in_window(
         "nu_peak": Value(low_band.nu_peak, math.nan, low_band.s_peak.reason),
         "hyperuniformity": low_band.ratio,
         "exponent": low_band.exponent,
-        "mean_distance": Value(nearest.mean, nearest.mean_error, no_neighbour),
+        "mean_distance": _mean_distance(nearest, window),
         "min_distance": Value(nearest.smallest, math.nan),
         "resolution": Value(seen.tapers.bandwidth, math.nan),
     }
@@ -182,6 +179,21 @@ def in_window(
         {name: v.reason for name, v in found.items() if v.reason},
     )
     return WindowEstimates(n, d, window, seen.tapers.counts, spectrum, pairs, nearest, scalars)
+
+
+def _mean_distance(nearest: NearestDistances, window: Window) -> Value:
+    """Give the mean, or why the window is too narrow for it."""
+    if not len(nearest.distance):
+        return Value(math.nan, math.nan, "no point has its nearest neighbour nearer than the border")
+    longest = float(window.sides.min()) / 2
+    surely = nearest.hidden - nearest.hidden_error
+    if surely * (longest - nearest.mean) > UNSEEN * nearest.mean_error:
+        return Value(
+            math.nan, math.nan,
+            f"the neighbours of some {nearest.hidden:.2g} of the points are farther than half the window's "
+            f"shortest side, {longest:g}, where none can be seen for the border: a wider window is needed",
+        )  # fmt: skip
+    return Value(nearest.mean, nearest.mean_error)
 
 
 def count_variance(spectrum: pd.DataFrame, window: Window, exponent: float) -> float:

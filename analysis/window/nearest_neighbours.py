@@ -28,6 +28,11 @@ class NearestDistances:
         Weighted mean, and its standard error.
     smallest : float
         The smallest distance of any two points in the window.
+    hidden : float
+        Estimated share of points whose nearest neighbour is farther than half the shortest side, where no
+        border is farther and none can be counted: the estimator of Kaplan and Meier (Baddeley & Gill 1997).
+    hidden_error : float
+        Its standard error by Greenwood's formula.
     """
 
     distance: FloatArray
@@ -35,6 +40,8 @@ class NearestDistances:
     mean: float
     mean_error: float
     smallest: float
+    hidden: float
+    hidden_error: float
 
     def distribution(self, r: FloatArray) -> FloatArray:
         """Give the share of points whose nearest neighbour is no farther than r: (m,) -> (m,)."""
@@ -74,7 +81,7 @@ def nearest_distances(points: FloatArray, window: Window) -> NearestDistances:
     )
     total = float(weight.sum())
     if total == 0.0:
-        return NearestDistances(np.empty(0), np.empty(0), np.nan, np.nan, float(distance.min()))
+        return NearestDistances(np.empty(0), np.empty(0), np.nan, np.nan, float(distance.min()), 1.0, 0.0)
     weight /= total
     mean = float(weight @ distance)
     part = weight * (distance - mean)
@@ -85,5 +92,14 @@ def nearest_distances(points: FloatArray, window: Window) -> NearestDistances:
     variance = max(alone, alone + 2 * float(part[near[:, 0]] @ part[near[:, 1]]))
     order = np.flatnonzero(counts)[np.argsort(distance[counts], kind="stable")]
     return NearestDistances(
-        distance[order], weight[order], mean, float(np.sqrt(variance)), float(distance.min())
-    )
+        distance[order], weight[order], mean, float(np.sqrt(variance)), float(distance.min()),
+        *_never_met(distance, border),
+    )  # fmt: skip
+
+
+def _never_met(distance: FloatArray, border: FloatArray) -> tuple[float, float]:
+    """Estimate the share of points whose neighbours lie farther than any border can, and its error."""
+    order = np.lexsort((distance >= border, np.minimum(distance, border)))
+    left = np.arange(len(order), 0, -1)[(distance < border)[order]].astype(np.float64)  # when one meets one
+    share = float(np.prod(1 - 1 / left))
+    return share, share * float(np.sqrt((1 / (left * np.maximum(left - 1, 1))).sum()))

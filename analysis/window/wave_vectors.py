@@ -17,6 +17,9 @@ from gbnbench.core.torus import FloatArray
 LEAST_IN_BIN = {1: 12.0}  # wave vectors expected in a bin, of one half space
 LEAST_BEYOND = 6.0  # the same in more dimensions
 WIDTH = 0.06  # of a bin, over its wave number
+# Edges lie below what they are called by this part: allowed wave vectors that are exactly as long, as in
+# windows of sides 2:1, are in the upper bin whatever the unit of length rounds to.
+EDGE = 1e-9
 LISTED = 1 << 21  # wave vectors of a box that are enumerated to pick a bin's
 
 
@@ -74,17 +77,17 @@ def bin_edges(kmax: float, sides: FloatArray) -> FloatArray:
     Returns
     -------
     (bins + 1,) float64
-        From half a step on; a bin expects at least six wave vectors, 12 in 1D.
+        From half a step on, each less by a part of 1e-9; a bin expects at least six wave vectors, 12 in 1D.
     """
     d, step = len(sides), 2 * math.pi / float(sides.min())
     edges = [0.5 * step]
-    while edges[-1] < kmax:
+    while edges[-1] < kmax * (1 - EDGE):
         wide = edges[-1] + max(step if d > 1 else 0.0, WIDTH * edges[-1])
         enough = (edges[-1] ** d + LEAST_IN_BIN.get(d, LEAST_BEYOND) / half_count(0.0, 1.0, sides)) ** (1 / d)
         edges.append(max(wide, enough))
     if len(edges) > 2 and edges[-1] > kmax * (1 + WIDTH):
         edges.pop()
-    return np.array(edges)
+    return np.array(edges) * (1 - EDGE)
 
 
 def every_wave_vector(high: float, sides: FloatArray) -> IntArray:

@@ -99,6 +99,7 @@ def test_the_same_seed_gives_the_same_estimates():
         (np.eye(16)[:, :2], 0, [1, 1, 1], {}, "high must be one number or 2"),
         (np.eye(16)[:, :2], 1, 0, {}, "low must be below high"),
         (np.eye(16)[:, :2], 0, math.inf, {}, "finite"),
+        (np.eye(16)[:, :2] * 1e-100, 0, 1e-100, {}, "in another unit"),
         (np.eye(16)[:, :2], 0, 0.5, {}, "coordinate 0 of point 0 is 1.0"),
         (np.full((16, 2), math.nan), 0, 1, {}, "nan"),
         ([["a", "b"]] * 16, 0, 1, {}, "real numbers"),

@@ -65,6 +65,35 @@ def test_nearest_distances_against_a_loop():
     assert found.smallest == min(math.dist(x[i], x[j]) for i in range(60) for j in range(i))
 
 
+def test_hidden_neighbours_against_a_loop():
+    """Kaplan and Meier: of the points seen up to a distance, those whose neighbour is farther, multiplied."""
+    sides = np.array([25.0, 1.0])
+    x = np.random.default_rng(1).random((25, 2)) * sides
+    met, lost = [], []
+    for i in range(25):
+        d = min(math.dist(x[i], x[j]) for j in range(25) if j != i)
+        b = min(*x[i], *(sides - x[i]))
+        (met if d < b else lost).append(min(d, b))
+    share, variance = 1.0, 0.0
+    for d in set(met):  # of two points that are one another's neighbours
+        left, here = sum(at >= d for at in met + lost), met.count(d)
+        share *= 1 - here / left
+        variance += here / (left * (left - here))
+    found = nearest_distances(*check_window(x, 0, sides))
+    assert (found.hidden, found.hidden_error) == pytest.approx((share, share * variance**0.5))
+    assert 0 < found.hidden < 1
+
+
+@pytest.mark.parametrize(("sides", "known"), [((300, 1), False), ((300, 4), True), ((30, 30, 1.2), False)])
+def test_a_window_too_narrow_for_the_nearest_neighbours_says_so(sides, known):
+    sides = np.array(sides, float)
+    x = np.random.default_rng(6).random((int(sides.prod()), len(sides))) * sides
+    scalars = in_window(x, 0, sides, nu_max=1).scalars
+    assert np.isfinite(scalars["mean_distance"]) == known
+    assert ("a wider window is needed" in scalars.reasons.get("mean_distance", "")) != known
+    assert np.isfinite(scalars["min_distance"])
+
+
 def test_coincident_points_have_distance_zero():
     x = np.repeat(np.random.default_rng(3).random((20, 2)), 2, axis=0)
     found = in_window(x, 0, 1)

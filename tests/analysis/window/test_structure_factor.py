@@ -13,7 +13,12 @@ from gbnbench.analysis.window.box import check_window
 from gbnbench.analysis.window.radial_structure_factor import radial_structure_factor
 from gbnbench.analysis.window.structure_factor import structure_factor, tapered
 from gbnbench.analysis.window.tapered_sums import GriddedSums, direct_sums
-from gbnbench.analysis.window.wave_vectors import every_wave_vector, in_half_space, some_wave_vectors
+from gbnbench.analysis.window.wave_vectors import (
+    bin_edges,
+    every_wave_vector,
+    in_half_space,
+    some_wave_vectors,
+)
 from gbnbench.core.errors import InputError
 from gbnbench.execution.progress import Progress
 
@@ -119,6 +124,22 @@ def test_unit_place_and_order_of_axes_change_nothing():
     np.testing.assert_allclose(turned["S"], table["S"], rtol=1e-3)
     np.testing.assert_allclose(turned["degrees"], table["degrees"], rtol=0.05)
     assert np.linalg.eigvalsh(covariance).min() > -1e-3 * np.trace(covariance)
+
+
+@pytest.mark.parametrize("unit", [1e-6, 0.1, 0.325, 3.0, 7.0, 1e9])
+@pytest.mark.parametrize("sides", [(512, 256), (64, 16), (2, 1, 1), (4, 4, 4, 8)])
+def test_bins_hold_the_same_wave_vectors_in_every_unit_and_order_of_axes(sides, unit):
+    """Wave vectors of such windows are exactly as long as the edges of bins are called."""
+    lengths = np.array(sides, float)
+
+    def lists(lengths):
+        edges = bin_edges(15 * math.pi / float(lengths.min()), lengths)
+        found = every_wave_vector(float(edges[-1]), lengths)
+        k = np.linalg.norm(2 * math.pi / lengths * found, axis=1)
+        return np.histogram(k, edges)[0].tolist()
+
+    assert lists(lengths * unit) == lists(lengths)
+    assert lists(lengths[::-1] * unit) == lists(lengths)
 
 
 def test_sampled_bins_agree_with_whole_ones(monkeypatch):
