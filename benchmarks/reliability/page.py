@@ -38,6 +38,10 @@ def page(table: Table) -> str:
     every = [one for result in table.values() for one in result.trials]
     faults = sum(one.count for one in every if one.verdict == FAULT)
     counts = f"{sum(one.count for one in every):,} trials, {faults or 'no'} fault{'s' * (faults != 1)}."
+    pieces = [piece.key for part in PARTS for piece in part.pieces(False)]
+    missing = sum(key not in table for key in pieces)
+    if missing:
+        counts += f" Not finished: {missing} of {len(pieces)} pieces are still to be tried."
     minutes = sum(result.seconds for result in table.values()) / 60
     time = f"; its pieces took\n{minutes:.0f} minutes one after the other, and two ran at a time"
     head = resources.files(PACKAGE).joinpath(HEAD).read_text(encoding="utf-8")
