@@ -22,7 +22,7 @@ KEPT = 1 << 22  # numbers of a matrix that is kept from call to call, in blocks
 KEPT_BLOCKS = 16
 # Frequencies evaluated first, in units of sqrt(n): the statistics of most sets need no more.
 FIRST_RANGE = 8.0
-# Some minutes on one core.
+# Some minutes on one core, where there is no OpenCL device.
 MOST_POINTS = 200_000
 
 

@@ -155,7 +155,7 @@ def markdown(frame: pd.DataFrame) -> str:
     """Write docs/hard_cases.md: what the columns mean, the table, what each method resolves."""
     lines = [HEAD.format(device=runtime().device.label, slack=SLACK, near=NEAR)]
     for (method, precision), part in frame.groupby(["method", "precision"], sort=False):
-        lines += ["", f"## {str(method).capitalize()}, {precision}", "", *_table(part)]
+        lines += ["", f"## {str(method)[0].upper()}{str(method)[1:]}, {precision}", "", *_table(part)]
     lines += ["", "## Smallest power known to 1%", "", "(200 rms)^2, the rms over scattered points.", ""]
     lines += ["| method | precision | n | rms error | power |", "| :-- | :-- | --: | --: | --: |"]
     lines += [
