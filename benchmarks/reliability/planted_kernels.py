@@ -3,32 +3,15 @@
 from __future__ import annotations
 
 import json
+import os
+import shutil
 import subprocess
-import sys
 from dataclasses import dataclass
+from pathlib import Path
 
-from gbnbench.benchmarks.reliability.commands import TIMEOUT
+import gbnbench
+from gbnbench.benchmarks.reliability.commands import GBNBENCH, TIMEOUT, empty_folder
 from gbnbench.benchmarks.reliability.trial import FAULT, Trials, shortened
-
-PROGRAM = """
-import importlib, sys
-runtime = importlib.import_module("gbnbench.opencl.runtime")
-right, met = runtime.source, []
-file, old, new = {plant!r}
-
-def spoilt(package, files):
-    text = right(package, files)
-    if file in files and old in text:
-        met.append(1)
-        text = text.replace(old, new, 1)
-    return text
-
-runtime.source = spoilt
-from gbnbench.cli import run
-code = run(["doctor", "--quick", "--json"])
-sys.exit(code if met else 99)
-"""
-MET_NOTHING = 99
 
 
 @dataclass(frozen=True)
@@ -38,7 +21,7 @@ class Plant:
     Attributes
     ----------
     file : str
-        Of the kernel.
+        Of the kernel; the same name stands once in the tree.
     right, wrong : str
         What stands there, and what is planted.
     kernel : str
@@ -95,15 +78,23 @@ PLANTS = {
     "strips too short": Plant(
         "gbn_strips.cl", "return gap * gap;", "return gap * gap * 4;", "gbn gradient, strips"
     ),
-    "a triangle too small": Plant(
-        "fpo.cl", "tree[2 * i] < tree", "tree[2 * i] > tree", "farthest-point sweep"
-    ),
+    "a triangle too small": Plant("fpo.cl", "tree[2 * i] < tree", "tree[2 * i] > tree", "farthest"),
     "an integrand's term": Plant(
         "gaussians.cl", "* c + shape[power]", "* c - shape[power]", "integrand, gaussians"
     ),
     "an integrand's image": Plant("gaussians.cl", "u - ((u + round) - round)", "u", "integrand, gaussians"),
     "an integrand's phase": Plant("waves.cl", "total += cosine;", "total += sine;", "integrand, waves"),
 }
+
+
+def spoil(plant: Plant, folder: Path) -> None:
+    """Copy the package into a folder, with the mistake in its kernel."""
+    package = folder / "gbnbench"
+    skipped = shutil.ignore_patterns("__pycache__", "*.npz", "*.pdf", "*.png")
+    shutil.copytree(Path(gbnbench.__file__).parent, package, ignore=skipped)
+    (kernel,) = package.rglob(f"kernels/{plant.file.lstrip('/')}")
+    text = kernel.read_text(encoding="utf-8")
+    kernel.write_text(text.replace(plant.right, plant.wrong, 1), encoding="utf-8")
 
 
 def planted_kernel(name: str) -> list[Trials]:
@@ -119,10 +110,13 @@ def planted_kernel(name: str) -> list[Trials]:
     list of Trials
     """
     plant = PLANTS[name]
-    program = PROGRAM.format(plant=(plant.file, plant.right, plant.wrong))
-    done = subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, timeout=TIMEOUT, check=False
-    )
+    with empty_folder() as folder:
+        spoil(plant, folder)
+        done = subprocess.run(
+            [*GBNBENCH, "doctor", "--quick", "--json"],
+            env={**os.environ, "PYTHONPATH": str(folder)},
+            cwd=folder, capture_output=True, text=True, timeout=TIMEOUT, check=False,
+        )  # fmt: skip
     tried = f"{name} ({plant.file.lstrip('/')})"
     try:
         checks = json.loads(done.stdout)
@@ -133,8 +127,6 @@ def planted_kernel(name: str) -> list[Trials]:
             )
         ]
     failed = sorted({check["kernel"] for check in checks if not check["passed"]})
-    if done.returncode == MET_NOTHING:
-        return [Trials("doctor", tried, "the plant met no kernel", FAULT)]
     if done.returncode != 1 or not any(kernel.startswith(plant.kernel) for kernel in failed):
         said = shortened(f"exit code {done.returncode}; named: {', '.join(failed)}")
         return [Trials("doctor", tried, "not noticed", FAULT, 1, said)]

@@ -48,9 +48,9 @@ def devices(as_json: bool) -> None:
 @options.device
 def doctor(quick: bool, as_json: bool, quiet: bool) -> None:
     """Test every kernel on your device against numpy."""
-    from gbnbench.doctor.kernel_checks import examine
+    from gbnbench.doctor.examination import examine_apart
 
-    examination = examine(quick=quick)
+    examination = examine_apart(quick)
     checks = [check for check in examination.checks if not (quiet and check.passed)]
     if as_json:
         rows = [

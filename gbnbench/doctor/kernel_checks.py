@@ -8,8 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gbnbench.analysis.integration.integrands.gaussians import GaussianSum
 from gbnbench.analysis.integration.integrands.waves import WaveSum
@@ -20,8 +22,7 @@ from gbnbench.analysis.spectrum.evaluators.gridded.product import griddable
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import AXES
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.shell_spectrum import shells
-from gbnbench.core.errors import GbnbenchError
-from gbnbench.core.torus import displacement
+from gbnbench.core.torus import FloatArray, displacement
 from gbnbench.doctor.numpy_references import (
     numpy_box_gradient,
     numpy_centred_square,
@@ -63,6 +64,10 @@ SQUARE = 1e-13  # error allowed of a discrepancy's square
 GRADIENT = {"double": 1e-11, "float": 1e-4}  # over the largest component
 
 
+IntArray: TypeAlias = NDArray[np.int64]
+KernelChecks: TypeAlias = "Callable[..., Iterator[Check]]"
+
+
 @dataclass(frozen=True)
 class Check:
     """One kernel at one size and precision against numpy.
@@ -90,46 +95,8 @@ class Check:
         return not self.fault and self.error <= self.allowed
 
 
-@dataclass(frozen=True)
-class Examination:
-    """All checks of one device.
-
-    Attributes
-    ----------
-    device : Device
-        Which.
-    checks : tuple of Check
-        In the order tried.
-    """
-
-    device: Device
-    checks: tuple[Check, ...]
-
-    @property
-    def trusted(self) -> bool:
-        """Whether every check passed."""
-        return all(check.passed for check in self.checks)
-
-    @property
-    def verdict(self) -> str:
-        """One sentence for the user."""
-        failed = sorted({check.kernel for check in self.checks if not check.passed})
-        if failed:
-            return (
-                f"do not trust {self.device.label}: {', '.join(failed)} departs from numpy. Choose another "
-                "device (gbnbench devices), or update its driver and run gbnbench doctor again"
-            )
-        precisions = " and ".join(sorted({check.precision for check in self.checks}))
-        return (
-            f"{self.device.label} can be trusted: {len(self.checks)} checks in {precisions} agree with numpy"
-        )
-
-
 def _periodogram(n: int, d: int, fmax: int, precision: PrecisionName) -> Iterator[Check]:
-    x = np.random.default_rng(n).random((n, d))
-    base = 2 * fmax + 1
-    f = np.stack(np.unravel_index(np.arange(base**d), (base,) * d), axis=1).astype(np.int64) - fmax
-    expected = np.sqrt(numpy_power(x, f))
+    x, f, expected = _exact(n, d, fmax)
     size = f"n={n} d={d} F={fmax}"
     found = {
         "two-group product": periodogram(x, fmax, precision, method="product").power.ravel(),
@@ -142,12 +109,23 @@ def _periodogram(n: int, d: int, fmax: int, precision: PrecisionName) -> Iterato
     for kernel, power in found.items():
         error = float(np.max(np.abs(np.sqrt(power) - expected)))
         yield Check(kernel, size, precision, error, AMPLITUDE[precision])
-    if d > 1:
-        streamed = shells(x, fmax, precision, corners=True)
-        _, label = np.unique((f**2).sum(axis=1), return_inverse=True)
-        mean = np.bincount(label, expected**2) / np.bincount(label)
-        error = float(np.max(np.abs(np.sqrt(streamed.power) - np.sqrt(mean[1:]))))
-        yield Check("shells", size, precision, error, AMPLITUDE[precision])
+
+
+def _shells(n: int, d: int, fmax: int, precision: PrecisionName) -> Iterator[Check]:
+    x, f, expected = _exact(n, d, fmax)
+    streamed = shells(x, fmax, precision, corners=True)
+    _, label = np.unique((f**2).sum(axis=1), return_inverse=True)
+    mean = np.bincount(label, expected**2) / np.bincount(label)
+    error = float(np.max(np.abs(np.sqrt(streamed.power) - np.sqrt(mean[1:]))))
+    yield Check("shells", f"n={n} d={d} F={fmax}", precision, error, AMPLITUDE[precision])
+
+
+def _exact(n: int, d: int, fmax: int) -> tuple[FloatArray, IntArray, FloatArray]:
+    """Points, the frequencies of a cube, and the roots of their power by numpy."""
+    x = np.random.default_rng(n).random((n, d))
+    base = 2 * fmax + 1
+    f = np.stack(np.unravel_index(np.arange(base**d), (base,) * d), axis=1).astype(np.int64) - fmax
+    return x, f, np.sqrt(numpy_power(x, f))
 
 
 def _energy(n: int, d: int, sigma: float, precision: str) -> Iterator[Check]:
@@ -215,25 +193,27 @@ def _integrands(n: int, d: int, precision: PrecisionName) -> Iterator[Check]:
     yield Check("integrand, waves", f"n={n} d={d}", precision, error, VALUE)
 
 
-def examine(quick: bool = False) -> Examination:
-    """Try every kernel on the chosen device.
+def planned_checks(quick: bool, device: Device) -> list[tuple[KernelChecks, tuple[float, ...], str]]:
+    """List what is tried on a device.
 
     Parameters
     ----------
     quick : bool
         Fewer sizes: a second or two.
+    device : Device
+        In double it is tried where it computes so.
 
-    Raises
-    ------
-    DeviceError
-        If there is no device.
+    Returns
+    -------
+    list of (function, case, precision)
+        ``function(*case, precision)`` yields checks.
     """
-    device = choose()
-    checks: list[Check] = []
-    precisions = [p for p in ("double", "float") if (p == "float" or device.has_double)]
-    for precision in precisions:
-        work: list[tuple[Callable[..., Iterator[Check]], tuple[float, ...]]] = [
-            *((_periodogram, case) for case in (QUICK_PERIODOGRAMS if quick else PERIODOGRAMS)),
+    planned: list[tuple[KernelChecks, tuple[float, ...], str]] = []
+    cubes = QUICK_PERIODOGRAMS if quick else PERIODOGRAMS
+    for precision in [p for p in ("double", "float") if (p == "float" or device.has_double)]:
+        work: list[tuple[KernelChecks, tuple[float, ...]]] = [
+            *((_periodogram, case) for case in cubes),
+            *((_shells, case) for case in cubes if case[1] > 1),
             *((_energy, case) for case in (QUICK_ENERGIES if quick else ENERGIES)),
             *((_box, case) for case in (QUICK_BOXES if quick else BOXES)),
         ]
@@ -242,9 +222,5 @@ def examine(quick: bool = False) -> Examination:
             work.extend((_pairs, case) for case in (QUICK_PAIRS if quick else PAIRS))
             work.append((_farthest_points, (QUICK_SWEEP if quick else SWEEP,)))
             work.extend((_discrepancies, case) for case in (QUICK_DISCREPANCIES if quick else DISCREPANCIES))
-        for check, case in work:
-            try:
-                checks.extend(check(*case, precision))
-            except (GbnbenchError, RuntimeError) as error:
-                checks.append(Check(check.__name__.strip("_"), str(case), precision, np.inf, 0.0, str(error)))
-    return Examination(device, tuple(checks))
+        planned.extend((function, case, precision) for function, case in work)
+    return planned

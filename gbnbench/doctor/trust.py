@@ -5,7 +5,7 @@ from __future__ import annotations
 import gbnbench
 from gbnbench.core.cache_folder import recall, remember
 from gbnbench.core.errors import DeviceError
-from gbnbench.doctor.kernel_checks import examine
+from gbnbench.doctor.examination import examine
 from gbnbench.opencl import runtime
 
 

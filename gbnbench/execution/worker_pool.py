@@ -13,7 +13,7 @@ import sys
 import tempfile
 import threading
 import traceback
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any, Self
@@ -59,12 +59,14 @@ class Finished:
 
 
 class Pool:
-    """Run module-level functions in child processes, each with one thread.
+    """Run module-level functions in child processes, each with one thread unless told otherwise.
 
     Parameters
     ----------
     jobs : int
         Largest number of children; each starts when a task needs it.
+    environment : mapping of str
+        Variables that a child gets beside those of this process.
 
     Notes
     -----
@@ -73,7 +75,8 @@ class Pool:
     thread that knows its task, and a child whose standard input closes ends at once.
     """
 
-    def __init__(self, jobs: int) -> None:
+    def __init__(self, jobs: int, environment: Mapping[str, str] = ONE_THREAD) -> None:
+        self._environment = {**environment}
         self._todo: queue.SimpleQueue[tuple[Hashable, bytes] | None] = queue.SimpleQueue()
         self._done: queue.SimpleQueue[Finished] = queue.SimpleQueue()
         self._children: set[subprocess.Popen[bytes]] = set()
@@ -165,7 +168,7 @@ class Pool:
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=complaints,
-                env={**os.environ, **ONE_THREAD, DEVICE_VARIABLE: self._device},
+                env={**os.environ, **self._environment, DEVICE_VARIABLE: self._device},
             )
             self._children.add(child)
         return child

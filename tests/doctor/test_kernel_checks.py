@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 
 from gbnbench.core import cache_folder
 from gbnbench.core.errors import DeviceError
-from gbnbench.doctor import kernel_checks, numpy_references, trust
+from gbnbench.doctor import examination, kernel_checks, numpy_references, trust
 from gbnbench.opencl import program
 from tests.oracles.discrepancy import squares
 from tests.oracles.power import direct_power
@@ -62,9 +63,32 @@ def test_a_wrong_count_of_pairs_is_named(monkeypatch):
 
 @pytest.mark.slow
 def test_this_device_passes_in_full():
-    examination = kernel_checks.examine()
-    assert examination.trusted, [c for c in examination.checks if not c.passed]
-    assert "can be trusted" in examination.verdict
+    found = examination.examine_apart()
+    assert found.trusted, [c for c in found.checks if not c.passed]
+    assert "can be trusted" in found.verdict
+
+
+def _raises(n, precision):
+    yield kernel_checks.Check("sound", f"n={n}", precision, 0.0, 1.0)
+    raise ValueError("shapes (3,) and (4,)")
+
+
+def _dies(n, precision):
+    os.abort()
+    yield n
+
+
+def test_a_kernel_that_breaks_its_check_or_the_process_is_named(monkeypatch):
+    planned = [(_dies, (7,), "double"), (_raises, (8,), "float"), (kernel_checks._pairs, (30, 2), "double")]
+    monkeypatch.setattr(examination, "planned_checks", lambda *_: planned)
+    died, raised, sound = examination.examine_apart().checks
+    assert (died.kernel, died.size, died.passed) == ("dies", "7", False)
+    assert died.fault.startswith("its process was killed by SIGABRT")
+    assert (raised.kernel, raised.precision, raised.passed) == ("raises", "float", False)
+    assert raised.fault == "ValueError: shapes (3,) and (4,)"
+    assert sound.passed
+    monkeypatch.setattr(examination, "planned_checks", lambda *_: planned[1:])
+    assert "raises departs from numpy" in examination.examine().verdict
 
 
 def test_a_wrong_kernel_is_named_and_not_trusted(monkeypatch, tmp_path):
@@ -97,6 +121,6 @@ def test_the_doctor_runs_every_kernel_in_the_tree(monkeypatch):
         launch(self, name, *arguments)
 
     monkeypatch.setattr(program.Program, "run", noted)
-    assert kernel_checks.examine(quick=True).trusted
+    assert examination.examine(quick=True).trusted
     files = [*ROOT.glob("*/kernels/*.cl"), *ROOT.glob("gbnbench/opencl/kernels/*.cl")]
     assert {name for path in files for name in KERNELS.findall(path.read_text())} - NO_RESULTS <= run
