@@ -56,5 +56,9 @@ class DeviceError(GbnbenchError, RuntimeError):
     """No OpenCL device can do the work; the text says what to install or choose."""
 
 
+class NoRoomError(DeviceError):
+    """A device may be there, but no folder takes the files of its compiled kernels."""
+
+
 class UnfinishedError(GbnbenchError):
     """Some pieces of the work failed; the rest is kept."""

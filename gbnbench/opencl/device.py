@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from gbnbench.core.errors import DeviceError
+from gbnbench.core.errors import DeviceError, NoRoomError
 from gbnbench.core.writable_caches import lead_caches
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ def import_pyopencl() -> Any:
         if "pyopencl" not in sys.modules:
             lead_caches()
     except OSError as error:
-        raise DeviceError(
+        raise NoRoomError(
             f"no folder takes the files of compiled kernels, up to 1 MiB ({error}). Make room, raise the "
             "limit on the size of files (ulimit -f) or set GBNBENCH_CACHE to a folder that can be written"
         ) from None
@@ -140,9 +140,18 @@ def devices() -> tuple[Device, ...]:
 
 
 def devices_present() -> bool:
-    """Whether there is any device; where there is none, spectra are left to numpy."""
+    """Whether there is any device; where there is none, spectra are left to numpy.
+
+    Raises
+    ------
+    NoRoomError
+        If kernels cannot be compiled for want of room: numpy's last digits would differ from those of a
+        worker, or of an earlier part of the same run, that had room.
+    """
     try:
         return bool(devices())
+    except NoRoomError:
+        raise
     except DeviceError:
         return False
 

@@ -6,7 +6,7 @@ from gbnbench.core.errors import DeviceError
 from gbnbench.doctor.trust import ensure_trusted
 from gbnbench.execution.progress import Progress
 from gbnbench.execution.worker_pool import Pool
-from gbnbench.opencl import choose
+from gbnbench.opencl import choose, devices_present
 
 
 def prove_device_if_any(pool: Pool, progress: Progress, total: int, done: int) -> None:
@@ -26,10 +26,9 @@ def prove_device_if_any(pool: Pool, progress: Progress, total: int, done: int) -
     DeviceError
         If there is a device and it cannot be used.
     """
-    try:
-        choose()
-    except DeviceError:
+    if not devices_present():
         return
+    choose()
     progress.start(total, done, "checking the device (kernels of a new one are compiled, once)")
     pool.submit(None, ensure_trusted)
     if failure := pool.next().failure:

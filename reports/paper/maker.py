@@ -11,10 +11,10 @@ from typing import Any
 
 from gbnbench import __version__
 from gbnbench.core.atomic_write import write_whole
-from gbnbench.core.errors import DeviceError, GbnbenchError, UnfinishedError
+from gbnbench.core.errors import GbnbenchError, UnfinishedError
 from gbnbench.execution.progress import Progress
 from gbnbench.io import data_files
-from gbnbench.opencl import choose
+from gbnbench.opencl import choose, devices_present
 from gbnbench.reports import style
 from gbnbench.reports.comparison.figure_files import pdf, png
 from gbnbench.reports.paper.data import FigureData, folder_name, obtain
@@ -107,10 +107,7 @@ class FigureFolder(ResumableFolder):
 
 def _device() -> str:
     """Name the device, or say that there is none: some figures are of closed forms alone."""
-    try:
-        return str(choose().describe().get("name", "an OpenCL device"))
-    except DeviceError:
-        return "no OpenCL device"
+    return choose().describe()["name"] if devices_present() else "no OpenCL device"
 
 
 def _make_all(

@@ -14,11 +14,11 @@ from typing import Any
 
 from gbnbench import __version__
 from gbnbench.analysis.integration.integrands.registry import find as find_family
-from gbnbench.core.errors import DeviceError, InputError, RefusalError
+from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.settings import specification
 from gbnbench.core.sides import as_sides
 from gbnbench.execution.progress import Progress
-from gbnbench.opencl import choose
+from gbnbench.opencl import choose, devices_present
 from gbnbench.runs import comparison_folder
 from gbnbench.runs.provenance import versions
 from gbnbench.runs.resumable import run_tasks
@@ -200,7 +200,4 @@ def run_integration_study(
 
 def _device() -> dict[str, Any] | str:
     """Name the device, or what stands in for it: spectra and integrands have forms in numpy."""
-    try:
-        return dict(choose().describe())
-    except DeviceError:
-        return "numpy"
+    return dict(choose().describe()) if devices_present() else "numpy"
