@@ -14,7 +14,8 @@ from hypothesis import strategies as st
 
 from gbnbench.benchmarks.reliability.strict_arrays import strict_npy, strict_rps
 from gbnbench.benchmarks.reliability.strict_formats import strict_eps
-from gbnbench.benchmarks.reliability.strict_text import DECIMAL, strict_text
+from gbnbench.benchmarks.reliability.strict_text import strict_text
+from gbnbench.benchmarks.reliability.strict_words import DECIMAL
 from gbnbench.core.errors import FormatError
 from gbnbench.io.points import PointSets, ReadingOptions, read, read_sets
 from tests.io.damage import DAMAGE, FUZZ, damaged, outcome, verdict, written

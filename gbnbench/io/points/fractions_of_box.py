@@ -44,7 +44,7 @@ def fractions_of_box(path: Path, content: FileContent, options: ReadingOptions) 
         dimensions = sorted({one.points.shape[1] for one in content.sets})
         raise FormatError(path, f"its sets have different dimensions: {dimensions}")
     for one in content.sets:
-        _refuse_transposed(path, one, options)
+        _refuse_transposed(path, one)
     box = _box(path, content.box, options, d)
     toroidal = None if box is None or box.periodic is None else all(box.periodic)
     edge = 0.0 if box is None or toroidal else float(np.nextafter(1, 0))
@@ -52,14 +52,14 @@ def fractions_of_box(path: Path, content: FileContent, options: ReadingOptions) 
     return PointSets(sets, None if box is None else box.sides, None if box is None else box.low, toroidal)
 
 
-def _refuse_transposed(path: Path, one: Coordinates, options: ReadingOptions) -> None:
+def _refuse_transposed(path: Path, one: Coordinates) -> None:
+    """Refuse a matrix that is likely transposed, where nothing says that it is not."""
     n, d = one.points.shape
-    if n <= FEW and d >= MANY and options.columns is None:
+    if one.bare and n <= FEW and d >= MANY:
         raise FormatError(
             path,
             f"{one.where}{n} point{'s' * (n != 1)} of {d} dimensions: is it transposed? Rows are points and "
-            f"columns coordinates; save its transpose, or take columns by name or number, such as 1,2, "
-            f"with --columns",
+            f"columns coordinates; save its transpose, or say that its rows are points, by --columns 1-{d}",
         )
 
 

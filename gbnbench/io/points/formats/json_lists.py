@@ -83,7 +83,7 @@ def _points(path: Path, rows: list[Any], columns: tuple[str, ...] | None, where:
     names: tuple[str, ...] = ()
     if isinstance(rows[0], dict):
         names = tuple(rows[0])
-        if columns is None and (fault := fault_of_names([name.lower() for name in names])) is not None:
+        if columns is None and (fault := fault_of_names(names)) is not None:
             raise FormatError(path, f"{where}point 0: {fault}")
     width = len(rows[0]) if isinstance(rows[0], (list, dict)) else 0
     if width == 0:

@@ -14,7 +14,7 @@ from gbnbench.core.errors import FormatError, InputError
 from gbnbench.io.points.columns import choose
 from gbnbench.io.points.formats.axes import XYZ, refuse_plane
 from gbnbench.io.points.formats.format import Format
-from gbnbench.io.points.number_parser import shown
+from gbnbench.io.points.literals import shown
 from gbnbench.io.points.point_file import PointFile
 from gbnbench.io.points.point_sets import Coordinates, FileContent, PointSets
 from gbnbench.io.points.text_lines import numbers_of
