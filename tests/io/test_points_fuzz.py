@@ -191,7 +191,7 @@ OPTIONS = [
     ReadingOptions(columns=("x", "y")),
     ReadingOptions(columns=("2", "1")),
     ReadingOptions(period=(2.0,)),
-    ReadingOptions(bounds=(-1.0, 2.0), wrap=True),
+    ReadingOptions(bounds=(-1.0, 2.0) * 3, wrap=True),
     ReadingOptions(array="points"),
     ReadingOptions(raw="float32,3"),
     ReadingOptions(wrap=True),

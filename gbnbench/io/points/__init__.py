@@ -52,7 +52,7 @@ _DEFAULT = ReadingOptions()
 def load(
     path: str | os.PathLike[str],
     *,
-    columns: str | Sequence[str] | None = None,
+    columns: str | Sequence[str] | Sequence[int] | None = None,
     raw: str | None = None,
     array: str | None = None,
     period: float | str | Sequence[float] | None = None,
@@ -66,7 +66,7 @@ def load(
     ----------
     path : path-like
         A file in any of the formats that ``gbnbench.io.points`` tells of.
-    columns : str or sequence of str, optional
+    columns : str, or sequence of str or int, optional
         Columns that are coordinates, in their order: ``"x,y"``, or numbers counted from 1 where the file has
         no names, such as ``"1,2"`` or ``"1-16"``.
     raw : str, optional
@@ -77,7 +77,7 @@ def load(
     period : float or sequence of float, optional
         Sides of the torus in the file's unit, such as ``(512, 512)`` for pixels; one number for all axes.
     bounds : sequence of float, optional
-        Ends of each axis, ``(0, 512, 0, 256)`` or ``((0, 512), (0, 256))``; one pair for all axes.
+        Ends of each axis, ``(0, 512, 0, 256)`` or ``((0, 512), (0, 256))``.
     wrap : bool
         Bring points outside into the box by whole sides.
     max_bytes : int, optional

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from gbnbench.core.errors import FormatError, InputError
 from gbnbench.io.points.columns import choose
-from gbnbench.io.points.formats.axes import XYZ, refuse_plane
+from gbnbench.io.points.formats.axes import DIMENSION, XYZ, is_plane, refuse_plane
 from gbnbench.io.points.formats.format import Format
 from gbnbench.io.points.literals import shown
 from gbnbench.io.points.point_file import PointFile
@@ -26,6 +26,7 @@ _TYPES = {
 }  # fmt: skip
 _ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 _END = re.compile(rb"(?:^|\n|\r)end_header[ \t]*(\r\n|\n|\r)")
+_SPATIAL = re.compile(rb"[\n\r]comment %b 3[ \t]*[\n\r]" % DIMENSION.encode())
 _MOST_HEADER = 1 << 20
 
 
@@ -52,6 +53,8 @@ def _read(file: PointFile) -> FileContent:
     if at is None:
         raise FormatError(path, "a PLY file without element vertex: it holds no points")
     vertex, last = elements[at], at == len(elements) - 1
+    if vertex.count < 1:
+        raise FormatError(path, "element vertex 0: it holds no points")
     for element in elements[: at + 1]:
         if None in element.properties.values() and (element is vertex or order):
             said = f"lists in its element {element.name} are not read: write x, y, z of the vertices alone"
@@ -72,7 +75,8 @@ def _read(file: PointFile) -> FileContent:
     else:
         before = sum(element.count for element in elements[:at])
         found = _text(path, data[end.end() :], header, before, vertex, kept, last)
-    refuse_plane(path, found.points, columns)
+    if not _SPATIAL.search(data, 0, end.end()):
+        refuse_plane(path, found.points, columns)
     return FileContent([found])
 
 
@@ -109,8 +113,6 @@ def _binary(path: Path, body: bytes, order: str, elements: list[_Element], last:
     begin = sum(e.count * t.itemsize for e, t in zip(elements[:-1], types[:-1], strict=True))
     vertex, dtype = elements[-1], types[-1]
     need = begin + vertex.count * dtype.itemsize
-    if vertex.count < 1:
-        raise FormatError(path, "the file holds no points")
     if len(body) < need or (last and len(body) > need):
         said = f"{vertex.count} vertices need {need} bytes after the header, and {len(body)} are there"
         raise FormatError(path, f"{said}: truncated or damaged")
@@ -122,7 +124,7 @@ def _text(
 ) -> Coordinates:  # fmt: skip
     lines = re.split(rb"\r\n|\n|\r", body.rstrip())
     rows = lines[before : before + vertex.count]
-    if vertex.count < 1 or len(rows) < vertex.count or not body.strip():
+    if len(rows) < vertex.count or not body.strip():
         here = len(rows) if body.strip() else 0
         raise FormatError(path, f"the header says {vertex.count} vertices, and the file ends after {here}")
     if last and len(lines) > before + vertex.count:
@@ -146,7 +148,8 @@ def _write(x: PointSets) -> bytes:
     if d > 3:
         raise InputError(f"a PLY file holds points of at most three dimensions; got d={d}")
     head = [
-        "ply", "format ascii 1.0", f"element vertex {len(x.sets[0])}",
+        "ply", "format ascii 1.0", *[f"comment {DIMENSION} 3"] * is_plane(x.sets[0]),
+        f"element vertex {len(x.sets[0])}",
         *(f"property double {name}" for name in XYZ[:d]), "end_header",
     ]  # fmt: skip
     rows = [" ".join(map(repr, row)) for row in x.sets[0].tolist()]
