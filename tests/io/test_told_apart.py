@@ -55,6 +55,34 @@ def test_refuses(tmp_path: Path, name: str, data: bytes | str, options: ReadingO
     assert "\n" not in str(caught.value)
 
 
+def ply_of_faces(order: str, places: str, tail: bytes = b"") -> bytes:
+    """A binary PLY of two vertices with a list of two faces, in front of them or behind."""
+    byte = "<" if order == "little" else ">"
+    faces = b"".join(
+        bytes([len(face)]) + np.array(face, f"{byte}i4").tobytes() for face in ([0, 1, 1], [0, 1, 1, 0])
+    )
+    vertices = np.array([[0.5, 0.25, 0.125], [0.125, 0.75, 0.5]], f"{byte}f4").tobytes()
+    heads = {
+        "v": "element vertex 2\nproperty float x\nproperty float y\nproperty float z\n",
+        "f": "element face 2\nproperty list uchar int vertex_indices\n",
+    }
+    head = f"ply\nformat binary_{order}_endian 1.0\n{''.join(heads[k] for k in places)}end_header\n"
+    return head.encode() + b"".join({"v": vertices, "f": faces}[k] for k in places) + tail
+
+
+@pytest.mark.parametrize("order", ["little", "big"])
+@pytest.mark.parametrize("places", ["vf", "fv"])
+def test_faces_of_a_binary_ply_are_left_aside_and_fill_the_file(
+    tmp_path: Path, order: str, places: str
+) -> None:
+    path = put(tmp_path, "a.ply", ply_of_faces(order, places))
+    assert np.array_equal(load(path), [[0.5, 0.25, 0.125], [0.125, 0.75, 0.5]])
+    with pytest.raises(FormatError, match="need 54 bytes after the header, and 55 are there: truncated"):
+        load(put(tmp_path, "b.ply", ply_of_faces(order, places, b"\0")))
+    with pytest.raises(FormatError, match="truncated or damaged"):
+        load(put(tmp_path, "c.ply", ply_of_faces(order, places)[:-1]))
+
+
 def test_packed_numbers_without_a_header_are_unpacked(tmp_path: Path) -> None:
     expected = np.frombuffer(FLOATS, "<f4").reshape(-1, 2)
     for name, data in (("a.bin", FLOATS), ("a.bin.gz", gzip.compress(FLOATS)), ("b", bz2.compress(FLOATS))):
