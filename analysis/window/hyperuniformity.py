@@ -108,8 +108,9 @@ def _no_fit(low: pd.DataFrame) -> str:
             f"up to nu = {BAND:g} S is no more than what side lobes of the tapers bring, from "
             f"{hidden['leakage'].min():.1g} on: it lies below, and only a larger window can tell how far"
         )
+    count = int(low["resolved"].sum())
     return (
-        f"the window resolves {int(low['resolved'].sum())} bins of S up to nu = {BAND:g}, where a fit needs "
+        f"the window resolves {count} bin{'s' * (count != 1)} of S up to nu = {BAND:g}, where a fit needs "
         f"{LEAST_BINS}: more points are needed"
     )
 

@@ -12,7 +12,8 @@ from gbnbench.benchmarks.reliability.damage import DAMAGES, bomb
 from gbnbench.benchmarks.reliability.seed_files import FORMATS, SeedFile, seed_files
 from gbnbench.benchmarks.reliability.strict_arrays import strict_rps
 from gbnbench.benchmarks.reliability.strict_packed import PACKERS, unpacking
-from gbnbench.benchmarks.reliability.strict_text import NoPointsError, Sets, UndecidedError, strict_text
+from gbnbench.benchmarks.reliability.strict_text import strict_text
+from gbnbench.benchmarks.reliability.strict_words import NoPointsError, Sets, UndecidedError
 from gbnbench.benchmarks.reliability.trial import FAULT, Trials, shortened, summed
 from gbnbench.benchmarks.reliability.watched_reading import Reading, watched_reading
 from gbnbench.core.atomic_write import write_whole

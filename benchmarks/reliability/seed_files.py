@@ -19,7 +19,8 @@ from gbnbench.benchmarks.reliability.strict_formats import (
     strict_xyz,
 )
 from gbnbench.benchmarks.reliability.strict_packed import PACKERS, unpacking
-from gbnbench.benchmarks.reliability.strict_text import Sets, strict_text
+from gbnbench.benchmarks.reliability.strict_text import strict_text
+from gbnbench.benchmarks.reliability.strict_words import Sets
 from gbnbench.io.points import PointSets
 from gbnbench.io.points.writer import WRITTEN
 

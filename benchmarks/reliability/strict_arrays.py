@@ -10,7 +10,7 @@ import zipfile
 
 import numpy as np
 
-from gbnbench.benchmarks.reliability.strict_text import (
+from gbnbench.benchmarks.reliability.strict_words import (
     NoPointsError,
     Sets,
     UndecidedError,

@@ -12,7 +12,7 @@ import re
 import struct
 from typing import Any
 
-from gbnbench.benchmarks.reliability.strict_text import (
+from gbnbench.benchmarks.reliability.strict_words import (
     DECIMAL,
     NoPointsError,
     Sets,

@@ -7,7 +7,7 @@ import gzip
 import lzma
 from collections.abc import Callable
 
-from gbnbench.benchmarks.reliability.strict_text import NoPointsError, Sets, known, need
+from gbnbench.benchmarks.reliability.strict_words import NoPointsError, Sets, known, need
 
 PACKERS: dict[str, Callable[[bytes], bytes]] = {
     ".gz": lambda data: gzip.compress(data, mtime=0),

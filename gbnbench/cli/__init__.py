@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
+import shlex
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 
 import click
 
@@ -113,7 +115,7 @@ def run(arguments: Sequence[str]) -> int:
         click.echo(error.format_message())
         return BAD
     except click.ClickException as error:
-        return _fail(error.format_message(), error.exit_code)
+        return _fail(error.format_message() + _mistaken_file(error, arguments), error.exit_code)
     except (KeyboardInterrupt, click.Abort) as error:
         return _fail(f"stopped; {error}" if str(error) else "stopped", STOPPED)
     except GbnbenchError as error:
@@ -129,6 +131,14 @@ def run(arguments: Sequence[str]) -> int:
     except OSError as error:
         return _fail(f"{error.filename}: {error.strerror}" if error.filename else str(error), BAD)
     return 0
+
+
+def _mistaken_file(error: click.ClickException, arguments: Sequence[str]) -> str:
+    """Tell how to name a file that was taken for an option, since its name begins with a dash."""
+    if not isinstance(error, click.NoSuchOption):
+        return ""
+    file = next((word for word in arguments if word.startswith("-") and Path(word).is_file()), None)
+    return "" if file is None else f" Of the file of this name, write {shlex.quote(f'./{file}')}."
 
 
 def _tell_of_fonts() -> None:

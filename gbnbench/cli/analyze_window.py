@@ -56,7 +56,9 @@ def analyze_window(
         try:
             reading = replace(reading, bounds=reading_options(bounds=window).bounds)
         except InputError as error:
-            raise InputError(f"--window: {error}, or {OWN!r} for the box that the file tells") from None
+            said = str(error).removeprefix("bounds ")
+            raise InputError(f"--window {said}, or {OWN!r} for the box that the file tells") from None
+    reading = replace(reading, window=True)
     listed: list[dict[str, Any]] = []
     failed = False
     drawn: list[tuple[Path, int, FloatArray, WindowEstimates]] = []

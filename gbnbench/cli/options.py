@@ -101,6 +101,15 @@ def out_folder(text: str, default: str | None = None) -> Callable[[F], F]:
     )  # fmt: skip
 
 
+class _NewFile(click.Path):
+    """A path of a file, which does not end as that of a folder does: ``Path`` would drop the end."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        if isinstance(value, str) and value.endswith(("/", os.sep)):
+            self.fail(f"{value!r} ends as a folder does: name a file", param, ctx)
+        return super().convert(value, param, ctx)
+
+
 def out_file(text: str, *, required: bool = False) -> Callable[[F], F]:
     """Return ``-o/--out`` of a file.
 
@@ -117,7 +126,7 @@ def out_file(text: str, *, required: bool = False) -> Callable[[F], F]:
         The decorator of a command.
     """
     return click.option(
-        "-o", "--out", metavar="FILE", type=click.Path(path_type=Path, dir_okay=False), required=required,
+        "-o", "--out", metavar="FILE", type=_NewFile(path_type=Path, dir_okay=False), required=required,
         help=text,
     )  # fmt: skip
 

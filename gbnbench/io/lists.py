@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from gbnbench.core.errors import FormatError
 from gbnbench.core.torus import FloatArray
 from gbnbench.io.points.file_format import look, reason, size_limit
-from gbnbench.io.points.number_parser import NUMBER, shown
+from gbnbench.io.points.literals import NUMBER, shown
 
 _INTEGER = re.compile(rb"[+-]?[0-9]+")
 _NPY = b"\x93NUMPY"

@@ -115,7 +115,8 @@ def _difference(stored: Mapping[str, Any], wanted: Mapping[str, Any]) -> str:
         if labels[0] != labels[1]:
             return f"sources are {', '.join(labels[0])} there, {', '.join(labels[1])} here"
         for a, b in zip(old, new, strict=True):
-            for field in {**a, **b}:
+            # the sum of files is of how they are read too, which says more
+            for field in {"reading": None, **a, **b}:
                 if a.get(field) != b.get(field):
                     return f"{field} of {b['label']} is {a.get(field)!r} there, {b.get(field)!r} here"
     return "unknown"

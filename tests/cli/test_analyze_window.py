@@ -47,7 +47,7 @@ def test_json_has_all_and_only_finite_numbers(pixels):
 def test_a_picture_is_written_for_each_set(tmp_path):
     path = tmp_path / "sets.npy"
     np.save(path, np.random.default_rng(1).random((2, 30, 2)))
-    result = _run(path, "--window", "0,1", "-o", tmp_path / "out.png")
+    result = _run(path, "--window", "0,1,0,1", "-o", tmp_path / "out.png")
     assert result.exit_code == 0, result.output
     assert [p.name for p in sorted(tmp_path.glob("*.png"))] == ["out-0.png", "out-1.png"]
 
@@ -67,6 +67,24 @@ def test_a_file_without_a_box_says_so(tmp_path):
     result = _run(tmp_path / "unit.txt", "--window", "file")
     assert result.exit_code == 2
     assert "tells no box" in result.output
+
+
+def test_errors_of_the_box_speak_of_the_window(tmp_path):
+    boxed, pixels = tmp_path / "box.edat", tmp_path / "pixels.txt"
+    boxed.write_text("0 0\n3 2\n0\n0.5 0.5\n")
+    pixels.write_text("12.5 7.5\n1.5 2.5\n")
+    for path, window, said in (
+        (boxed, "0,12,0,20", "which --window contradicts; --window file takes that"),
+        (pixels, "file", "no box is told: give the window's ends for 'file', such as 0,512,0,256"),
+        (pixels, "0,20", "--window 0,20 is of 1 axis, and its points have d=2: write 0,20,0,20 for all"),
+        (pixels, "0,5,0,9", "coordinate 12.5 is not in [0, 5], the window; give one that holds all points"),
+    ):
+        result = _run(path, "--window", window)
+        assert result.exit_code == 2
+        assert said in result.output
+        assert "--bounds" not in result.output
+    result = _run(pixels, "--window", "abc")
+    assert "such as 0,512,0,512; got 'abc', or 'file' for the box" in str(result.exception)
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from gbnbench.cli import TASKS, gbnbench
+from gbnbench.cli import TASKS, gbnbench, run
 from gbnbench.cli.json_text import json_text
 from gbnbench.io.points import save
 
@@ -114,3 +114,18 @@ def test_json_does_not_go_with_a_file(tmp_path):
 def test_devices_as_json_mark_the_one_in_use():
     rows = json.loads(CliRunner().invoke(gbnbench, ["devices", "--json"]).stdout)
     assert sum(row["used"] for row in rows) == 1
+
+
+def test_a_file_whose_name_begins_with_a_dash_is_told_from_an_option(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "-x.txt").write_text("0.5 0.25\n")
+    assert run(["analyze", "-x.txt"]) == 2
+    assert "No such option '-x'. Of the file of this name, write ./-x.txt." in capsys.readouterr().err
+    assert run(["analyze", "-y.txt"]) == 2
+    assert "Of the file" not in capsys.readouterr().err
+
+
+def test_a_folder_is_not_written_as_a_file(tmp_path, capsys):
+    assert run(["generate", "random", "-n", "4", "-o", f"{tmp_path}/dots.txt/"]) == 2
+    assert "dots.txt/' ends as a folder does: name a file" in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())

@@ -113,7 +113,7 @@ def test_a_source_is_another_when_read_otherwise(pixels: tuple[Path, Path]) -> N
         for reading in (
             ReadingOptions(period=(512.0,)),
             ReadingOptions(period=(1024.0,)),
-            ReadingOptions(bounds=(0.0, 512.0)),
+            ReadingOptions(bounds=(0.0, 512.0, 0.0, 512.0)),
         )
     )
     assert one.identity()["reading"] == {"period": [512.0]}

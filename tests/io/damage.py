@@ -10,7 +10,7 @@ import numpy as np
 from hypothesis import settings
 from hypothesis import strategies as st
 
-from gbnbench.benchmarks.reliability.strict_text import NoPointsError, Sets
+from gbnbench.benchmarks.reliability.strict_words import NoPointsError, Sets
 from gbnbench.core.errors import FormatError
 from gbnbench.io.points import read, save
 

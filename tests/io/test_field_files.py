@@ -30,6 +30,7 @@ RIGHT = {
     "f01_excel_de.csv": X.round(6),
     "f04_pandas_index.csv": X,
     "f06_r_writetable.txt": X,
+    "f09_trailing_comma.csv": X,
     "f10_quoted.csv": X,
     "f22_ply.ply": numbers("f22_ply.ply"),
     "f24_json.json": X,
@@ -41,14 +42,12 @@ RIGHT = {
 REFUSED = {
     "f07_weight_col.csv": ", line 1: column 'w' is no coordinate; the names are x, y, z or x0, x1, ..., "
     "once each; --columns x,y takes those wanted",
-    "f09_trailing_comma.csv": ", line 1: column 3 has no name, as where each line ends in a comma: remove "
-    "it, or --columns x,y takes those wanted",
     "f14_pixels.txt": ", line 1: coordinate 115 is not in [0, 1]: all numbers are whole, as those of pixels "
     "are; give the image's size, such as --period 512,512 (period= in Python)",
     "f16_edge_rounding.txt": ", line 6: coordinate 1.0000001 is not in [0, 1], but no further outside than "
     "rounding takes it: --wrap (wrap=True) brings it in",
     "b07_transposed.npy": ": 2 points of 64 dimensions: is it transposed? Rows are points and columns "
-    "coordinates; save its transpose, or take columns by name or number, such as 1,2, with --columns",
+    "coordinates; save its transpose, or say that its rows are points, by --columns 1-64",
     "b21_raw_f32_3d.dat": ": is binary, in no format known here; where it is numbers alone, say of what "
     "layout, such as --raw float32,3 (raw= in Python): the type, and how many a point has",
     "b23_rps_bigendian.rps": ": its floats are big-endian, the highest byte first, and an .rps has the "
@@ -88,6 +87,7 @@ def test_what_the_sentences_say_helps() -> None:
     """Each file that was refused is read once the user says what its error asks for."""
     assert np.array_equal(load(FIELD / "f07_weight_col.csv", columns="x,y"), X)
     assert np.array_equal(load(FIELD / "f09_trailing_comma.csv", columns="x,y"), X)
+    assert np.shape(load(FIELD / "b07_transposed.npy", columns="1-64")) == (2, 64)
     pixels = np.loadtxt(FIELD / "f14_pixels.txt")
     assert np.array_equal(load(FIELD / "f14_pixels.txt", period=512), pixels / 512)
     rounded = np.loadtxt(FIELD / "f16_edge_rounding.txt")

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gbnbench.core.errors import InputError
+from gbnbench.core.errors import FormatError, InputError
 from gbnbench.io.points import load, read, save
 from tests.io.point_bytes import A, put
 
@@ -108,3 +108,21 @@ def test_save_replaces_whole(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     assert (tmp_path / "link.txt").is_symlink()
     assert kept.read_bytes() == b"2\n0.5 0.25\n0.125 0.75\n"
     assert sorted(p.name for p in tmp_path.iterdir()) == ["kept.txt", "link.txt"]
+
+
+@pytest.mark.parametrize("suffix", [".txt", ".csv", ".tsv", ".npz", ".json", ".edat", ".csv.gz"])
+def test_few_points_of_many_dimensions_come_back(tmp_path: Path, suffix: str) -> None:
+    """A header, names or the format say that rows are points: nothing is taken for transposed."""
+    x = np.random.default_rng(3).random((4, 16))
+    save(tmp_path / f"a{suffix}", x)
+    assert np.array_equal(load(tmp_path / f"a{suffix}"), x)
+
+
+@pytest.mark.parametrize("suffix", [".npy", ".dat"])
+def test_a_bare_matrix_of_few_points_is_read_where_columns_are_told(tmp_path: Path, suffix: str) -> None:
+    x = np.random.default_rng(3).random((4, 16))
+    save(tmp_path / f"a{suffix}", x)
+    with pytest.raises(FormatError, match=r"4 points of 16 dimensions: is it transposed\? .* --columns 1-16"):
+        load(tmp_path / f"a{suffix}")
+    assert np.array_equal(load(tmp_path / f"a{suffix}", columns="1-16"), x)
+    assert np.array_equal(load(tmp_path / f"a{suffix}", columns="2,4-6"), x[:, [1, 3, 4, 5]])

@@ -14,7 +14,8 @@ from hypothesis import strategies as st
 
 from gbnbench.benchmarks.reliability.strict_arrays import strict_npy, strict_rps
 from gbnbench.benchmarks.reliability.strict_formats import strict_eps
-from gbnbench.benchmarks.reliability.strict_text import DECIMAL, strict_text
+from gbnbench.benchmarks.reliability.strict_text import strict_text
+from gbnbench.benchmarks.reliability.strict_words import DECIMAL
 from gbnbench.core.errors import FormatError
 from gbnbench.io.points import PointSets, ReadingOptions, read, read_sets
 from tests.io.damage import DAMAGE, FUZZ, damaged, outcome, verdict, written
@@ -190,7 +191,7 @@ OPTIONS = [
     ReadingOptions(columns=("x", "y")),
     ReadingOptions(columns=("2", "1")),
     ReadingOptions(period=(2.0,)),
-    ReadingOptions(bounds=(-1.0, 2.0), wrap=True),
+    ReadingOptions(bounds=(-1.0, 2.0) * 3, wrap=True),
     ReadingOptions(array="points"),
     ReadingOptions(raw="float32,3"),
     ReadingOptions(wrap=True),

@@ -37,7 +37,10 @@ def test_bounds_divide_from_their_lower_end_and_keep_the_upper_edge(tmp_path: Pa
 def test_one_number_serves_every_axis(tmp_path: Path) -> None:
     path = text(tmp_path, "1.0 2.0 3.0\n")
     assert read_sets(path, reading_options(period=4)).sets[0].tolist() == [[0.25, 0.5, 0.75]]
-    assert read_sets(path, reading_options(bounds=(1, 5))).sets[0].tolist() == [[0.0, 0.25, 0.5]]
+    line = text(tmp_path, "1.0\n2.0\n", "line.txt")
+    assert read_sets(line, reading_options(bounds=(1, 5))).sets[0].tolist() == [[0.0], [0.25]]
+    with pytest.raises(FormatError, match=r"--bounds 1,5 is of 1 axis, .* d=3: write 1,5,1,5,1,5 for all"):
+        load(path, bounds=(1, 5))
 
 
 def test_wrap_takes_whole_sides_off(tmp_path: Path) -> None:
@@ -56,7 +59,7 @@ def test_what_the_file_says_is_not_contradicted(tmp_path: Path) -> None:
     with pytest.raises(FormatError, match="--bounds 0,1,0,1,0,1 is of 3 axes, and its points have d=2"):
         load(path, bounds=(0, 1, 0, 1, 0, 1))
     with pytest.raises(FormatError, match=r"line 2: coordinate 0\.6 is not in \[0, 0\.5\], the box; give"):
-        load(text(tmp_path, "0.25 0.5\n0.6 0.1\n", "b.txt"), bounds=(0, 0.5))
+        load(text(tmp_path, "0.25 0.5\n0.6 0.1\n", "b.txt"), bounds=(0, 0.5, 0, 0.5))
 
 
 @pytest.mark.parametrize(
@@ -71,6 +74,9 @@ def test_what_the_file_says_is_not_contradicted(tmp_path: Path) -> None:
         ({"bounds": (0, float("inf"))}, "lower and upper end"),
         ({"columns": "x,,y"}, "each column once"),
         ({"columns": ("x", "x")}, "each column once"),
+        ({"columns": ()}, "each column once"),
+        ({"columns": 1}, "columns must be names or numbers, such as 'x,y'"),
+        ({"bounds": "abc"}, "parted by commas, such as 0,512,0,512; got 'abc'"),
         ({"raw": "float32"}, "such as float32,3; got 'float32'"),
         ({"raw": "object,2"}, "such as float32,3"),
         ({"raw": "float128,2"}, "such as float32,3"),
@@ -87,6 +93,11 @@ def test_a_record_holds_what_was_given() -> None:
     assert reading_options("x,y", "f4,2", "pos", None, (0, 1), True).record() == {
         "columns": ["x", "y"], "raw": "f4,2", "array": "pos", "bounds": [0.0, 1.0], "wrap": True
     }  # fmt: skip
+
+
+def test_columns_are_numbers_too(tmp_path: Path) -> None:
+    path = text(tmp_path, "0.5 0.25 7\n0.125 0.75 9\n")
+    assert np.array_equal(load(path, columns=(2, 1)), [[0.25, 0.5], [0.75, 0.125]])
 
 
 def test_raw_numbers_are_read_by_their_layout(tmp_path: Path) -> None:

@@ -20,6 +20,7 @@ from gbnbench.core.results.spectrum import Spectrum
 from gbnbench.io import data_files
 from gbnbench.runs import comparison_folder
 from gbnbench.runs.comparison_result import Run, SourceResult
+from gbnbench.runs.resumable_folder import _difference
 
 AWKWARD = (0.1, 1 / 3, 5e-324, -0.0, 1e300, math.nan, math.inf, -math.inf, 0.1 + 0.2)
 
@@ -239,3 +240,21 @@ def test_csv_floats_read_back_the_same(tmp_path: Path) -> None:
         np.array([float(word) for word in path.read_text().splitlines()[1:]]).tobytes() == numbers.tobytes()
     )
     assert data_files.read_csv(path)["v"].to_numpy().tobytes() == numbers.tobytes()
+
+
+def test_files_read_otherwise_are_told_by_how_they_are_read() -> None:
+    source = {
+        "label": "dots",
+        "n": 2,
+        "d": 2,
+        "kind": "files",
+        "sha256": "12",
+        "reading": {"period": [512.0]},
+    }
+    other = {**source, "sha256": "34", "reading": {"period": [256.0]}}
+    assert (
+        _difference({"sources": [source]}, {"sources": [other]})
+        == "reading of dots is {'period': [512.0]} there, {'period': [256.0]} here"
+    )
+    plain = {**source, "sha256": "56"}
+    assert "sha256 of dots is '12' there" in _difference({"sources": [source]}, {"sources": [plain]})

@@ -6,18 +6,19 @@ any line ends, with or without a byte-order mark or a last newline. Its sets are
 1. By counts. The first line is a header: a count (PSA; the dimension is that of the rows) or a count and a
    dimension (the GBN authors' programs). Just that many rows follow, then the next header or the end.
 2. By a column of a header line (``set,x0,x1``) that is named set or realization: numbers that count up.
-3. By lines that start with ``#`` (UTK). Under 1 and 2 such lines are comments.
+3. By lines that start with ``#`` (UTK). Under 1 and 2 and under a line of names such lines are comments.
 4. Not at all: every row is a point of one set.
 
-A first line of words names the columns: x, y, z, w in turn, or one letter with numbers from 0 or 1 on.
-Double quotes around a cell are dropped, and so is a column in front without a name that counts the rows or
-quotes their names. Where the first line has a semicolon, semicolons part cells and commas are decimal; so
-are commas in rows that tabs part. A first line of bare whole numbers is a header where one of them exceeds
-1, since no coordinate does. Where it might be a header, a line of column numbers or a point (``0`` or ``1``
-before single numbers, ``0 1``, ``1 1``), the file is refused and the error says how to write it: a point as
-``0.0 1.0``, a header as ``1024 2``. Blank lines count for nothing, except that between rows that nothing
-else frames they are refused, because some programs part sets by them; so is a comment that holds just the
-numbers of a point.
+A first line of words names the columns: x, y, z, w in turn, or one letter with numbers from 0 or 1 on; so
+does a comment right above the first row that has a word for each number. Double quotes around a cell are
+dropped, and so are a column in front without a name that counts the rows or quotes their names, and an
+empty cell at the end of every row that no name belongs to. Where the first line has a semicolon, or is
+``sep=;``, semicolons part cells and commas are decimal; so are commas in rows that tabs part. A first line
+of bare whole numbers is a header where one of them exceeds 1, since no coordinate does. Where it might be a
+header, a line of column numbers or a point (``0`` or ``1`` before single numbers, ``0 1``, ``1 1``), the
+file is refused and the error says how to write it: a point as ``0.0 1.0``, a header as ``1024 2``. Blank
+lines count for nothing, except that between rows that nothing else frames they are refused, because some
+programs part sets by them; so is a comment that holds just the numbers of a point.
 
 Coordinates lie in [0, 1], or in the box that the file or the reading options tell, by whose sides they are
 divided; its upper end is its lower; nothing else is altered or left out.
@@ -51,7 +52,7 @@ _DEFAULT = ReadingOptions()
 def load(
     path: str | os.PathLike[str],
     *,
-    columns: str | Sequence[str] | None = None,
+    columns: str | Sequence[str] | Sequence[int] | None = None,
     raw: str | None = None,
     array: str | None = None,
     period: float | str | Sequence[float] | None = None,
@@ -65,9 +66,9 @@ def load(
     ----------
     path : path-like
         A file in any of the formats that ``gbnbench.io.points`` tells of.
-    columns : str or sequence of str, optional
+    columns : str, or sequence of str or int, optional
         Columns that are coordinates, in their order: ``"x,y"``, or numbers counted from 1 where the file has
-        no names.
+        no names, such as ``"1,2"`` or ``"1-16"``.
     raw : str, optional
         Layout of a binary file without a header: ``"float32,3"``, or ``">float32,3"`` with the highest byte
         first.
@@ -76,7 +77,7 @@ def load(
     period : float or sequence of float, optional
         Sides of the torus in the file's unit, such as ``(512, 512)`` for pixels; one number for all axes.
     bounds : sequence of float, optional
-        Ends of each axis, ``(0, 512, 0, 256)`` or ``((0, 512), (0, 256))``; one pair for all axes.
+        Ends of each axis, ``(0, 512, 0, 256)`` or ``((0, 512), (0, 256))``.
     wrap : bool
         Bring points outside into the box by whole sides.
     max_bytes : int, optional

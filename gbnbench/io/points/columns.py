@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shlex
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -11,6 +12,7 @@ from gbnbench.core.errors import FormatError
 SET_NAMES = ("set", "realization")
 
 _LETTERS = ("x", "y", "z", "w")
+_RANGE = re.compile(r"([0-9]{1,7})-([0-9]{1,7})")
 _NUMBERED = re.compile(r"([a-z])[_ ]?[\[(]?([0-9]{1,6})[\])]?")
 
 
@@ -22,7 +24,7 @@ def choose(path: Path, wanted: Sequence[str], names: Sequence[str], width: int) 
     path : Path
         Named in errors.
     wanted : sequence of str
-        Names, or numbers counted from 1 where the file has no names.
+        Names, or numbers counted from 1 where the file has no names; 1-16 there is the numbers from 1 to 16.
     names : sequence of str
         Of the file's columns; empty where it has none.
     width : int
@@ -40,6 +42,8 @@ def choose(path: Path, wanted: Sequence[str], names: Sequence[str], width: int) 
     """
     lower = [name.lower() for name in names]
     found: list[int] = []
+    if not names:
+        wanted = [number for name in wanted for number in _range(name, width)]
     for name in wanted:
         if name in names:
             found.append(list(names).index(name))
@@ -59,21 +63,35 @@ def choose(path: Path, wanted: Sequence[str], names: Sequence[str], width: int) 
     return found
 
 
-def fault_of_names(names: Sequence[str]) -> str | None:
+def _range(name: str, width: int) -> list[str]:
+    """Return the numbers of a range such as 1-16, or the name itself."""
+    match = _RANGE.fullmatch(name)
+    if match is None or not 0 < int(match[1]) <= int(match[2]) <= width:
+        return [name]
+    return [str(number) for number in range(int(match[1]), int(match[2]) + 1)]
+
+
+def advised(names: Sequence[str]) -> str:
+    """Write the option that takes columns of these names, as a shell takes it."""
+    return f"--columns {shlex.quote(','.join(names))}"
+
+
+def fault_of_names(given: Sequence[str]) -> str | None:
     """Say why names are not those of the axes, or return None.
 
     Parameters
     ----------
-    names : sequence of str
-        Of columns in lower case, without those of ``SET_NAMES``.
+    given : sequence of str
+        Names of columns as they stand in the file, in any case, without those of ``SET_NAMES``.
 
     Returns
     -------
     str or None
         Axes are x, y, z, w in turn, as many as there are, or one letter with the numbers from 0 or 1 on.
     """
-    if not names:
+    if not given:
         return None
+    names = [name.lower() for name in given]
     if tuple(names) == _LETTERS[: len(names)]:
         return None
     numbered = [_NUMBERED.fullmatch(name) for name in names]
@@ -95,16 +113,16 @@ def fault_of_names(names: Sequence[str]) -> str | None:
         and [number - order[0][0][1] for (_, number), _ in order] == [*range(len(names))]
     ):
         return f"coordinates stand out of order; put the columns as {', '.join(name for _, name in order)}"
-    some = [name for name in names if name in _LETTERS[:3]] or [name for name in names if name][:2]
-    wanted = (
-        f"--columns {','.join(some) if all(len(name) <= 20 for name in some) else 'x,y'} takes those wanted"
-    )
+    some = [name for name in given if name.lower() in _LETTERS[:3]] or [name for name in given if name][:2]
+    fits = all(len(name) <= 20 and "," not in name for name in some)
+    wanted = f"{advised(some if fits else ['x', 'y'])} takes those wanted"
     if "" in names:
         return (
             f"column {names.index('') + 1} has no name, as where each line ends in a comma: remove it, or "
             f"{wanted}"
         )
-    strange = next((name for name in names if name not in _LETTERS and not _NUMBERED.fullmatch(name)), None)
-    strange = strange or ("w" if "w" in names and len(pairs) < len(names) else None)
-    said = f"columns {', '.join(names)} are" if strange is None else f"column {strange[:40]!r} is"
+    other = [name not in _LETTERS and not _NUMBERED.fullmatch(name) for name in names]
+    strange = given[other.index(True)] if any(other) else None
+    strange = strange or (given[names.index("w")] if "w" in names and len(pairs) < len(names) else None)
+    said = f"columns {', '.join(given)} are" if strange is None else f"column {strange[:40]!r} is"
     return f"{said} no coordinate; the names are x, y, z or x0, x1, ..., once each; {wanted}"

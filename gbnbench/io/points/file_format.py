@@ -13,6 +13,7 @@ DEFAULT_LIMIT = 2_000_000_000
 
 NUMERIC = b"0123456789+-.eE"
 HEAD = 4096
+BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 LEGIBLE = bytes(range(32, 127)) + b"\t\n\r\f\v" + bytes(range(128, 256))
 
 
@@ -61,6 +62,13 @@ def refuse_large(path: Path, size: int, limit: int, what: str = "the file holds"
             f"{what} {readable(size)}, and {readable(limit)} or more are refused; "
             f"split it, or set {LIMIT_VARIABLE} to a larger number of bytes",
         )
+
+
+def without_marks(data: bytes) -> bytes:
+    """Drop the byte-order mark of UTF-8 in front of a text; joining files can leave it there twice."""
+    while data.startswith(BYTE_ORDER_MARK):
+        data = data[len(BYTE_ORDER_MARK) :]
+    return data
 
 
 def reason(error: Exception) -> str:

@@ -13,6 +13,7 @@ from gbnbench.io.points.point_sets import Box, Coordinates, FileContent, PointSe
 
 ROUNDING = 1e-6  # in sides: float32 and six written digits leave the box by less
 FAR = 1.0  # sides beyond the unit torus up to which wrap is believed without a box
+SHOWN = 9  # dimensions from which an option is not written out
 FEW, MANY = 4, 16  # points and dimensions of an array that is more likely transposed
 
 
@@ -44,7 +45,7 @@ def fractions_of_box(path: Path, content: FileContent, options: ReadingOptions) 
         dimensions = sorted({one.points.shape[1] for one in content.sets})
         raise FormatError(path, f"its sets have different dimensions: {dimensions}")
     for one in content.sets:
-        _refuse_transposed(path, one, options)
+        _refuse_transposed(path, one)
     box = _box(path, content.box, options, d)
     toroidal = None if box is None or box.periodic is None else all(box.periodic)
     edge = 0.0 if box is None or toroidal else float(np.nextafter(1, 0))
@@ -52,14 +53,14 @@ def fractions_of_box(path: Path, content: FileContent, options: ReadingOptions) 
     return PointSets(sets, None if box is None else box.sides, None if box is None else box.low, toroidal)
 
 
-def _refuse_transposed(path: Path, one: Coordinates, options: ReadingOptions) -> None:
+def _refuse_transposed(path: Path, one: Coordinates) -> None:
+    """Refuse a matrix that is likely transposed, where nothing says that it is not."""
     n, d = one.points.shape
-    if n <= FEW and d >= MANY and options.columns is None:
+    if one.bare and n <= FEW and d >= MANY:
         raise FormatError(
             path,
             f"{one.where}{n} point{'s' * (n != 1)} of {d} dimensions: is it transposed? Rows are points and "
-            f"columns coordinates; save its transpose, or take columns by name or number, such as 1,2, "
-            f"with --columns",
+            f"columns coordinates; save its transpose, or say that its rows are points, by --columns 1-{d}",
         )
 
 
@@ -73,10 +74,9 @@ def _box(path: Path, own: Box | None, options: ReadingOptions, d: int) -> Box | 
         for a, b in zip(*pair, strict=True)
     )
     if far > ROUNDING * max(own.sides):
-        name = "--period" if options.period is not None else "--bounds"
-        raise FormatError(
-            path, f"tells its own box, {_described(own)}, which {name} contradicts; leave it out"
-        )
+        name = "--period" if options.period is not None else _ends(options)
+        instead = "--window file takes that" if options.window else "leave it out"
+        raise FormatError(path, f"tells its own box, {_described(own)}, which {name} contradicts; {instead}")
     return own
 
 
@@ -91,12 +91,17 @@ def _given_box(path: Path, options: ReadingOptions, d: int) -> Box | None:
     if options.bounds is None:
         return None
     low, high = options.bounds[::2], options.bounds[1::2]
-    if len(low) == 1:
-        low, high = low * d, high * d
     if len(low) != d:
-        said = f"--bounds {listed(options.bounds)} is of {len(low)} axes, and its points have d={d}"
-        raise FormatError(path, said)
+        axes = f"{len(low)} ax{'i' if len(low) == 1 else 'e'}s"
+        said = f"{_ends(options)} {listed(options.bounds)} is of {axes}, and its points have d={d}"
+        every = f": write {listed(options.bounds * d)} for all" if len(low) == 1 and d < SHOWN else ""
+        raise FormatError(path, said + every)
     return Box(low, tuple(b - a for a, b in zip(low, high, strict=True)))
+
+
+def _ends(options: ReadingOptions) -> str:
+    """Name the option that told the ends of the axes."""
+    return "--window" if options.window else "--bounds"
 
 
 def _described(box: Box) -> str:
@@ -113,10 +118,10 @@ def _inside(
     x = np.require(x, np.float64, ["C", "W"])
     if not (x.min() >= 0 and x.max() <= 1):  # nan is neither
         if not (options.wrap or one.unwrapped):
-            _refuse(path, one, x, ~((x >= 0) & (x <= 1)), box)
+            _refuse(path, one, x, ~((x >= 0) & (x <= 1)), box, options)
         within = np.isfinite(x) if box is not None else (x >= -FAR) & (x <= 1 + FAR)
         if not within.all():
-            _refuse(path, one, x, ~within, box)
+            _refuse(path, one, x, ~within, box, options)
         x = np.mod(x, 1.0)
         x[x >= 1] = 0
         return x
@@ -124,20 +129,28 @@ def _inside(
     return x
 
 
-def _refuse(path: Path, one: Coordinates, x: FloatArray, outside: np.ndarray, box: Box | None) -> None:
+def _refuse(
+    path: Path, one: Coordinates, x: FloatArray, outside: np.ndarray, box: Box | None,
+    options: ReadingOptions,
+) -> None:  # fmt: skip
     """Refuse the first coordinate outside, with the way out that fits how far it lies."""
     row, column = (int(i) for i in np.argwhere(outside)[0])
     value = float(one.points[row, column])
     line = None if one.lines is None else int(one.lines[row])
     where = "" if line is not None else f" (point {row}, axis {column})"
-    raise FormatError(path, f"{one.where}{_said(value, x, column, None if one.scaled else box)}{where}", line)
+    said = _said(value, x, column, None if one.scaled else box, window=options.window)
+    raise FormatError(path, f"{one.where}{said}{where}", line)
 
 
-def _said(value: float, x: FloatArray, axis: int, box: Box | None) -> str:
+def _said(value: float, x: FloatArray, axis: int, box: Box | None, *, window: bool) -> str:
     if not np.isfinite(value):
         return f"coordinate {value!r} is not finite: remove the point"
     low, high = (0.0, 1.0) if box is None else (box.low[axis], box.low[axis] + box.sides[axis])
     said = f"coordinate {value!r} is not in [{low:g}, {high:g}]"
+    if window:
+        if box is None:
+            return f"{said}, and no box is told: give the window's ends for 'file', such as 0,512,0,256"
+        return f"{said}, the window; give one that holds all points"
     finite = x[np.isfinite(x)]
     if finite.min() >= -ROUNDING and finite.max() <= 1 + ROUNDING:
         return f"{said}, but no further outside than rounding takes it: --wrap (wrap=True) brings it in"

@@ -4,23 +4,26 @@ from __future__ import annotations
 
 import re
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.core.errors import FormatError
 from gbnbench.core.torus import FloatArray
-from gbnbench.io.points.file_format import NUMERIC
+from gbnbench.io.points.file_format import NUMERIC, without_marks
+from gbnbench.io.points.literals import NUMBER, fault_in_line, too_large
 from gbnbench.io.points.point_sets import IntArray
 
 BLOCK = 1 << 21
-NUMBER = re.compile(rb"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 
 _COMMENT = re.compile(rb"^[ \t]*#[^\n]*", re.MULTILINE)
 _BARE = re.compile(rb"[0-9]+(?![0-9.eE+-])")
+# what stood in the file: Standing(line, k, cell), where column k of a line became the cell
+Standing = Callable[[int, int, bytes], bytes]
 # line, width, value and bare of one block; see Lexed
 Tokens = tuple[IntArray, IntArray, FloatArray, NDArray[np.bool_]]
 
@@ -42,7 +45,10 @@ class Lexed:
     comment : (comments,) int64
         1-based numbers of the lines that start with #.
     hidden : (comments,) int64
-        How many numbers follow the #, where nothing else does and not all of them are bare; else 0.
+        How many numbers follow the #, where nothing else does; negative where all of them are bare; 0 for
+        other comments.
+    mark : (comments,) bool
+        True where nothing follows the #.
     """
 
     line: IntArray
@@ -51,9 +57,10 @@ class Lexed:
     bare: NDArray[np.bool_]
     comment: IntArray
     hidden: IntArray
+    mark: NDArray[np.bool_]
 
 
-def lex(path: Path, data: bytes) -> Lexed:
+def lex(path: Path, data: bytes, names: Sequence[str] = (), standing: Standing | None = None) -> Lexed:
     """Read every number of a text: separated by blanks, or by one comma each, the lines ended in any fashion.
 
     Parameters
@@ -62,6 +69,10 @@ def lex(path: Path, data: bytes) -> Lexed:
         Named in errors.
     data : bytes
         The whole text.
+    names : sequence of str
+        Of the columns, for errors; none where the file has none.
+    standing : callable, optional
+        What to quote in errors in place of a cell, where the text was made plain before.
 
     Returns
     -------
@@ -71,11 +82,12 @@ def lex(path: Path, data: bytes) -> Lexed:
     Raises
     ------
     FormatError
-        At the first line that holds anything but numbers, apart from comments.
+        At the first line that holds anything but numbers, apart from comments, or one too large for a float.
     """
     parts: list[Tokens] = []
     comment: list[int] = []
     hidden: list[int] = []
+    mark: list[bool] = []
     before = 0
     for raw in _blocks(data):
         block = raw.replace(b"\r\n", b"\n").replace(b"\r", b"\n") if b"\r" in raw else raw
@@ -85,22 +97,21 @@ def lex(path: Path, data: bytes) -> Lexed:
             at = np.searchsorted(newlines, [match.start() for match in found]) + before + 1
             comment += at.tolist()
             hidden += [_numbers_in(match.group()) for match in found]
+            mark += [not match.group().strip(b"# \t") for match in found]
             block = _COMMENT.sub(b"", block)
-        parts.append(_fast(block, before) or _slow(path, block, before))
+        part = _fast(block, before) or _slow(path, block, before, names, standing)
+        if not np.isfinite(part[2]).all():
+            _refuse_infinite(path, block, before, part, standing)
+        parts.append(part)
         before += len(newlines)
     line, width, value, bare = (np.concatenate(arrays) for arrays in zip(*parts, strict=True))
-    return Lexed(line, width, value, bare, np.array(comment, np.int64), np.array(hidden, np.int64))
-
-
-def shown(token: bytes) -> str:
-    """Show a literal in an error: quoted, on one line, cut to 40 characters."""
-    text = token.decode("utf-8", "backslashreplace")
-    return repr(text if len(text) <= 40 else text[:37] + "...")
+    struck, marks = np.array(hidden, np.int64), np.array(mark, np.bool_)
+    return Lexed(line, width, value, bare, np.array(comment, np.int64), struck, marks)
 
 
 def _blocks(data: bytes) -> Iterator[bytes]:
     """Cut a text after line feeds into blocks that stay in the processor's cache."""
-    start = 3 if data.startswith(b"\xef\xbb\xbf") else 0
+    start = len(data) - len(without_marks(data))
     while True:
         end = data.find(b"\n", start + BLOCK) + 1 or len(data)
         yield data[start:end]
@@ -116,8 +127,9 @@ def _cells(line: bytes) -> list[bytes]:
 def _numbers_in(comment: bytes) -> int:
     """Count the numbers of a comment that could be a point, so that none is lost behind a stray #."""
     cells = _cells(comment.strip().lstrip(b"#"))
-    plausible = all(NUMBER.fullmatch(cell) for cell in cells) and not all(cell.isdigit() for cell in cells)
-    return len(cells) if plausible else 0
+    if not all(NUMBER.fullmatch(cell) for cell in cells):
+        return 0
+    return -len(cells) if all(cell.isdigit() for cell in cells) else len(cells)
 
 
 def _fast(block: bytes, before: int) -> Tokens | None:
@@ -169,7 +181,9 @@ def _floats(block: bytes, count: int) -> FloatArray | None:
     return value if len(value) == count else None
 
 
-def _slow(path: Path, block: bytes, before: int) -> Tokens:
+def _slow(
+    path: Path, block: bytes, before: int, names: Sequence[str] = (), standing: Standing | None = None
+) -> Tokens:
     """Read the same line by line, raising at the first fault."""
     line: list[int] = []
     width: list[int] = []
@@ -179,9 +193,10 @@ def _slow(path: Path, block: bytes, before: int) -> Tokens:
         if not text.strip():
             continue
         cells = _cells(text)
-        for cell in cells:
+        for k, cell in enumerate(cells):
             if not NUMBER.fullmatch(cell):
-                raise FormatError(path, _fault(cell, text), number)
+                stood = standing(number, k, cell) if standing is not None else cell
+                raise FormatError(path, fault_in_line(stood, k, text, names), number)
         line.append(number)
         width.append(len(cells))
         value += map(float, cells)
@@ -189,16 +204,13 @@ def _slow(path: Path, block: bytes, before: int) -> Tokens:
     return np.array(line, np.int64), np.array(width, np.int64), np.array(value), np.array(bare, np.bool_)
 
 
-def _fault(cell: bytes, line: bytes) -> str:
-    """Say what is wrong with a cell that is no number."""
-    if not cell:
-        if line.rstrip().endswith(b","):
-            return "an empty cell after the last comma: remove it, or take columns, such as --columns 1,2"
-        return "an empty cell between commas"
-    if b'"' in cell:
-        return (
-            f"{shown(cell)} is not a number; quotes may hold one, without blanks, commas or parted thousands"
-        )
-    if re.fullmatch(rb"[0-9]+[ \t]+[+-]?[0-9]+", cell):
-        return f"{shown(cell)} is not a number; decimal commas are read where semicolons or tabs part cells"
-    return f"{shown(cell)} is not a number"
+def _refuse_infinite(
+    path: Path, block: bytes, before: int, part: Tokens, standing: Standing | None
+) -> NoReturn:
+    """Quote the first literal that overflows."""
+    line, width, value, _ = part
+    at = int(np.argmin(np.isfinite(value)))
+    row = int(np.searchsorted(np.cumsum(width), at, side="right"))
+    number, k = int(line[row]), at - int(width[:row].sum())
+    cell = _cells(block.split(b"\n")[number - before - 1])[k]
+    raise FormatError(path, too_large(cell if standing is None else standing(number, k, cell)), number)

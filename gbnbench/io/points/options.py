@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -35,6 +35,8 @@ class ReadingOptions:
         Lower and upper end of each axis, in turn.
     wrap : bool
         Bring points outside into the box by whole sides.
+    window : bool
+        Whether ``gbnbench analyze --window`` tells the box, so that errors speak of it.
 
     Examples
     --------
@@ -48,11 +50,14 @@ class ReadingOptions:
     period: tuple[float, ...] | None = None
     bounds: tuple[float, ...] | None = None
     wrap: bool = False
+    window: bool = False
 
     def __post_init__(self) -> None:
         if self.period is not None and self.bounds is not None:
             raise InputError("period and bounds both tell the box; give one of them")
-        if self.columns is not None and (not all(self.columns) or len({*self.columns}) < len(self.columns)):
+        if self.columns is not None and (
+            not self.columns or not all(self.columns) or len({*self.columns}) < len(self.columns)
+        ):
             raise InputError(
                 f"columns must name each column once, such as x,y; got {','.join(self.columns)!r}"
             )
@@ -109,7 +114,7 @@ class ReadingOptions:
 
 
 def reading_options(
-    columns: str | Sequence[str] | None = None,
+    columns: str | Sequence[str] | Sequence[int] | None = None,
     raw: str | None = None,
     array: str | None = None,
     period: float | str | Sequence[float] | None = None,
@@ -120,7 +125,7 @@ def reading_options(
 
     Parameters
     ----------
-    columns : str or sequence of str, optional
+    columns : str, or sequence of str or int, optional
         ``"x,y"`` or ``["x", "y"]``.
     raw, array : str, optional
         As in ``ReadingOptions``.
@@ -145,15 +150,22 @@ def reading_options(
     >>> reading_options(columns="x, y", period="512,256").period
     (512.0, 256.0)
     """
+    if columns is not None and not isinstance(columns, Iterable):
+        raise InputError(f"columns must be names or numbers, such as 'x,y' or ('1', '2'); got {columns!r}")
     if isinstance(columns, str):
         columns = [name.strip() for name in columns.split(",")]
     named = None if columns is None else tuple(str(name) for name in columns)
     return ReadingOptions(
-        named, raw, array, _numbers("period", period), _numbers("bounds", bounds), bool(wrap)
-    )
+        named,
+        raw,
+        array,
+        _numbers("period", period, "512,512"),
+        _numbers("bounds", bounds, "0,512,0,512"),
+        bool(wrap),
+    )  # fmt: skip
 
 
-def _numbers(name: str, given: Any) -> tuple[float, ...] | None:
+def _numbers(name: str, given: Any, example: str) -> tuple[float, ...] | None:
     if given is None:
         return None
     try:
@@ -162,7 +174,7 @@ def _numbers(name: str, given: Any) -> tuple[float, ...] | None:
     except (TypeError, ValueError):
         numbers = ()
     if not numbers:
-        raise InputError(f"{name} must be numbers parted by commas, such as 512,512; got {given!r}")
+        raise InputError(f"{name} must be numbers parted by commas, such as {example}; got {given!r}")
     return numbers
 
 

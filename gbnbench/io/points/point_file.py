@@ -6,6 +6,7 @@ import bz2
 import gzip
 import io
 import lzma
+import re
 import zlib
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -24,6 +25,8 @@ _COMPRESSIONS: tuple[tuple[bytes, str, Callable[[Path], _Packed]], ...] = (
     (b"\xfd7zXZ\x00", ".xz", lzma.LZMAFile),
 )
 PACKED = tuple(suffix for _, suffix, _ in _COMPRESSIONS)
+# longer, since numbers without a header can begin with any two bytes
+_RAW_PACKED = re.compile(rb"\x1f\x8b\x08|BZh[1-9]1AY&SY|\xfd7zXZ\x00")
 _BROKEN = (OSError, EOFError, zlib.error, lzma.LZMAError, ValueError)
 _PIECE = 1 << 24
 
@@ -113,8 +116,10 @@ def open_point_file(path: Path, limit: int, options: ReadingOptions) -> PointFil
     size, head = look(path, limit)
     suffix = path.suffix.lower()
     for magic, packed, opener in _COMPRESSIONS:
-        if head.startswith(magic) and options.raw is None:
+        if head.startswith(magic) and (options.raw is None or _RAW_PACKED.match(head)):
             data = _unpack(path, opener, limit)
+            if any(data.startswith(again) for again, _, _ in _COMPRESSIONS) and options.raw is None:
+                raise FormatError(path, "is packed twice: unpack it once")
             inner = Path(path.stem).suffix.lower() if suffix == packed else suffix
             return PointFile(path, inner, len(data), data[:HEAD], limit, options, data)
     return PointFile(path, suffix, size, head, limit, options)

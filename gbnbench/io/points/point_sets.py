@@ -71,6 +71,8 @@ class Coordinates:
         Whether they are fractions of the box already, as LAMMPS's xs are.
     unwrapped : bool
         Whether the format defines that whole sides are to be taken off, as LAMMPS's xu does.
+    bare : bool
+        Whether nothing but the shape of a matrix tells points from coordinates: no count, name or format.
     """
 
     points: FloatArray
@@ -78,6 +80,7 @@ class Coordinates:
     where: str = ""
     scaled: bool = False
     unwrapped: bool = False
+    bare: bool = False
 
 
 @dataclass(frozen=True)

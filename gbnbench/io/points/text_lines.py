@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Sequence
 from pathlib import Path
 
 from gbnbench.core.errors import FormatError
-from gbnbench.io.points.number_parser import NUMBER, shown
+from gbnbench.io.points.file_format import without_marks
+from gbnbench.io.points.literals import NUMBER, shown, too_large
 
 _WHOLE = re.compile(rb"[0-9]{1,15}")
 
 
 def lines_of(data: bytes) -> list[bytes]:
     """Split a text into lines without blanks at their ends; blank lines at the end are dropped."""
-    data = data.removeprefix(b"\xef\xbb\xbf").replace(b"\r\n", b"\n").replace(b"\r", b"\n")
+    data = without_marks(data).replace(b"\r\n", b"\n").replace(b"\r", b"\n")
     return [line.strip() for line in data.rstrip().split(b"\n")]
 
 
@@ -37,11 +39,13 @@ def numbers_of(path: Path, tokens: Sequence[bytes], line: int) -> list[float]:
     Raises
     ------
     FormatError
-        At the first that is no number.
+        At the first that is no number, or too large for one.
     """
     for token in tokens:
         if not NUMBER.fullmatch(token):
             raise FormatError(path, f"{shown(token)} is not a number", line)
+        if math.isinf(float(token)):
+            raise FormatError(path, too_large(token), line)
     return [float(token) for token in tokens]
 
 

@@ -8,6 +8,7 @@ from gbnbench.core.errors import FormatError
 from gbnbench.core.torus import FloatArray
 
 XYZ = ("x", "y", "z")
+DIMENSION = "dimension"  # what our own files call a note that their points are of three, though z is constant
 
 
 def axes_of(path: Path, columns: tuple[str, ...] | None, there: tuple[str, ...]) -> list[int]:
@@ -39,6 +40,12 @@ def axes_of(path: Path, columns: tuple[str, ...] | None, there: tuple[str, ...])
     return [XYZ.index(name) for name in wanted]
 
 
+def is_plane(points: FloatArray) -> bool:
+    """Tell whether points of three coordinates all have one z."""
+    n, d = points.shape
+    return d == 3 and n > 1 and bool(points[:, 2].min() == points[:, 2].max())
+
+
 def refuse_plane(
     path: Path, points: FloatArray, columns: tuple[str, ...] | None, line: int | None = None
 ) -> None:
@@ -60,7 +67,6 @@ def refuse_plane(
     FormatError
         If all z are equal and the user named no columns.
     """
-    n, d = points.shape
-    if columns is None and d == 3 and n > 1 and points[:, 2].min() == points[:, 2].max():
+    if columns is None and is_plane(points):
         said = f"z is {points[0, 2]:g} in every point: a set of the plane is read by --columns x,y"
-        raise FormatError(path, said, line)
+        raise FormatError(path, f"{said}, one of space by x,y,z", line)

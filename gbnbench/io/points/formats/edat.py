@@ -12,7 +12,7 @@ import numpy as np
 
 from gbnbench.core.errors import FormatError, InputError
 from gbnbench.io.points.formats.format import Format
-from gbnbench.io.points.number_parser import NUMBER
+from gbnbench.io.points.literals import NUMBER
 from gbnbench.io.points.point_file import PointFile
 from gbnbench.io.points.point_sets import Box, Coordinates, FileContent, PointSets, in_own_unit
 from gbnbench.io.points.text_lines import lines_of, numbers_of

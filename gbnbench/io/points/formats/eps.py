@@ -13,7 +13,7 @@ import numpy as np
 from gbnbench.core.errors import FormatError
 from gbnbench.io.points.file_format import LEGIBLE
 from gbnbench.io.points.formats.format import Format
-from gbnbench.io.points.number_parser import NUMBER, shown
+from gbnbench.io.points.literals import NUMBER, shown
 from gbnbench.io.points.point_file import PointFile
 from gbnbench.io.points.point_sets import Coordinates, FileContent
 

@@ -11,9 +11,10 @@ _DOTS = (
     "their centres as text, and give the image's size by --period or --bounds"
 )
 _TEXT = "export its points as .csv, or save them by numpy as .npy"
-_SIGNATURES: tuple[tuple[bytes, str, str], ...] = (
+JPEG = b"\xff\xd8\xff"
+SIGNATURES: tuple[tuple[bytes, str, str], ...] = (
     (b"\x89PNG\r\n\x1a\n", "a PNG image", _DOTS),
-    (b"\xff\xd8\xff", "a JPEG image", _DOTS),
+    (JPEG, "a JPEG image", _DOTS),
     (b"GIF8", "a GIF image", _DOTS),
     (b"BM", "a BMP image", _DOTS),
     (b"II*\x00", "a TIFF image", _DOTS),
@@ -53,9 +54,11 @@ def foreign(file: PointFile) -> str | None:
     pickled = head[:1] == b"\x80" and head[1:2] in b"\x02\x03\x04\x05" and len(head) > 1
     if pickled or file.suffix in _PICKLES:
         return f"is {UNSAFE}; save the points by numpy.save as .npy, or as text"
-    for signature, what, instead in _SIGNATURES:
+    for signature, what, instead in SIGNATURES:
         if head.startswith(signature) and not (len(signature) < 3 and not head.translate(None, LEGIBLE)):
             return f"is {what}, not points: {instead}"
+    if head.startswith((b"\xff\xfe\0\0", b"\0\0\xfe\xff")):
+        return "is UTF-32 text; save it as UTF-8 or ASCII"
     if head.startswith((b"\xff\xfe", b"\xfe\xff")) and b"\0" in head[2:4]:
         return "is UTF-16 text; save it as UTF-8 or ASCII"
     if head[257:262] == b"ustar":

@@ -15,6 +15,8 @@ from gbnbench.io.points.formats.format import Format
 from gbnbench.io.points.point_file import PointFile
 from gbnbench.io.points.point_sets import Box, Coordinates, FileContent, PointSets, in_own_unit
 
+_ABOUT = ("low", "sides", "toroidal")  # keys that tell the box
+_GEOJSON = ("FeatureCollection", "Feature", "GeometryCollection", "MultiPoint", "Point")
 _LISTS = (
     "points are lists of numbers, such as [[0.1, 0.2], [0.3, 0.4]], alone or as the 'points' of an object"
 )
@@ -30,6 +32,14 @@ def _read(file: PointFile) -> FileContent:
     about: dict[str, Any] = {}
     if isinstance(content, dict):
         key = file.options.array or "points"
+        if content.get("type") in _GEOJSON:
+            raise FormatError(
+                path,
+                "is GeoJSON, whose longitudes and latitudes are of no plane: project them, and write x and y "
+                "as .csv",
+            )
+        if key == "points" and key not in content and (held := _columns(path, content)):
+            return _of_columns(file, content, held)
         if key not in content:
             shown = ", ".join(map(repr, list(content)[:8])) or "nothing"
             raise FormatError(path, f"its object has no {key!r}: it has {shown}; --array takes another key")
@@ -37,7 +47,7 @@ def _read(file: PointFile) -> FileContent:
         content = content[key]
     elif file.options.array is not None:
         raise FormatError(path, "--array means nothing to a list: it names a key of an object")
-    if not isinstance(content, list) or not content:
+    if not isinstance(content, list) or not any(part not in ([], {}) for part in content):
         raise FormatError(path, f"holds no points: {_LISTS}")
     several = all(isinstance(part, list) and part and isinstance(part[0], (list, dict)) for part in content)
     parts = content if several else [content]
@@ -47,6 +57,29 @@ def _read(file: PointFile) -> FileContent:
         for k, part in enumerate(parts)
     ]
     return FileContent(sets, _box(path, about, sets[0].points.shape[1]))
+
+
+def _columns(path: Path, content: dict[str, Any]) -> dict[str, list[Any]]:
+    """Return the columns of an object that holds a list for each, or nothing where it is another."""
+    held = {name: value for name, value in content.items() if name not in _ABOUT}
+    if held and all(isinstance(value, dict) and value for value in held.values()):
+        raise FormatError(path, "its columns are objects, as pandas writes them: to_json(path, 'records')")
+    lists = all(isinstance(value, list) for value in held.values())
+    if not lists or any(isinstance(cell, (list, dict)) for value in held.values() for cell in value):
+        return {}
+    return held
+
+
+def _of_columns(file: PointFile, content: dict[str, Any], held: dict[str, list[Any]]) -> FileContent:
+    path = file.path
+    lengths = {name: len(value) for name, value in held.items()}
+    if len({*lengths.values()}) > 1:
+        raise FormatError(path, f"its columns have different lengths: {json.dumps(lengths)[:80]}")
+    rows = [dict(zip(held, row, strict=True)) for row in zip(*held.values(), strict=True)]
+    if not rows:
+        raise FormatError(path, "holds no points: its columns are empty")
+    points = _points(path, rows, file.options.columns, "")
+    return FileContent([Coordinates(points)], _box(path, content, points.shape[1]))
 
 
 def _parsed(path: Path, data: bytes) -> Any:
@@ -83,7 +116,7 @@ def _points(path: Path, rows: list[Any], columns: tuple[str, ...] | None, where:
     names: tuple[str, ...] = ()
     if isinstance(rows[0], dict):
         names = tuple(rows[0])
-        if columns is None and (fault := fault_of_names([name.lower() for name in names])) is not None:
+        if columns is None and (fault := fault_of_names(names)) is not None:
             raise FormatError(path, f"{where}point 0: {fault}")
     width = len(rows[0]) if isinstance(rows[0], (list, dict)) else 0
     if width == 0:
@@ -107,9 +140,12 @@ def _number(path: Path, value: Any, where: str) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise FormatError(path, f"{where}{json.dumps(value)[:40]} is not a number")
     try:
-        return float(value)
+        number = float(value)
     except OverflowError:
-        return math.inf
+        number = math.inf
+    if not math.isfinite(number):
+        raise FormatError(path, f"{where}a number is too large: it is beyond 1.8e308")
+    return number
 
 
 def _box(path: Path, about: dict[str, Any], d: int) -> Box | None:

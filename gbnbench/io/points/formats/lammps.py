@@ -12,9 +12,9 @@ from pathlib import Path
 import numpy as np
 
 from gbnbench.core.errors import FormatError, InputError
-from gbnbench.io.points.formats.axes import XYZ, axes_of, refuse_plane
+from gbnbench.io.points.formats.axes import DIMENSION, XYZ, axes_of, is_plane, refuse_plane
 from gbnbench.io.points.formats.format import Format
-from gbnbench.io.points.number_parser import shown
+from gbnbench.io.points.literals import shown
 from gbnbench.io.points.point_file import PointFile
 from gbnbench.io.points.point_sets import Box, Coordinates, FileContent, PointSets, in_own_unit
 from gbnbench.io.points.text_lines import lines_of, numbers_of, whole_number
@@ -90,6 +90,8 @@ def _atoms(
     if family is None:
         raise FormatError(path, f"no column of coordinates (x, xs, xu, ...): {', '.join(words)}", at + 1)
     there = tuple(axis for axis in XYZ if axis + family in words)
+    if wanted is None:
+        _refuse_mixed(path, words, family, at + 1)
     if wanted is not None:
         wanted = tuple(name.removesuffix(family) if len(name) > 1 else name for name in wanted)
     axes = axes_of(path, wanted, there)
@@ -108,7 +110,8 @@ def _atoms(
             raise FormatError(path, f"{len(cells)} columns where ATOMS names {len(words)}", line)
         points.append(numbers_of(path, [cells[k] for k in kept], line))
     array = np.array(points)
-    refuse_plane(path, array, columns, at + 2)
+    if not (DIMENSION in words and rows[0].split()[words.index(DIMENSION)] == b"3"):
+        refuse_plane(path, array, columns, at + 2)
     own = Box(
         tuple(box.low[a] for a in axes), tuple(box.sides[a] for a in axes),
         None if box.periodic is None else tuple(box.periodic[a] for a in axes),
@@ -116,6 +119,19 @@ def _atoms(
     unwrapped = "u" in family and own.periodic is not None and all(own.periodic)
     lines_there = np.arange(at + 2, at + 2 + n)
     return Coordinates(array, lines_there, scaled="s" in family, unwrapped=unwrapped), own
+
+
+def _refuse_mixed(path: Path, words: list[str], family: str, line: int) -> None:
+    """Refuse columns of several kinds where the one that is read lacks an axis of another."""
+    axes = {f: {axis for axis in XYZ if axis + f in words} for f in _FAMILIES}
+    if any(not found <= axes[family] for found in axes.values()):
+        kinds = ", ".join(word for word in words if word[:1] in XYZ and word[1:] in _FAMILIES)
+        raise FormatError(
+            path,
+            f"its columns {kinds} are coordinates of different kinds: dump x y z, or take those of one by "
+            "--columns",
+            line,
+        )
 
 
 def _write(x: PointSets) -> bytes:
@@ -132,10 +148,12 @@ def _write(x: PointSets) -> bytes:
     ends = [f"{a!r} {a + b!r}" for a, b in zip(low, sides, strict=True)] + ["-0.5 0.5"] * (3 - d)
     parts = []
     for step, s in enumerate(in_own_unit(x)):
+        # a set in one plane would else be taken for one of the plane when it is read
+        note, three = (f" {DIMENSION}", " 3") if is_plane(s) else ("", "")
         parts += [
             "ITEM: TIMESTEP", str(step), "ITEM: NUMBER OF ATOMS", str(len(s)),
-            f"ITEM: BOX BOUNDS {flag} {flag} {flag}", *ends, f"ITEM: ATOMS id type {' '.join(XYZ[:d])}",
-            *(f"{k} 1 {' '.join(map(repr, row))}" for k, row in enumerate(s.tolist(), start=1)),
+            f"ITEM: BOX BOUNDS {flag} {flag} {flag}", *ends, f"ITEM: ATOMS id type {' '.join(XYZ[:d])}{note}",
+            *(f"{k} 1 {' '.join(map(repr, row))}{three}" for k, row in enumerate(s.tolist(), start=1)),
         ]  # fmt: skip
     return ("\n".join(parts) + "\n").encode()
 

@@ -21,6 +21,7 @@ from gbnbench.io.points.formats.numpy_array import UNSAFE, as_sets, brief, read_
 from gbnbench.io.points.point_file import PointFile
 from gbnbench.io.points.point_sets import Box, FileContent, PointSets, in_own_unit
 
+POINTS = "points"
 LOW, SIDES, TOROIDAL = "box_low", "box_sides", "box_toroidal"  # arrays that tell the box
 
 _BROKEN_ZIP: tuple[type[Exception], ...] = (
@@ -87,7 +88,9 @@ def _read_archive(file: PointFile, archive: zipfile.ZipFile, entries: int) -> Fi
         if len(chosen) > 1 and found.ndim != 2:
             said = f"array {name!r}: of several arrays each must be a set (n, d); got shape {found.shape}"
             raise FormatError(path, f"{said}; name the points 'points'")
-        sets += as_sets(path, found, f"array {name!r}: ", options.columns, box_told=box_told)
+        named = name == POINTS or _SET.fullmatch(name) is not None
+        where = f"array {name!r}: "
+        sets += as_sets(path, found, where, options.columns, box_told=box_told, named=named)
     dimensions = sorted({one.points.shape[1] for one in sets})
     if len(dimensions) > 1:
         raise FormatError(path, f"its sets have different dimensions: {dimensions}; take one by --array")
@@ -101,8 +104,8 @@ def _choose(file: PointFile, names: list[str]) -> list[str]:
         if wanted not in names:
             raise FormatError(path, f"has no array {wanted!r}; its arrays are {', '.join(names)}")
         return [wanted]
-    if "points" in names:
-        return ["points"]
+    if POINTS in names:
+        return [POINTS]
     points = [name for name in names if name not in (LOW, SIDES, TOROIDAL)]
     if len(points) == 1:
         return points
@@ -150,7 +153,7 @@ def _write(x: PointSets) -> bytes:
     file = io.BytesIO()
     sets = in_own_unit(x)
     arrays: dict[str, Any] = (
-        {"points": stack(sets)} if same_size(sets) else {f"set_{k}": s for k, s in enumerate(sets)}
+        {POINTS: stack(sets)} if same_size(sets) else {f"set_{k}": s for k, s in enumerate(sets)}
     )
     if x.sides is not None:
         arrays |= {SIDES: np.array(x.sides), LOW: np.array(x.low)}

@@ -88,7 +88,7 @@ def read_array(path: Path, file: IO[bytes], size: int, where: str) -> NDArray[An
         said = f"shape {shape} of {dtype} needs {count * dtype.itemsize} bytes, and {there} are there"
         raise FormatError(path, f"{where}{said}: truncated or damaged")
     if count * dtype.itemsize == 0:
-        raise FormatError(path, f"{where}the shape must be (n, d) or (realizations, n, d); got {shape}")
+        raise FormatError(path, f"{where}holds no points: its shape is {shape}, {dtype}")
     array = np.empty(count, dtype)
     if file.readinto(array.view(np.uint8).data) != array.nbytes:  # type: ignore[attr-defined]
         raise FormatError(path, f"{where}the array is truncated")
@@ -96,8 +96,9 @@ def read_array(path: Path, file: IO[bytes], size: int, where: str) -> NDArray[An
 
 
 def as_sets(
-    path: Path, array: NDArray[Any], where: str, columns: tuple[str, ...] | None, *, box_told: bool
-) -> list[Coordinates]:
+    path: Path, array: NDArray[Any], where: str, columns: tuple[str, ...] | None, *, box_told: bool,
+    named: bool = False,
+) -> list[Coordinates]:  # fmt: skip
     """Take an array for one set or several.
 
     Parameters
@@ -113,6 +114,8 @@ def as_sets(
         Columns that are coordinates.
     box_told : bool
         Whether the user told the box.
+    named : bool
+        Whether the array has the name that our own archives give to points, whose rows are points.
 
     Returns
     -------
@@ -123,6 +126,7 @@ def as_sets(
     FormatError
         If type or shape are others.
     """
+    bare = not named and columns is None
     if array.dtype.names is not None:
         array = _of_fields(path, array, where, columns)
         columns = None
@@ -141,7 +145,8 @@ def as_sets(
     points = array.astype(np.float64, order="C", copy=False)
     stack = points if points.ndim == 3 else points[None]
     return [
-        Coordinates(x, where=where if len(stack) == 1 else f"{where}set {k}: ") for k, x in enumerate(stack)
+        Coordinates(x, where=where if len(stack) == 1 else f"{where}set {k}: ", bare=bare)
+        for k, x in enumerate(stack)
     ]
 
 

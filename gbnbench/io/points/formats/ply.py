@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from gbnbench.core.errors import FormatError, InputError
 from gbnbench.io.points.columns import choose
-from gbnbench.io.points.formats.axes import XYZ, refuse_plane
+from gbnbench.io.points.formats.axes import DIMENSION, XYZ, is_plane, refuse_plane
 from gbnbench.io.points.formats.format import Format
-from gbnbench.io.points.number_parser import shown
+from gbnbench.io.points.literals import shown
 from gbnbench.io.points.point_file import PointFile
 from gbnbench.io.points.point_sets import Coordinates, FileContent, PointSets
 from gbnbench.io.points.text_lines import numbers_of
@@ -26,16 +26,25 @@ _TYPES = {
 }  # fmt: skip
 _ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 _END = re.compile(rb"(?:^|\n|\r)end_header[ \t]*(\r\n|\n|\r)")
+_SPATIAL = re.compile(rb"[\n\r]comment %b 3[ \t]*[\n\r]" % DIMENSION.encode())
 _MOST_HEADER = 1 << 20
 
 
 @dataclass
 class _Element:
-    """A kind of record: how many there are, and the types of its properties, None for a list."""
+    """A kind of record: how many there are, and types of its properties, two for a list: length and items."""
 
     name: str
     count: int
-    properties: dict[str, str | None] = field(default_factory=dict)
+    properties: dict[str, str | tuple[str, str]] = field(default_factory=dict)
+
+    def has_lists(self) -> bool:
+        """Whether its records differ in length."""
+        return any(isinstance(kind, tuple) for kind in self.properties.values())
+
+    def dtype(self, order: str) -> np.dtype[Any]:
+        """Return the type of a record without lists."""
+        return np.dtype([(name, f"{order}{kind}") for name, kind in self.properties.items()])
 
 
 def _recognises(file: PointFile) -> bool:
@@ -51,11 +60,13 @@ def _read(file: PointFile) -> FileContent:
     at = next((k for k, element in enumerate(elements) if element.name == "vertex"), None)
     if at is None:
         raise FormatError(path, "a PLY file without element vertex: it holds no points")
-    vertex, last = elements[at], at == len(elements) - 1
-    for element in elements[: at + 1]:
-        if None in element.properties.values() and (element is vertex or order):
-            said = f"lists in its element {element.name} are not read: write x, y, z of the vertices alone"
-            raise FormatError(path, said)
+    vertex = elements[at]
+    if vertex.count < 1:
+        raise FormatError(path, "element vertex 0: it holds no points")
+    if vertex.has_lists():
+        raise FormatError(
+            path, "lists in its element vertex are not read: write x, y, z of the vertices alone"
+        )
     names = tuple(vertex.properties)
     there = tuple(name for name in XYZ if name in names)
     if there != XYZ[: len(there)] or not there:
@@ -65,14 +76,17 @@ def _read(file: PointFile) -> FileContent:
         [names.index(name) for name in there] if columns is None else choose(path, columns, names, len(names))
     )
     if order:
-        table = _binary(path, data[end.end() :], order, elements[: at + 1], last)
+        table = _binary(path, data[end.end() :], order, elements, vertex)
         points = np.stack([table[names[k]] for k in kept], axis=-1)
         with np.errstate(invalid="ignore"):  # signalling nan
             found = Coordinates(points.astype(np.float64))
     else:
         before = sum(element.count for element in elements[:at])
-        found = _text(path, data[end.end() :], header, before, vertex, kept, last)
-    refuse_plane(path, found.points, columns)
+        found = _text(
+            path, data[end.end() :], header, before, vertex, kept, sum(element.count for element in elements)
+        )
+    if not _SPATIAL.search(data, 0, end.end()):
+        refuse_plane(path, found.points, columns)
     return FileContent([found])
 
 
@@ -90,8 +104,10 @@ def _header(path: Path, head: bytes) -> tuple[str, list[_Element], int]:
                 order = _ORDERS[kind]
             case ["element", name, count] if count.isascii() and count.isdigit() and len(count) < 16:
                 elements.append(_Element(name, int(count)))
-            case ["property", "list", *_, name] if elements and len(words) == 5:
-                elements[-1].properties[name] = None
+            case ["property", "list", length, kind, name] if (
+                elements and length in _TYPES and kind in _TYPES and name not in elements[-1].properties
+            ):
+                elements[-1].properties[name] = _TYPES[length], _TYPES[kind]
             case ["property", kind, name] if (
                 elements and kind in _TYPES and name not in elements[-1].properties
             ):
@@ -103,31 +119,63 @@ def _header(path: Path, head: bytes) -> tuple[str, list[_Element], int]:
     return order, elements, len(lines)
 
 
-def _binary(path: Path, body: bytes, order: str, elements: list[_Element], last: bool) -> NDArray[Any]:
-    """Read the vertices, the last of these elements."""
-    types = [np.dtype([(name, f"{order}{kind}") for name, kind in e.properties.items()]) for e in elements]
-    begin = sum(e.count * t.itemsize for e, t in zip(elements[:-1], types[:-1], strict=True))
-    vertex, dtype = elements[-1], types[-1]
-    need = begin + vertex.count * dtype.itemsize
-    if vertex.count < 1:
-        raise FormatError(path, "the file holds no points")
-    if len(body) < need or (last and len(body) > need):
-        said = f"{vertex.count} vertices need {need} bytes after the header, and {len(body)} are there"
+def _binary(path: Path, body: bytes, order: str, elements: list[_Element], vertex: _Element) -> NDArray[Any]:
+    """Read the vertices, and pass over all other elements, which have to fill the file."""
+    at = 0
+    found: NDArray[Any] | None = None
+    for element in elements:
+        if element.has_lists():
+            at = _after_lists(path, body, at, order, element)
+            continue
+        dtype = element.dtype(order)
+        need = at + element.count * dtype.itemsize
+        if len(body) < need:
+            said = "vertices" if element is vertex else f"records of its element {element.name}"
+            raise FormatError(
+                path,
+                f"{element.count} {said} need {need} bytes after the header, and {len(body)} are there: "
+                "truncated or damaged",
+            )
+        if element is vertex:
+            found = np.frombuffer(body, dtype, vertex.count, at)
+        at = need
+    if len(body) > at:
+        said = f"its elements need {at} bytes after the header, and {len(body)} are there"
         raise FormatError(path, f"{said}: truncated or damaged")
-    return np.frombuffer(body, dtype, vertex.count, begin)
+    assert found is not None  # noqa: S101 - the vertices are among the elements
+    return found
+
+
+def _after_lists(path: Path, body: bytes, at: int, order: str, element: _Element) -> int:
+    """Find the place after an element with lists, each of which tells its own length."""
+    kinds = [kind if isinstance(kind, tuple) else ("", kind) for kind in element.properties.values()]
+    fields = [
+        (np.dtype(order + length) if length else None, np.dtype(kind).itemsize) for length, kind in kinds
+    ]
+    for record in range(element.count):
+        for length, size in fields:
+            items = 1
+            if length is not None and at + length.itemsize <= len(body):
+                items = int(np.frombuffer(body, length, 1, at)[0])
+                at += length.itemsize
+            at += items * size
+            if items < 0 or at > len(body):
+                said = f"record {record} of its element {element.name} goes beyond the file's end"
+                raise FormatError(path, f"{said}: truncated or damaged")
+    return at
 
 
 def _text(
-    path: Path, body: bytes, header: int, before: int, vertex: _Element, kept: list[int], last: bool
+    path: Path, body: bytes, header: int, before: int, vertex: _Element, kept: list[int], total: int
 ) -> Coordinates:  # fmt: skip
     lines = re.split(rb"\r\n|\n|\r", body.rstrip())
     rows = lines[before : before + vertex.count]
-    if vertex.count < 1 or len(rows) < vertex.count or not body.strip():
+    if len(rows) < vertex.count or not body.strip():
         here = len(rows) if body.strip() else 0
         raise FormatError(path, f"the header says {vertex.count} vertices, and the file ends after {here}")
-    if last and len(lines) > before + vertex.count:
-        line = header + before + vertex.count + 1
-        raise FormatError(path, f"the header says {vertex.count} vertices, and here is another", line)
+    if len(lines) > total:
+        what = f"{vertex.count} vertices" if total == before + vertex.count else f"{total} lines"
+        raise FormatError(path, f"the header says {what}, and here is another", header + total + 1)
     first = header + before + 1
     points = []
     for line, row in enumerate(rows, start=first):
@@ -146,7 +194,8 @@ def _write(x: PointSets) -> bytes:
     if d > 3:
         raise InputError(f"a PLY file holds points of at most three dimensions; got d={d}")
     head = [
-        "ply", "format ascii 1.0", f"element vertex {len(x.sets[0])}",
+        "ply", "format ascii 1.0", *[f"comment {DIMENSION} 3"] * is_plane(x.sets[0]),
+        f"element vertex {len(x.sets[0])}",
         *(f"property double {name}" for name in XYZ[:d]), "end_header",
     ]  # fmt: skip
     rows = [" ".join(map(repr, row)) for row in x.sets[0].tolist()]

@@ -6,8 +6,45 @@ import numpy as np
 
 from gbnbench.core.errors import FormatError
 from gbnbench.io.points.columns import choose
+from gbnbench.io.points.file_format import NUMERIC
+from gbnbench.io.points.formats.foreign import JPEG, SIGNATURES
 from gbnbench.io.points.point_file import PointFile
 from gbnbench.io.points.point_sets import Coordinates, FileContent
+
+_SURE = 4  # bytes that numbers hardly ever happen to begin with
+_HEADERS = (
+    (b"\x93NUMPY", "is a numpy array"),
+    (b"PK\x03\x04", "is an archive, such as .npz"),
+    (b"%!PS", "is PostScript"),
+    (b"ply\n", "is a PLY file"),
+    (b"ply\r", "is a PLY file"),
+    (b"ITEM: ", "is a LAMMPS dump"),
+)
+
+
+def known_by_name(file: PointFile) -> str | None:
+    """Say what a file is, where its first bytes are the header of a known format or numbers in text.
+
+    Parameters
+    ----------
+    file : PointFile
+        Any file.
+
+    Returns
+    -------
+    str or None
+        For an error; None for numbers without a header.
+    """
+    head = file.head
+    for header, what in _HEADERS:
+        if head.startswith(header):
+            return what
+    for signature, what, _ in SIGNATURES:
+        if head.startswith(signature) and len(signature) >= _SURE - (signature == JPEG):
+            return f"is {what}"
+    if len(head) >= 4 * _SURE and not head.translate(None, NUMERIC + b" \t\r\n,;"):
+        return "is text"
+    return None
 
 
 def read_raw(file: PointFile) -> FileContent:
@@ -25,9 +62,11 @@ def read_raw(file: PointFile) -> FileContent:
     Raises
     ------
     FormatError
-        If the bytes are no whole number of points, or all of them are zero.
+        If the bytes are no whole number of points, all of them are zero, or they begin as a known format.
     """
     dtype, d = file.options.layout()
+    if (known := known_by_name(file)) is not None:
+        raise FormatError(file.path, f"{known}, and --raw is for numbers without a header: leave it out")
     data = file.read()
     if len(data) % (d * dtype.itemsize):
         raise FormatError(

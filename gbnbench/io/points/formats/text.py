@@ -17,6 +17,8 @@ from gbnbench.io.points.number_parser import Lexed, lex
 from gbnbench.io.points.point_file import PointFile
 from gbnbench.io.points.point_sets import Coordinates, FileContent, IntArray
 from gbnbench.io.points.text_columns import plain_rows
+from gbnbench.io.points.text_header import header_form
+from gbnbench.io.points.text_projection import STRUCK
 
 # (first line, lines) of one set, as indices into Lexed.line
 Span = tuple[int, int]
@@ -49,23 +51,26 @@ def read_text(file: PointFile) -> FileContent:
         At the first line that breaks the grammar.
     """
     path, options = file.path, file.options
-    names, rows = plain_rows(path, file.read(), options.columns)
-    text = lex(path, rows)
+    unit_torus = options.period is None and options.bounds is None and not options.wrap
+    table = plain_rows(path, file.read(), options.columns, counted=unit_torus)
+    names = table.names
+    text = lex(path, table.data, names, table.cell)
     if len(text.line) == 0:
         raise FormatError(path, "the file holds no points")
     begin = np.concatenate([[0], np.cumsum(text.width)])
     _refuse_hidden(path, text)
-    unit_torus = options.period is None and options.bounds is None and not options.wrap
-    form = 0 if names else _header_form(path, text, unit_torus)
+    form = 0 if names else header_form(path, text, unit_torus)
     if form:
         spans = _counted(path, text, begin, form)
     else:
         _same_width(path, text, names)
         if any(name in SET_NAMES for name in names):
             return FileContent(_by_column(path, text, names))
-        spans = _parted(path, text)
-    sets = [_coordinates(text, begin, span) for span in spans]
-    if not form and not names and options.columns is None:
+        spans = _parted(path, text, marked=not table.headed)
+    # a matrix of numbers alone may be transposed; a count, a name or the user says what its rows are
+    bare = not form and not names and options.columns is None
+    sets = [_coordinates(text, begin, span, bare=bare) for span in spans]
+    if bare:
         _refuse_row_numbers(path, sets[0])
     return FileContent(sets)
 
@@ -85,59 +90,11 @@ def _refuse_row_numbers(path: Path, one: Coordinates) -> None:
 
 def _refuse_hidden(path: Path, text: Lexed) -> None:
     """Refuse a comment that holds the numbers of a point: a stray # may have struck it out."""
-    lost = np.flatnonzero((text.hidden > 0) & (text.hidden == text.width[-1]))
+    whole = bool(text.bare[-int(text.width[-1]) :].all())
+    held = np.abs(text.hidden) if whole else text.hidden
+    lost = np.flatnonzero((held > 0) & (held == text.width[-1]))
     if len(lost):
-        raise FormatError(path, "a point behind a '#': remove one or the other", int(text.comment[lost[0]]))
-
-
-def _header_form(path: Path, text: Lexed, unit_torus: bool) -> int:
-    """Numbers in each header line (1: a count; 2: a count and a dimension), or 0 where all lines are points.
-
-    On the unit torus a first line of one or two bare whole numbers is a header where one of them exceeds 1,
-    which no coordinate does. The few that a point could also be written as are headers only where nothing but
-    a header fits. In other units any such line can be a point: it is one where it says another dimension than
-    the rows have, a header where no point is as wide, and refused where it could be either.
-    """
-    width = int(text.width[0])
-    if width > 2 or not text.bare[:width].all():
-        return 0
-    first = text.value[:width]
-    following = int(text.width[1]) if len(text.width) > 1 else 0
-    whole = bool(text.bare.all()) and bool((text.width == width).all())
-    if width == following == 2 != first[1]:
-        if not unit_torus:
-            return 0
-        if whole and np.any(text.value > 1):
-            _refuse_pixels(path, text)
-    if unit_torus and np.any(first > 1):
-        return width
-    if width == 1 and following > 1:
-        return 1
-    if width == 2 and first[0] == 1 == first[1] and following == 1:
-        return 2
-    if not unit_torus and first[0] >= 1 and (following != width or not whole):
-        return width
-    if width == 1 or first[1] == 1 or not unit_torus:
-        literal = " ".join(str(int(v)) for v in first)
-        point = " ".join(f"{v:.1f}" for v in first)
-        raise FormatError(
-            path,
-            f"'{literal}' may be a header or a point: write the point as '{point}', "
-            "or put a header of count and dimension such as '1024 2' first",
-            int(text.line[0]),
-        )
-    return 0
-
-
-def _refuse_pixels(path: Path, text: Lexed) -> NoReturn:
-    at = int(np.argmax(text.value > 1))
-    line = int(text.line[np.searchsorted(np.cumsum(text.width), at, side="right")])
-    raise FormatError(
-        path,
-        f"coordinate {text.value[at]:g} is not in [0, 1]: all numbers are whole, as those of pixels are; "
-        "give the image's size, such as --period 512,512 (period= in Python)",
-        line,
-    )
+        raise FormatError(path, STRUCK, int(text.comment[lost[0]]))
 
 
 def _counted(path: Path, text: Lexed, begin: IntArray, form: int) -> list[Span]:
@@ -166,7 +123,12 @@ def _counted(path: Path, text: Lexed, begin: IntArray, form: int) -> list[Span]:
         if len(wrong):
             _refuse_width(path, text, at + 1 + int(wrong[0]), d, f"line {number} says {_points(n)}")
         if held < n:
-            raise FormatError(path, f"this line says {_points(n)}, and the file ends after {held}", number)
+            raise FormatError(
+                path,
+                f"this line says {_points(n)}, and the file ends after {held}"
+                + (f"; as a point, write it as '{' '.join(f'{v:.1f}' for v in header)}'" if not held else ""),
+                number,
+            )
         spans.append((at + 1, n))
         at += 1 + n
     return spans
@@ -199,16 +161,30 @@ def _refuse_width(path: Path, text: Lexed, at: int, d: int, because: str) -> NoR
     raise FormatError(path, f"{what}; {because}", int(text.line[at]))
 
 
-def _parted(path: Path, text: Lexed) -> list[Span]:
-    """Find the sets parted by # lines; a blank line in one is refused, since some programs part sets so."""
+def _parted(path: Path, text: Lexed, *, marked: bool) -> list[Span]:
+    """Find the sets parted by # lines; a blank line in one is refused, since some programs part sets so.
+
+    In a table with a line of names comments part nothing; a line of # alone, which could be meant to, is
+    refused there.
+    """
     section = np.searchsorted(text.comment, text.line)
-    joined = np.diff(section) == 0
-    gap = np.flatnonzero(joined & (np.diff(text.line) > 1))
+    comments = np.diff(section)
+    joined = comments == 0 if marked else np.ones(len(comments), np.bool_)
+    gap = np.flatnonzero(joined & (np.diff(text.line) > 1 + comments))
     if len(gap):
         raise FormatError(
             path,
-            "a blank line between points: part sets by a line '#', or remove it",
+            "a blank line between points: part sets by a line '#', or remove it"
+            if marked
+            else "a blank line between points: remove it, or part sets by a column 'set'",
             int(text.line[gap[0]]) + 1,
+        )
+    inside = (text.comment > text.line[0]) & (text.comment < text.line[-1])
+    if not marked and np.any(text.mark & inside):
+        raise FormatError(
+            path,
+            "a line '#' in a table with names parts no sets: remove it, or part them by a column 'set'",
+            int(text.comment[np.argmax(text.mark & inside)]),
         )
     bounds = [0, *(np.flatnonzero(~joined) + 1).tolist(), len(text.line)]
     return [(a, b - a) for a, b in pairwise(bounds)]
@@ -232,10 +208,10 @@ def _by_column(path: Path, text: Lexed, names: tuple[str, ...]) -> list[Coordina
     return [Coordinates(points[a:b].copy(), text.line[a:b]) for a, b in pairwise(bounds)]
 
 
-def _coordinates(text: Lexed, begin: IntArray, span: Span) -> Coordinates:
+def _coordinates(text: Lexed, begin: IntArray, span: Span, *, bare: bool) -> Coordinates:
     first, n = span
     points = text.value[begin[first] : begin[first + n]].reshape(n, -1)
-    return Coordinates(points, text.line[first : first + n])
+    return Coordinates(points, text.line[first : first + n], bare=bare)
 
 
 TEXT = Format(

@@ -12,10 +12,11 @@ from pathlib import Path
 import numpy as np
 
 from gbnbench.core.errors import FormatError, InputError
+from gbnbench.core.torus import FloatArray
+from gbnbench.io.points.formats.axes import DIMENSION, axes_of, is_plane, refuse_plane
 from gbnbench.io.points.formats.axes import XYZ as AXES
-from gbnbench.io.points.formats.axes import axes_of, refuse_plane
 from gbnbench.io.points.formats.format import Format
-from gbnbench.io.points.number_parser import NUMBER
+from gbnbench.io.points.literals import NUMBER
 from gbnbench.io.points.point_file import PointFile
 from gbnbench.io.points.point_sets import Box, Coordinates, FileContent, PointSets, in_own_unit
 from gbnbench.io.points.text_lines import lines_of, numbers_of, whole_number
@@ -30,7 +31,9 @@ def _recognises(file: PointFile) -> bool:
     if len(lines) < 3 or not lines[0].strip().isdigit():
         return False
     cells = lines[2].split()
-    symbol = bool(cells) and cells[0][:1].isalpha() and sum(bool(NUMBER.fullmatch(c)) for c in cells[1:]) >= 3
+    least = 1 if file.suffix in _SUFFIXES else 3  # under its name even an atom of too few numbers is one
+    symbol = cells[:1] != [] and cells[0][:1].isalpha()
+    symbol = symbol and sum(bool(NUMBER.fullmatch(c)) for c in cells[1:]) >= least
     numbered = (
         file.suffix in _SUFFIXES and len(cells) > 3 and cells[0].isdigit() and not _all_numbers(lines[1])
     )
@@ -52,7 +55,7 @@ def _read(file: PointFile) -> FileContent:
     while at < len(lines):
         n = whole_number(path, lines[at], at + 1, "the number of atoms")
         comment = lines[at + 1] if at + 1 < len(lines) else b""
-        box, column = _comment(path, comment, at + 2)
+        box, column, spatial = _comment(path, comment, at + 2)
         if sets and box != first:
             raise FormatError(path, "this set has another cell than the first: split them", at + 2)
         first = box
@@ -60,7 +63,8 @@ def _read(file: PointFile) -> FileContent:
         if len(rows) < n:
             raise FormatError(path, f"this line says {n} atoms, and the file ends after {len(rows)}", at + 1)
         points = np.array([_atom(path, row, column, at + 3 + k) for k, row in enumerate(rows)])
-        refuse_plane(path, points, columns, at + 3)
+        if not spatial:
+            refuse_plane(path, points, columns, at + 3)
         sets.append(Coordinates(points[:, axes], np.arange(at + 3, at + 3 + n)))
         at += 2 + n
     if first is not None:
@@ -78,8 +82,8 @@ def _atom(path: Path, row: bytes, column: int, line: int) -> list[float]:
     return numbers_of(path, cells[column : column + 3], line)
 
 
-def _comment(path: Path, comment: bytes, line: int) -> tuple[Box | None, int]:
-    """Read the cell, and the column at which the coordinates start."""
+def _comment(path: Path, comment: bytes, line: int) -> tuple[Box | None, int, bool]:
+    """Read the cell, the column where coordinates start, and whether points are said to be of space."""
     text = comment.decode("utf-8", "backslashreplace")
     pairs = {name.lower(): a or b or c for name, a, b, c in _PAIR.findall(text)}
     column = 1
@@ -95,8 +99,9 @@ def _comment(path: Path, comment: bytes, line: int) -> tuple[Box | None, int]:
         ]:
             raise FormatError(path, "Properties name no pos:R:3, the coordinates", line)
         column = sum(int(w) for w in widths[: names.index("pos")])
+    spatial = pairs.get(DIMENSION) == "3"
     if "lattice" not in pairs:
-        return None, column
+        return None, column, spatial
     lattice = _floats(path, pairs["lattice"], 9, "Lattice", line)
     origin = _floats(path, pairs.get("origin", "0 0 0"), 3, "Origin", line)
     sides = lattice[::4]
@@ -108,7 +113,7 @@ def _comment(path: Path, comment: bytes, line: int) -> tuple[Box | None, int]:
     if len(flags) != 3 or not all(flag.upper() in ("T", "F", "1", "0", "TRUE", "FALSE") for flag in flags):
         raise FormatError(path, 'pbc must be three of T and F, such as pbc="T T F"', line)
     periodic = tuple(flag.upper() in ("T", "1", "TRUE") for flag in flags)
-    return Box(tuple(origin), tuple(sides), periodic), column
+    return Box(tuple(origin), tuple(sides), periodic), column, spatial
 
 
 def _floats(path: Path, text: str, count: int, name: str, line: int) -> list[float]:
@@ -137,9 +142,14 @@ def _write(x: PointSets) -> bytes:
             f'Lattice="{lattice}" Origin="{origin}" Properties=species:S:1:pos:R:3 pbc="{flag} {flag} {flag}"'
         )
     return "".join(
-        f"{len(s)}\n{comment}\n" + "".join(f"X {a!r} {b!r} {c!r}\n" for a, b, c in s.tolist())
+        f"{len(s)}\n{_noted(comment, s)}\n" + "".join(f"X {a!r} {b!r} {c!r}\n" for a, b, c in s.tolist())
         for s in in_own_unit(x)
     ).encode()
+
+
+def _noted(comment: str, s: FloatArray) -> str:
+    """Add to a comment that a set is of space, where it would else be taken for one of the plane."""
+    return f"{comment} {DIMENSION}=3".lstrip() if is_plane(s) else comment
 
 
 XYZ = Format(
