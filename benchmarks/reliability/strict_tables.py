@@ -7,6 +7,8 @@ import re
 
 from gbnbench.benchmarks.reliability.strict_words import DECIMAL, QUOTED, need, tokens_of
 
+AXIS = r"[xyzw]|[a-z][_ ]?[\[(]?[0-9]{1,6}[\])]?"  # the name of one, alone
+
 
 def cells_of(line: str) -> list[str]:
     """Part a line by commas, else by blanks; quotes hold a cell together.
@@ -198,7 +200,8 @@ def names_above(lines: list[str], first: int) -> list[str]:
         if any(int(cell) > 1 for cell in cells) or not after or len(cells_of(after[0])) != len(cells):
             return []
     names = names_of(lines[first - 1].lstrip("#").strip(" \t\v\f"))
-    return names if len(names) == len(cells) else []
+    axes = [name for name in names if re.fullmatch(AXIS, name, re.IGNORECASE | re.ASCII)]
+    return names if len(names) == len(cells) and axes else []
 
 
 def unnamed_taken(lines: list[str], first: int, names: list[str]) -> list[str]:

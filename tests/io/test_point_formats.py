@@ -150,6 +150,14 @@ def test_columns_are_taken_by_name(tmp_path: Path) -> None:
         assert said in str(caught.value)
 
 
+def test_a_box_is_contradicted_on_any_axis(tmp_path: Path) -> None:
+    path = tmp_path / "x.xyz"
+    path.write_text('1\nLattice="1000 0 0 0 1 0 0 0 1"\nC 500 0.5 0.25\n')
+    with pytest.raises(FormatError, match="which --period contradicts"):
+        read_sets(path, reading_options(period=(1000, 1.0009, 0.9991)))
+    assert read_sets(path, reading_options(period=(1000, 1, 1 + 1e-9))).sides == (1000, 1, 1)
+
+
 def test_a_box_of_the_file_is_not_contradicted(tmp_path: Path) -> None:
     path = put(tmp_path, "a.edat", EDAT)
     assert read_sets(path, reading_options(bounds=(-1, 1, 0, 4))).sides == (2.0, 4.0)

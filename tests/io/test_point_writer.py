@@ -11,7 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gbnbench.core.errors import FormatError, InputError
-from gbnbench.io.points import load, read, save
+from gbnbench.io.points import load, read, read_sets, save
+from gbnbench.io.points.point_sets import PointSets
 from tests.io.point_bytes import A, put
 
 WRITTEN = [".txt", ".dat", ".csv", ".npy", ".npz"]
@@ -126,3 +127,17 @@ def test_a_bare_matrix_of_few_points_is_read_where_columns_are_told(tmp_path: Pa
         load(tmp_path / f"a{suffix}")
     assert np.array_equal(load(tmp_path / f"a{suffix}", columns="1-16"), x)
     assert np.array_equal(load(tmp_path / f"a{suffix}", columns="2,4-6"), x[:, [1, 3, 4, 5]])
+
+
+@pytest.mark.parametrize("suffix", [".npz", ".json", ".xyz", ".edat", ".lammpstrj"])
+def test_what_rounds_to_the_upper_end_is_read_again(tmp_path: Path, suffix: str) -> None:
+    """0.3 + 1e5 is rounded upwards by more than the distance of the point from the end."""
+    rng = np.random.default_rng(4)
+    points = np.concatenate([np.full((1, 3), 1 - 2**-53), rng.random((50, 3))])
+    sets = PointSets([points], (1e5, 3e5, 0.1), (0.3, -7.0, 1e3), True)
+    for made in (sets, PointSets([points], (0.3, 7.0, 1e3), (1e5, -3e5, 0.1), True)):
+        save(tmp_path / f"x{suffix}", made)
+        again = read_sets(tmp_path / f"x{suffix}")
+        away = np.abs(again.sets[0] - points)
+        size = np.abs(np.array(made.low)) + np.array(made.sides)
+        assert (np.minimum(away, 1 - away) * np.array(made.sides) <= 4e-16 * size).all()

@@ -106,3 +106,10 @@ def test_a_row_of_pixels_struck_out(tmp_path: Path) -> None:
     path = put(tmp_path, "a.txt", b"115 376\n#130 272\n200 300\n")
     with pytest.raises(FormatError, match="line 2: a point behind a '#'"):
         load(path, period=512)
+
+
+@pytest.mark.parametrize("comment", ["# random points", "# two columns", "# made by", "#"])
+def test_a_comment_without_an_axis_is_no_line_of_names(tmp_path: Path, comment: str) -> None:
+    path = tmp_path / "x.txt"
+    path.write_text(f"{comment}\n0.1 0.2\n0.3 0.4\n")
+    assert read_sets(path).sets[0].tolist() == [[0.1, 0.2], [0.3, 0.4]]

@@ -76,6 +76,11 @@ def advised(names: Sequence[str]) -> str:
     return f"--columns {shlex.quote(','.join(names))}"
 
 
+def is_axis(name: str) -> bool:
+    """Tell whether a name, in any case, is that of an axis: x, y, z, w, or a letter with a number."""
+    return name.lower() in _LETTERS or _NUMBERED.fullmatch(name.lower()) is not None
+
+
 def fault_of_names(given: Sequence[str]) -> str | None:
     """Say why names are not those of the axes, or return None.
 

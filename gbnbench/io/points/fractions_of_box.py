@@ -69,11 +69,11 @@ def _box(path: Path, own: Box | None, options: ReadingOptions, d: int) -> Box | 
     if given is None or own is None:
         return own if given is None else given
     far = max(
-        abs(a - b)
+        abs(a - b) / side
         for pair in ((given.low, own.low), (given.sides, own.sides))
-        for a, b in zip(*pair, strict=True)
+        for a, b, side in zip(*pair, own.sides, strict=True)
     )
-    if far > ROUNDING * max(own.sides):
+    if far > ROUNDING:
         name = "--period" if options.period is not None else _ends(options)
         instead = "--window file takes that" if options.window else "leave it out"
         raise FormatError(path, f"tells its own box, {_described(own)}, which {name} contradicts; {instead}")

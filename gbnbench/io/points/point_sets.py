@@ -114,7 +114,15 @@ def in_own_unit(x: PointSets) -> list[FloatArray]:
     """
     if x.sides is None or x.low is None:
         return x.sets
-    return [np.array(x.low) + s * np.array(x.sides) for s in x.sets]
+    low, sides = np.array(x.low), np.array(x.sides)
+    return [_kept_within(low + s * sides, low, sides) for s in x.sets]
+
+
+def _kept_within(points: FloatArray, low: FloatArray, sides: FloatArray) -> FloatArray:
+    """Round down what was rounded beyond the upper end, where reading would find it outside."""
+    while (beyond := (points - low) / sides > 1).any():
+        points[beyond] = np.nextafter(points, low)[beyond]
+    return points
 
 
 def unequal_sides(sides: tuple[float, ...] | None) -> bool:

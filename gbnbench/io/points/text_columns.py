@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from gbnbench.core.errors import FormatError
-from gbnbench.io.points.columns import SET_NAMES, choose, fault_of_names
+from gbnbench.io.points.columns import SET_NAMES, choose, fault_of_names, is_axis
 from gbnbench.io.points.literals import NUMBER
 from gbnbench.io.points.text_cells import BLANKS, Line, cells_of, content_line, names_of, unquoted
 from gbnbench.io.points.text_dialect import PlainText, plain_text
@@ -107,7 +107,8 @@ def plain_rows(path: Path, data: bytes, columns: tuple[str, ...] | None, *, coun
     if fault is not None:
         raise FormatError(
             path,
-            f"{fault} (a comment right above the first row names the columns where it has a word for each)",
+            f"{fault} (a comment right above the first row names the columns where it has a word for each, "
+            "one of them an axis)",
             first.number - 1,
         )
     return Rows(tuple(name.lower() for name in names), unquoted(data), False, text)
@@ -162,8 +163,8 @@ def _names(text: PlainText, line: Line) -> tuple[str, ...]:
 def _names_above(text: PlainText, first: Line, counted: bool) -> tuple[str, ...]:
     """Return the names in a comment right above the first row, as numpy.savetxt writes them.
 
-    A comment is no line of names where it has another number of words than the row has cells, or the row is
-    a count.
+    A comment is no line of names where it has another number of words than the row has cells, none of them is
+    that of an axis, or the row is a count.
     """
     above = text.data[: max(first.start - 1, 0)].rpartition(b"\n")[2].strip(BLANKS)
     if not above.startswith(b"#"):
@@ -178,4 +179,4 @@ def _names_above(text: PlainText, first: Line, counted: bool) -> tuple[str, ...]
             return ()
     words = text.line(first.number - 1).lstrip(b"#").strip(BLANKS)
     names = names_of(words, text.separator)
-    return names if len(names) == len(cells) else ()
+    return names if len(names) == len(cells) and any(map(is_axis, names)) else ()
