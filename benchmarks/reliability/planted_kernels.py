@@ -87,7 +87,7 @@ PLANTS = {
 }
 
 
-def spoil(plant: Plant, folder: Path) -> None:
+def _spoil(plant: Plant, folder: Path) -> None:
     """Copy the package into a folder, with the mistake in its kernel."""
     package = folder / "gbnbench"
     skipped = shutil.ignore_patterns("__pycache__", "*.npz", "*.pdf", "*.png")
@@ -111,7 +111,7 @@ def planted_kernel(name: str) -> list[Trials]:
     """
     plant = PLANTS[name]
     with empty_folder() as folder:
-        spoil(plant, folder)
+        _spoil(plant, folder)
         done = subprocess.run(
             [*GBNBENCH, "doctor", "--quick", "--json"],
             env={**os.environ, "PYTHONPATH": str(folder)},

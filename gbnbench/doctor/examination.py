@@ -80,7 +80,7 @@ def examine_apart(quick: bool = False) -> Examination:
         for function, case, precision in planned:
             pool.submit(None, carried_out, function, case, precision)
             done = pool.next()
-            checks.extend(done.value or [not_tried(function, case, precision, done.failure)])
+            checks.extend(done.value or [_not_tried(function, case, precision, done.failure)])
     return Examination(device, tuple(checks))
 
 
@@ -103,10 +103,10 @@ def carried_out(function: KernelChecks, case: tuple[float, ...], precision: str)
     try:
         return list(function(*case, precision))
     except Exception as error:
-        return [not_tried(function, case, precision, f"{type(error).__name__}: {error}")]
+        return [_not_tried(function, case, precision, f"{type(error).__name__}: {error}")]
 
 
-def not_tried(function: KernelChecks, case: tuple[float, ...], precision: str, why: str) -> Check:
+def _not_tried(function: KernelChecks, case: tuple[float, ...], precision: str, why: str) -> Check:
     """Make the check that failed because it could not be carried out to its end."""
     name = function.__name__.strip("_").replace("_", " ")
     return Check(name, " ".join(f"{value:g}" for value in case), precision, np.inf, 0.0, why)
