@@ -1,4 +1,4 @@
-"""Whether the balls of tetrahedra hold a corner beyond their facets, by signs that rounding does not turn."""
+"""Balls of tetrahedra that hold a corner beyond a facet, told by signs that rounding does not turn."""
 
 from __future__ import annotations
 

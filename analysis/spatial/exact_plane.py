@@ -38,7 +38,20 @@ class ExactPlane:
         self.area: float = math.prod(box.tolist())
 
     def vector(self, point: int, image: Image) -> Vector:
-        """Vector from a point to an image, in fractions of the sides."""
+        """Take the vector from a point to an image.
+
+        Parameters
+        ----------
+        point : int
+            Where it starts.
+        image : Image
+            Where it ends.
+
+        Returns
+        -------
+        Vector
+            In fractions of the sides, in units of ``1 / unit``.
+        """
         other, right, up = image
         return (
             self.points[2 * other] - self.points[2 * point] + right * self.unit,
@@ -46,7 +59,20 @@ class ExactPlane:
         )
 
     def outside(self, a: Vector, b: Vector, c: Vector) -> int:
-        """Positive where c is outside the circle through the origin, a and b, which turn left; 0 on it."""
+        """Tell on which side of a circle a point is.
+
+        Parameters
+        ----------
+        a, b : Vector
+            Points of the circle, which passes the origin too; b lies to the left of a.
+        c : Vector
+            The point.
+
+        Returns
+        -------
+        int
+            Positive outside, negative inside, 0 on the circle.
+        """
         east, north = self.weight
         aa = east * a[0] * a[0] + north * a[1] * a[1]
         bb = east * b[0] * b[0] + north * b[1] * b[1]
@@ -59,5 +85,16 @@ class ExactPlane:
 
 
 def cross(a: Vector, b: Vector) -> int:
-    """Positive where b lies to the left of a."""
+    """Cross product.
+
+    Parameters
+    ----------
+    a, b : Vector
+        In one unit.
+
+    Returns
+    -------
+    int
+        Positive where b lies to the left of a.
+    """
     return a[0] * b[1] - a[1] * b[0]

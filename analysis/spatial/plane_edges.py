@@ -1,4 +1,4 @@
-"""Which edges of a triangulated torus are Delaunay's, with signs that are certain.
+"""Edges of a triangulated torus that are Delaunay's, told by signs that are certain.
 
 An edge is one if the corner beyond it lies outside the circle of the triangle before it. The determinant that
 says so is taken in doubles with a bound of its rounding (Shewchuk 1997), and in integers where the bound does
@@ -52,7 +52,17 @@ class EdgeCheck:
         return ExactPlane(self.x, self.box)
 
     def corners_turn_left(self, rings: Rings) -> bool:
-        """Whether each edge has the next of its ring to its left, by less than half a turn."""
+        """Tell whether each edge has the next of its ring to its left, by less than half a turn.
+
+        Parameters
+        ----------
+        rings : Rings
+            Edges of the plane.
+
+        Returns
+        -------
+        bool
+        """
         a, b = rings.vector, rings.vector[rings.following]
         one, two = a[:, 0] * b[:, 1], a[:, 1] * b[:, 0]
         turn, error = one - two, CROSS_ERROR * (np.abs(one) + np.abs(two)) + LEAST
