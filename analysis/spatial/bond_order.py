@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gbnbench.analysis.spatial.delaunay import IndexArray, Neighbours, plane_neighbours
+from gbnbench.analysis.spatial.delaunay import Neighbours, plane_neighbours
+from gbnbench.analysis.spatial.plane_rings import IndexArray
 from gbnbench.core.torus import FloatArray
 
 

@@ -11,14 +11,14 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gbnbench.analysis.spatial.delaunay_stars import Star, star_in_plane, star_in_space
-from gbnbench.core.double_double import two_sum
+from gbnbench.analysis.spatial.delaunay_plane import rescued, star_in_plane
+from gbnbench.analysis.spatial.delaunay_space import star_in_space
+from gbnbench.analysis.spatial.delaunay_tiling import Tiling
+from gbnbench.analysis.spatial.plane_rings import IndexArray, Rings
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.periodic_delaunay import copies, images_in_box, triangulation, with_images
 from gbnbench.core.sides import Sides, as_sides, positions
 from gbnbench.core.torus import FloatArray, as_realizations, spacing
-
-IndexArray = NDArray[np.intp]
 
 # The torus holds the integer lattice of each point, so no empty ball is wider than sqrt(3): two rings of
 # images reach every neighbour of a point, whatever the set. In a box it is the diagonal.
@@ -74,7 +74,7 @@ def neighbours(x: ArrayLike, sides: ArrayLike | None = None) -> tuple[Neighbours
     InputError
         If sides are not d lengths.
     RefusalError
-        If d is not 2 or 3, or two points of a set coincide.
+        If d is not 2 or 3, or two points of a set coincide or are too near for Qhull's doubles.
 
     Notes
     -----
@@ -87,7 +87,8 @@ def neighbours(x: ArrayLike, sides: ArrayLike | None = None) -> tuple[Neighbours
     The set is triangulated with a border of its images. The border is proven wide enough where the
     circumscribed ball of every triangle at a point of the set lies inside it, for then no other image could
     change these triangles (``gbnbench.core.periodic_delaunay``). Else it is widened and the set triangulated
-    again.
+    again. In the plane every edge is then checked with a certain sign, and mended where Qhull's rounding made
+    it wrong; in space such a set is refused.
 
     Examples
     --------
@@ -103,7 +104,7 @@ def neighbours(x: ArrayLike, sides: ArrayLike | None = None) -> tuple[Neighbours
             f"Delaunay neighbours are made in d = 2 and 3; got d={d}, where they grow too many"
         )
     lengths = as_sides(sides, d)
-    return tuple(_triangulate(points, lengths) for points in positions(sets, lengths))
+    return tuple(_triangulate(points, lengths) for points in sets)
 
 
 def as_neighbours(
@@ -162,29 +163,31 @@ def plane_neighbours(
 def _triangulate(x: FloatArray, sides: Sides | None) -> Neighbours:
     n, d = x.shape
     h = spacing(n, d)
-    if len(np.unique(x, axis=0)) < n:
+    order = np.lexsort(x.T)
+    if (np.diff(x[order], axis=0) == 0).all(axis=1).any():
         raise RefusalError(f"Delaunay neighbours need distinct points; some of these n={n} coincide")
+    placed, box = positions(x, sides), np.array(sides or (1.0,) * d)
     star_of = star_in_plane if d == 2 else star_in_space
     widest = most = 2 * math.hypot(*sides) if sides else WIDEST_MARGIN
     if sides is None:
         most = 1.0  # one ring of images
     margin = 3 * h if 3 * h < most else widest
     while True:
-        tiled, owner = _tile(x, margin) if sides is None else images_in_box(x, sides, margin)
-        simplices = _inner_simplices(tiled, n)
-        star = 0.0 if simplices is None else star_of(tiled, simplices, n, h, margin, sides)
-        if isinstance(star, Star):
-            index = owner[star.image]
-            box = 1.0 if sides is None else np.array(sides)
-            turns = np.rint((tiled[star.image] - x[index]) / box) * box
-            # The tiling's own coordinates are rounded to 1e-16 of the box, which near neighbours would feel.
-            difference, rest = two_sum(x[index], -x[star.point])
-            return Neighbours(star.indptr, index, (difference + turns) + rest)
+        place, owner = _tile(placed, margin) if sides is None else images_in_box(placed, sides, margin)
+        simplices = _inner_simplices(place, n)
+        star: Rings | float | None = 0.0
+        if simplices is not None:
+            tiling = Tiling(x, box, place, owner, margin, *simplices)
+            star = star_of(tiling)
+            if d == 2 and star == 0.0 and margin >= widest:
+                star = rescued(tiling)
+        if isinstance(star, Rings):
+            return Neighbours(star.indptr, star.index, star.vector)
         if margin >= widest:
             raise RefusalError(
                 f"Delaunay neighbours need points apart; some of these n={n} are too near for doubles"
             )
-        wider = max(1.5 * margin, star)
+        wider = max(1.5 * margin, star or 0.0)
         margin = wider if wider < most else widest
 
 
@@ -196,10 +199,10 @@ def _tile(x: FloatArray, margin: float) -> tuple[FloatArray, IndexArray]:
     return copies(x, shifts)
 
 
-def _inner_simplices(tiled: FloatArray, n: int) -> IndexArray | None:
-    """List the simplices at the first n points.
+def _inner_simplices(tiled: FloatArray, n: int) -> tuple[IndexArray, IndexArray] | None:
+    """List the simplices at the first n points, with the corners beyond their facets.
 
-    None where the tiling spans no space, and an empty list where one of the points lies on the hull or Qhull
+    None where the tiling spans no space, and empty lists where one of the points lies on the hull or Qhull
     lost a point to rounding: more images are needed.
     """
     mesh = triangulation(tiled)
@@ -207,9 +210,13 @@ def _inner_simplices(tiled: FloatArray, n: int) -> IndexArray | None:
         return None
     simplices = mesh.simplices.astype(np.intp)
     if len(mesh.coplanar):
-        return simplices[:0]
+        return simplices[:0], simplices[:0]
     for corner in range(simplices.shape[1]):
         outer = simplices[mesh.neighbors[:, corner] < 0]
         if (np.delete(outer, corner, axis=1) < n).any():
-            return simplices[:0]
-    return simplices[(simplices < n).any(axis=1)]
+            return simplices[:0], simplices[:0]
+    inner = (simplices < n).any(axis=1)
+    # Simplices beside a facet share all rows but one each.
+    total = simplices.sum(axis=1)
+    beyond = total[mesh.neighbors[inner]] - total[inner][:, None] + simplices[inner]
+    return simplices[inner], np.where(mesh.neighbors[inner] < 0, -1, beyond)

@@ -19,7 +19,9 @@ from gbnbench.core.torus import (
 )
 
 NEAR = 1e-9  # box sides; a distance below which the tree's rounding may exceed 1e-7 of it
-CANDIDATES = 8
+CANDIDATES = 8  # of a near point at first; four times as many where the last may still be the nearest
+ROUNDED = 2.0**-50  # box sides; what the tree's distances may be off by on one axis
+BLOCK = 2**20  # candidates looked at together
 
 
 def nearest_distances(x: ArrayLike, sides: ArrayLike | None = None) -> FloatArray:
@@ -69,9 +71,17 @@ def _nearest(points: FloatArray, sides: Sides | None) -> FloatArray:
     tree = cKDTree(placed, boxsize=box)
     nearest = _shortest(points, box, np.arange(n), np.asarray(tree.query(placed, k=2)[1]))
     near = np.flatnonzero(nearest < NEAR)
-    if len(near):
-        candidates = tree.query(placed[near], k=min(n, CANDIDATES))[1]
-        nearest[near] = _shortest(points, box, near, np.asarray(candidates))
+    count = min(n, CANDIDATES)
+    while len(near):
+        unsure = []
+        for block in np.array_split(near, math.ceil(len(near) * count / BLOCK)):
+            told, candidates = tree.query(placed[block], k=count)
+            nearest[block] = _shortest(points, box, block, np.asarray(candidates))
+            # Coincident points are nearest of all, however many.
+            beyond = np.asarray(told)[:, -1] > nearest[block] + ROUNDED * math.sqrt(d) * box.max()
+            unsure.append(block[~beyond & (nearest[block] > 0)])
+        near = np.concatenate(unsure) if count < n else near[:0]
+        count = min(n, 4 * count)
     return nearest
 
 

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gbnbench.analysis.spatial.delaunay import IndexArray, Neighbours, as_neighbours, plane_neighbours
+from gbnbench.analysis.spatial.delaunay import Neighbours, as_neighbours, plane_neighbours
+from gbnbench.analysis.spatial.plane_rings import IndexArray
 from gbnbench.core.torus import FloatArray
 
 if TYPE_CHECKING:

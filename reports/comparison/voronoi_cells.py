@@ -7,7 +7,6 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.analysis.spatial.delaunay_stars import SHORTEST_EDGE
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.periodic_delaunay import (
     copies,
@@ -19,6 +18,7 @@ from gbnbench.core.periodic_delaunay import (
 from gbnbench.core.sides import Sides, positions
 from gbnbench.core.torus import FloatArray, spacing
 
+SHORTEST_EDGE = 1e-8  # spacings; a side below is none, as where four points lie on one circle
 TWO_RINGS = np.mgrid[-2.0:3.0, -2.0:3.0].reshape(2, -1).T
 
 

@@ -76,6 +76,21 @@ def test_the_nearest_of_several_across_the_border_is_found() -> None:
     assert nearest[2] == pytest.approx(7e-18, rel=1e-12, abs=0)
 
 
+@pytest.mark.parametrize("count", [20, 300])
+def test_the_nearest_of_many_that_the_tree_holds_equally_far_is_found(count: int) -> None:
+    """Points k 1e-18 from the border are one to the tree, as the last sees them."""
+    for order in (np.arange(count), np.arange(count)[::-1], np.random.default_rng(1).permutation(count)):
+        last = [1 - 2.0**-53, 0.0]
+        x = np.concatenate([np.stack([order * 1e-18, np.zeros(count)], axis=1), [last]])
+        unit = math.sqrt(2 / math.sqrt(3) / (count + 1))
+        nearest = nearest_distances(x)[0] * unit
+        assert nearest[-1] == pytest.approx(2.0**-53, rel=1e-12, abs=0)
+        places = [Fraction(value) for value in sorted(x[:-1, 0].tolist())]
+        gaps = [float(b - a) for a, b in itertools.pairwise(places)]
+        exact = [min(pair) for pair in zip([math.inf, *gaps], [*gaps, math.inf], strict=True)]
+        np.testing.assert_allclose(nearest[:-1][np.argsort(order)], exact, rtol=1e-12)
+
+
 def test_coincident_points_are_at_distance_zero() -> None:
     x = np.array([[0.25, 0.5]] * 20 + [[0.75, 0.5]])
     assert nearest_distances(x)[0, :20].max() == 0
