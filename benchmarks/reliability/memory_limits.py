@@ -18,6 +18,7 @@ LIMITS = (
     800_000_000,
     1_200_000_000,
 )
+BEFORE_OURS = "Fatal Python error: _PyRuntimeState_Init"  # said before the first line of any program
 
 
 def memory_limit(name: str, limit: int) -> list[Trials]:
@@ -45,6 +46,8 @@ def memory_limit(name: str, limit: int) -> list[Trials]:
         differing = "" if done.returncode else difference(name, folder)
     if in_words(done):
         return [Trials(name, tried, "refused in words", note=shortened(done.stderr))]
+    if BEFORE_OURS in done.stderr:
+        return [Trials(name, tried, "Python itself does not start", note=shortened(done.stderr))]
     if done.returncode:
         note = shortened(f"{done.returncode} {done.stderr[-1000:]}")
         return [Trials(name, tried, "not said in words", FAULT, 1, note)]

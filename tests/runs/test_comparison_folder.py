@@ -236,25 +236,16 @@ def test_csv_floats_read_back_the_same(tmp_path: Path) -> None:
     numbers = np.concatenate([np.random.default_rng(3).random(500) * 10.0 ** np.arange(-250, 250), AWKWARD])
     path = tmp_path / "v.csv"
     path.write_bytes(data_files.to_csv(pd.DataFrame({"v": numbers})))
-    assert (
-        np.array([float(word) for word in path.read_text().splitlines()[1:]]).tobytes() == numbers.tobytes()
-    )
+    words = path.read_text().splitlines()[1:]
+    assert np.array([float(word) for word in words]).tobytes() == numbers.tobytes()
     assert data_files.read_csv(path)["v"].to_numpy().tobytes() == numbers.tobytes()
 
 
 def test_files_read_otherwise_are_told_by_how_they_are_read() -> None:
-    source = {
-        "label": "dots",
-        "n": 2,
-        "d": 2,
-        "kind": "files",
-        "sha256": "12",
-        "reading": {"period": [512.0]},
-    }
+    source = {"label": "dots", "n": 2, "d": 2, "kind": "files", "sha256": "12"}
+    source |= {"reading": {"period": [512.0]}}
     other = {**source, "sha256": "34", "reading": {"period": [256.0]}}
-    assert (
-        _difference({"sources": [source]}, {"sources": [other]})
-        == "reading of dots is {'period': [512.0]} there, {'period': [256.0]} here"
-    )
+    said = _difference({"sources": [source]}, {"sources": [other]})
+    assert said == "reading of dots is {'period': [512.0]} there, {'period': [256.0]} here"
     plain = {**source, "sha256": "56"}
     assert "sha256 of dots is '12' there" in _difference({"sources": [source]}, {"sources": [plain]})
