@@ -1,3 +1,5 @@
+"""Folders of comparisons: what is written is read, and what is damaged or another's is told."""
+
 from __future__ import annotations
 
 import dataclasses
@@ -224,12 +226,11 @@ def test_a_full_disk_leaves_the_old_file_and_no_other(
 
 def test_default_folders_follow_the_settings() -> None:
     one, other = identity(0, result("r", "random")), identity(1, result("r", "random"))
-    assert comparison_folder.default_folder(one) == comparison_folder.default_folder(
-        identity(0, result("r", "random"))
-    )
-    assert comparison_folder.default_folder(one) != comparison_folder.default_folder(other)
-    assert comparison_folder.default_folder(one).parts[:-1] == ("runs",)
-    assert comparison_folder.default_folder(one).name.startswith("random_n8_")
+    folder = comparison_folder.default_folder(one)
+    assert folder == comparison_folder.default_folder(identity(0, result("r", "random")))
+    assert folder != comparison_folder.default_folder(other)
+    assert folder.parts[:-1] == ("runs",)
+    assert folder.name.startswith("random_n8_")
 
 
 def test_csv_floats_read_back_the_same(tmp_path: Path) -> None:
