@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import time
 from pathlib import Path
@@ -64,3 +65,21 @@ def test_a_fault_names_the_file_that_was_meant(tmp_path: Path) -> None:
         write_whole(place, b"content")
     assert caught.value.filename == str(place)
     assert list(tmp_path.iterdir()) == [place]
+
+
+def test_a_full_disk_leaves_the_old_file_and_no_other(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    atomic_write.write_whole(tmp_path / "a", b"old")
+    atomic_write.write_folder_whole(tmp_path / "f", {"x": b"old"})
+
+    def full(_: int) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", full)
+    with pytest.raises(OSError, match="No space left"):
+        atomic_write.write_whole(tmp_path / "a", b"new")
+    with pytest.raises(OSError, match="No space left"):
+        atomic_write.write_folder_whole(tmp_path / "f", {"x": b"new"})
+    assert sorted(p.name for p in tmp_path.rglob("*")) == ["a", "f", "x"]
+    assert (tmp_path / "a").read_bytes() == (tmp_path / "f" / "x").read_bytes() == b"old"

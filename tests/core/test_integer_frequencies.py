@@ -1,3 +1,5 @@
+"""Integer frequencies of balls and shells against counts and Jacobi's theorem."""
+
 from __future__ import annotations
 
 import numpy as np

@@ -1,3 +1,5 @@
+"""Settings of generators and integrands: their text is read back, and mistakes are named."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass

@@ -1,3 +1,5 @@
+"""Sides of a torus: volume one, ratios kept, and a cube told from a box."""
+
 from __future__ import annotations
 
 import math

@@ -1,3 +1,5 @@
+"""Generators by name: documented streams, settings in the name, and mistakes named."""
+
 from __future__ import annotations
 
 import inspect

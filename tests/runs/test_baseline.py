@@ -1,3 +1,5 @@
+"""Verdicts against a baseline: three standard errors of the difference decide."""
+
 from __future__ import annotations
 
 import math

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import errno
 import math
 import os
 from pathlib import Path
@@ -14,7 +13,6 @@ import pandas as pd
 import pytest
 
 from gbnbench.analysis.measure_definitions import DEFINITIONS
-from gbnbench.core import atomic_write
 from gbnbench.core.errors import FormatError, InputError
 from gbnbench.core.results.measures import Measures
 from gbnbench.core.results.radial import RadialPower
@@ -204,24 +202,6 @@ def test_one_process_at_a_time(tmp_path: Path) -> None:
         pass
     with folder.lock():  # what is left behind does not lock
         assert (tmp_path / "run" / ".lock").read_text() == f"{os.getpid()}\n"
-
-
-def test_a_full_disk_leaves_the_old_file_and_no_other(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    atomic_write.write_whole(tmp_path / "a", b"old")
-    atomic_write.write_folder_whole(tmp_path / "f", {"x": b"old"})
-
-    def full(_: int) -> None:
-        raise OSError(errno.ENOSPC, "No space left on device")
-
-    monkeypatch.setattr(os, "fsync", full)
-    with pytest.raises(OSError, match="No space left"):
-        atomic_write.write_whole(tmp_path / "a", b"new")
-    with pytest.raises(OSError, match="No space left"):
-        atomic_write.write_folder_whole(tmp_path / "f", {"x": b"new"})
-    assert sorted(p.name for p in tmp_path.rglob("*")) == ["a", "f", "x"]
-    assert (tmp_path / "a").read_bytes() == (tmp_path / "f" / "x").read_bytes() == b"old"
 
 
 def test_default_folders_follow_the_settings() -> None:

@@ -1,3 +1,5 @@
+"""Sources of a comparison: generators, files and folders, in the order asked for."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass

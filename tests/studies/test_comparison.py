@@ -1,3 +1,5 @@
+"""A comparison as a whole: the same bits however it is split, stopped or resumed."""
+
 from __future__ import annotations
 
 import errno

@@ -1,3 +1,5 @@
+"""PSA's effective Nyquist frequency and oscillations against their definition and published figures."""
+
 from __future__ import annotations
 
 import math

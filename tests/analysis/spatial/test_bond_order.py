@@ -1,3 +1,5 @@
+"""Bond order and psi6 against plain loops, lattices and random points."""
+
 from __future__ import annotations
 
 import cmath

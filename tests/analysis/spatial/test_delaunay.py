@@ -1,3 +1,5 @@
+"""Periodic Delaunay neighbours against empty circles and the Voronoi cells of the whole tiling."""
+
 from __future__ import annotations
 
 import math

@@ -1,3 +1,5 @@
+"""Nearest distances on the torus against loops, lattices and exact differences."""
+
 from __future__ import annotations
 
 import itertools

@@ -1,3 +1,5 @@
+"""Pair counts and the radial distribution function against loops, trees and exact integers."""
+
 from __future__ import annotations
 
 import math

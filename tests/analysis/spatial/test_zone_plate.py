@@ -1,3 +1,5 @@
+"""Zone plates against every image of every point, weighed one by one."""
+
 from __future__ import annotations
 
 import math

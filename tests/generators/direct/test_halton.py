@@ -1,3 +1,5 @@
+"""The Halton sequence: strata of its primes on every axis and in boxes."""
+
 from __future__ import annotations
 
 import numpy as np

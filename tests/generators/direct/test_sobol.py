@@ -1,3 +1,5 @@
+"""Sobol points with nested Owen scrambling: elementary intervals, strata and nesting."""
+
 from __future__ import annotations
 
 from collections import Counter

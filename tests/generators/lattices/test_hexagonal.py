@@ -1,3 +1,5 @@
+"""Hexagonal lattices in the square: the best fit, its hexagons and its power."""
+
 from __future__ import annotations
 
 import re

@@ -1,3 +1,5 @@
+"""Voronoi cells on the torus against a fine grid of probes, whatever the border."""
+
 from __future__ import annotations
 
 import numpy as np

@@ -1,3 +1,5 @@
+"""Lloyd's relaxation: its energy falls, and its steps are those of the whole tiling."""
+
 from __future__ import annotations
 
 import numpy as np

@@ -1,3 +1,5 @@
+"""Figures of a comparison as files: whole, named, repeatable, in any dimension."""
+
 import io
 from collections.abc import Callable
 from dataclasses import replace

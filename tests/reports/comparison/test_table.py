@@ -1,3 +1,5 @@
+"""The table of a comparison: the best of each column, and reasons for what is missing."""
+
 import io
 import math
 from dataclasses import replace

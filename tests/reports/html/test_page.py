@@ -1,3 +1,5 @@
+"""The report as one page: whole, self-contained and escaped, in a real browser."""
+
 import math
 import re
 import shutil

@@ -1,3 +1,5 @@
+"""Indicators of balls: volumes in closed form, segments and caps beyond the box, and Fourier series."""
+
 from __future__ import annotations
 
 import math

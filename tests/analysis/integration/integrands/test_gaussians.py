@@ -1,3 +1,5 @@
+"""Sums of Gaussians on the torus: values and integrals against all images, in both forms."""
+
 from __future__ import annotations
 
 import math

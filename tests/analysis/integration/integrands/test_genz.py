@@ -1,3 +1,5 @@
+"""Genz' six families: values and integrals against their definitions."""
+
 from __future__ import annotations
 
 import itertools

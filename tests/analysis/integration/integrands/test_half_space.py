@@ -1,3 +1,5 @@
+"""Indicators of half spaces: integrals against exact sums over corners."""
+
 from __future__ import annotations
 
 import itertools

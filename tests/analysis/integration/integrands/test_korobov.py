@@ -1,3 +1,5 @@
+"""Korobov's functions: values and energies against their Fourier series."""
+
 from __future__ import annotations
 
 import itertools

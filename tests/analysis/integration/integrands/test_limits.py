@@ -1,3 +1,5 @@
+"""Lists of frequencies that would be too long are refused with their length."""
+
 from __future__ import annotations
 
 import pytest

@@ -1,3 +1,5 @@
+"""Sums of waves: values, means and energies against samples."""
+
 from __future__ import annotations
 
 import math
