@@ -78,6 +78,7 @@ def test_the_same_command_again_reuses_everything(whole: Whole) -> None:
     assert {p: p.stat().st_mtime_ns for p in whole.out.rglob("*") if p.name != ".lock"} == before
 
 
+@pytest.mark.slow
 def test_what_is_worse_than_the_baseline_exits_with_1(whole: Whole) -> None:
     assert whole.done.returncode == 1
     assert "worse: mine (n=64, d=2) power_at_1" in whole.done.stdout

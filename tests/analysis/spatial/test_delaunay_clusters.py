@@ -101,12 +101,14 @@ def test_points_beside_both_ends_of_the_sides() -> None:
     assert_exact(np.concatenate([ends, np.random.default_rng(4).random((20, 2))]), (4, 1))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("width", [0.1, 1e-3, 1e-4])
 def test_clusters_in_space_lose_no_edge(width: float) -> None:
     x = cluster(12, width, 0, d=3)
     assert neighbours(x)[0].degree.tolist() == exact_degrees_in_space(x)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(4))
 def test_tight_clusters_in_space_are_exact_or_refused(seed: int) -> None:
     x = cluster(20, 1e-5, seed, d=3)
