@@ -52,10 +52,25 @@ def choose(
     DeviceError
         If the device lacks the precision.
     """
-    if floor is not None or method is not None:
-        return planned(request, precision, floor, method).chosen.evaluator
     check_precision(precision)
-    return _cheapest(request, precision, EVALUATORS, runtime().device if devices_present() else None)
+    device = runtime().device if devices_present() else None
+    if floor is not None:
+        return planned(request, precision, floor, method).chosen.evaluator
+    if method is not None:
+        return _asked_for(request, precision, method, EVALUATORS, device)
+    return _cheapest(request, precision, EVALUATORS, device)
+
+
+@lru_cache(maxsize=256)
+def _asked_for(
+    request: SpectrumRequest,
+    precision: str,
+    method: str,
+    _kinds: tuple[type[Evaluator], ...],
+    _device: Device | None,
+) -> Evaluator:
+    """Give the evaluator of that word; with other kinds, or on another device, it may be another one."""
+    return planned(request, precision, None, method).chosen.evaluator
 
 
 @lru_cache(maxsize=256)
