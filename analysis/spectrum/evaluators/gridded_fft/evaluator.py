@@ -22,7 +22,7 @@ from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest
 from gbnbench.core.memory import memory_limit
 from gbnbench.core.torus import FloatArray
 
-# Multiply-adds of the product that take as long as: a point on each axis, a node that it reaches, in the cache
+# Multiply-adds of the product that take as long as a point on each axis, a node that it reaches, in the cache
 # and beyond it, a node and level of the transform, a power, and a call. Fitted to the CPU times of twelve
 # cubes on one Intel core, n = 256 to 4,096 and F = 8 to 4,096 in 1D to 3D.
 POINT, REACHED, FAR_REACHED, LEVEL, WRITTEN, SET_UP = 1700.0, 7.0, 14.0, 4.2, 30.0, 4e6
