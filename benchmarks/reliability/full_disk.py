@@ -78,10 +78,10 @@ def quota(name: str, number: int) -> list[Trials]:
     usual, random = undisturbed(name), _random(name, 1, number)
     limit, moment = int(random.integers(1, usual.largest // 4)), random.uniform(0, usual.seconds)
     with empty_folder() as folder:
-        return [_judged(name, "a quota", folder, run_limited(name, folder, limit, moment), lambda: None)]
+        return [_judged(name, "a quota", folder, _run_limited(name, folder, limit, moment), lambda: None)]
 
 
-def run_limited(name: str, folder: Path, limit: int, moment: float) -> subprocess.CompletedProcess[str]:
+def _run_limited(name: str, folder: Path, limit: int, moment: float) -> subprocess.CompletedProcess[str]:
     """Run a command whose files, after a moment, may not grow beyond a limit.
 
     Parameters
@@ -93,19 +93,12 @@ def run_limited(name: str, folder: Path, limit: int, moment: float) -> subproces
     limit : int
         In bytes.
     moment : float
-        Seconds after its start; 0 is before it.
+        Seconds after its start.
 
     Returns
     -------
     CompletedProcess
     """
-
-    def restrict(process: int = 0) -> None:
-        with contextlib.suppress(ProcessLookupError):  # it may have ended
-            resource.prlimit(process, resource.RLIMIT_FSIZE, (limit, resource.RLIM_INFINITY))
-
-    if not moment:
-        return run(name, folder, preexec_fn=restrict)
     with subprocess.Popen(
         arguments(name), cwd=folder, env=environment(), text=True, errors="replace",
         stdout=subprocess.PIPE, stderr=subprocess.PIPE,
@@ -113,7 +106,8 @@ def run_limited(name: str, folder: Path, limit: int, moment: float) -> subproces
         try:
             output, complaints = started.communicate(timeout=moment)
         except subprocess.TimeoutExpired:
-            restrict(started.pid)
+            with contextlib.suppress(ProcessLookupError):  # it may have ended
+                resource.prlimit(started.pid, resource.RLIMIT_FSIZE, (limit, resource.RLIM_INFINITY))
             output, complaints = started.communicate(timeout=TIMEOUT)
     return subprocess.CompletedProcess(started.args, started.returncode, output, complaints)
 

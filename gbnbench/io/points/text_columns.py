@@ -58,7 +58,6 @@ class Rows:
         -------
         bytes
         """
-        """Return a cell as it stands in the file: that of column k of a line, which became ``plain``."""
         return self.text.cell(line, self.kept[k] if k < len(self.kept) else k, plain)
 
 
