@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.stats import t
+from scipy.special import stdtrit
 
 from gbnbench.analysis.standard_errors import sample_variance
 from gbnbench.core.errors import InputError
@@ -75,7 +75,7 @@ def variance_of(errors: ArrayLike) -> Variance:
     value, error = mean.value, mean.standard_error
     factor = math.nan
     if value > 0 and math.isfinite(error):
-        factor = math.exp(min(t.ppf(BAND, mean.freedom) * error / value, 700.0))
+        factor = math.exp(min(float(stdtrit(mean.freedom, BAND)) * error / value, 700.0))
     return Variance(value, error, value / factor, value * factor, bias.value, bias.standard_error)
 
 

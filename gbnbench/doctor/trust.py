@@ -5,7 +5,6 @@ from __future__ import annotations
 import gbnbench
 from gbnbench.core.cache_folder import recall, remember
 from gbnbench.core.errors import DeviceError
-from gbnbench.doctor.examination import examine
 from gbnbench.opencl import runtime
 
 
@@ -21,6 +20,8 @@ def ensure_trusted() -> None:
     key = f"trusted-{gbnbench.__version__}-{device.fingerprint}"
     if recall(key) is True:
         return
+    from gbnbench.doctor.examination import examine  # it loads the kernels of every generator
+
     examination = examine(quick=True)
     if not examination.trusted:
         raise DeviceError(examination.verdict)

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy import stats
+from scipy.special import stdtrit
 
 from gbnbench.core.errors import GbnbenchError, InputError
 from gbnbench.execution.progress import Progress
@@ -171,7 +171,7 @@ def expect(what: str, expectation: Expectation, values: Sequence[Values]) -> Exp
     deviation, mean = float(sample.std(ddof=1)), float(sample.mean())
     least = ROUNDING if ratio else ROUNDING * max(abs(mean), ROUNDING)
     side = FALSE_ALARM / (2 if expectation.better == "neither" else 1)
-    reach = float(stats.t.isf(side, count - 1)) * max(deviation, least) * math.sqrt(1 + 1 / count)
+    reach = -float(stdtrit(count - 1, side)) * max(deviation, least) * math.sqrt(1 + 1 / count)
     return replace(
         expectation,
         expected=(_digits(math.exp(mean) if ratio else mean, 6),),

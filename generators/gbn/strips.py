@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import chi2
+from scipy.special import chdtr
 
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn import operation_counts
@@ -79,7 +79,7 @@ class Strips:
         self._pencils = self._rows * self._columns
         self._groups = n // self._lanes + self._pencils  # at most: each strip rounds up once
         self._capacity = self._groups * self._lanes
-        share = 1.0 if cutoff is None else float(chi2.cdf(cutoff**2, d))
+        share = 1.0 if cutoff is None else float(chdtr(d, cutoff**2))  # of chi-square
         self._uniform = 0.0 if side else (2 * math.pi) ** (d / 2) * sigma**d * share
         square = (self.side / sigma) ** 2 * math.log2(math.e) / 2  # r in sides to the exponent of 2
         self._unit = 1.0 if self._double else 2.0**-32  # of a place, in sides

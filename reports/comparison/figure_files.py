@@ -10,9 +10,10 @@ from typing import NamedTuple
 
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from PIL import Image
 
 from gbnbench.core.atomic_write import write_whole
-from gbnbench.reports import style
+from gbnbench.reports import fonts, style
 from gbnbench.reports.comparison import (
     gallery,
     loglog,
@@ -27,6 +28,8 @@ from gbnbench.reports.comparison import (
 from gbnbench.reports.source_groups import Group, groups, members
 from gbnbench.runs.comparison_result import Run, SourceResult
 from gbnbench.studies.drawing import make_each
+
+COMPRESSION = 1  # of PNG: pictures of noise take twice as long at 4 and become no smaller
 
 
 class Kind(NamedTuple):
@@ -68,11 +71,13 @@ def png(figure: Figure, dpi: float = style.DPI) -> bytes:
     bytes
         Content of the file.
     """
-    stream = io.BytesIO()
+    pixels, stream = io.BytesIO(), io.BytesIO()
     FigureCanvasAgg(figure)
-    figure.savefig(
-        stream, format="png", dpi=dpi, metadata={"Software": None}, pil_kwargs={"compress_level": 4}
-    )
+    figure.savefig(pixels, format="rgba", dpi=dpi)
+    width, height = (int(inches * dpi) for inches in figure.get_size_inches())
+    # Figures are opaque: without the fourth channel they are packed in half the time, and no larger.
+    picture = Image.frombuffer("RGBA", (width, height), pixels.getbuffer(), "raw", "RGBA", 0, 1).convert("RGB")
+    picture.save(stream, format="png", dpi=(dpi, dpi), compress_level=COMPRESSION)
     return stream.getvalue()
 
 
@@ -80,7 +85,8 @@ def png(figure: Figure, dpi: float = style.DPI) -> bytes:
 def pdf(figure: Figure) -> bytes:
     """Render a figure as PDF, without a date, so that equal figures give equal bytes."""
     stream = io.BytesIO()
-    figure.savefig(stream, format="pdf", dpi=200, metadata={"CreationDate": None, "Producer": None})
+    with fonts.without_layout_tables():
+        figure.savefig(stream, format="pdf", dpi=200, metadata={"CreationDate": None, "Producer": None})
     return stream.getvalue()
 
 

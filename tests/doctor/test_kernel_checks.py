@@ -104,7 +104,7 @@ def test_a_device_is_examined_once_and_remembered(monkeypatch, tmp_path):
     monkeypatch.setattr(cache_folder, "cache_folder", lambda: tmp_path)
     trust.ensure_trusted()
     assert len(list(tmp_path.glob("trusted*"))) == 1
-    monkeypatch.setattr(trust, "examine", lambda **_: pytest.fail("examined again"))
+    monkeypatch.setattr(examination, "examine", lambda **_: pytest.fail("examined again"))
     trust.ensure_trusted()
 
 
