@@ -18,7 +18,7 @@ from gbnbench.analysis.spatial.bond_order import bond_order, psi6
 from gbnbench.analysis.spatial.delaunay import Neighbours, neighbours
 from gbnbench.analysis.spatial.discrepancy import DiscrepancyResult, measure_discrepancies
 from gbnbench.analysis.spatial.discrepancy_kernels import Discrepancy
-from gbnbench.analysis.spatial.distances import mean_distance, min_distance
+from gbnbench.analysis.spatial.distances import nearest_distances
 from gbnbench.analysis.spatial.valence import valence6
 from gbnbench.analysis.spectral_scalars import spectral_scalars
 from gbnbench.analysis.spectrum.listed_shells import shell_sizes
@@ -112,6 +112,11 @@ class Scalars:
         return self._neighbours
 
     @cached_property
+    def nearest(self) -> FloatArray:
+        """Distance of every point to its nearest neighbour, in densest spacings: (realizations, n)."""
+        return nearest_distances(self.points, self.sides)
+
+    @cached_property
     def discrepancies(self) -> dict[Discrepancy, DiscrepancyResult]:
         """Discrepancies of every set, which in the plane share most of their cost."""
         return measure_discrepancies(self.points, ("WD", "L2-star"))
@@ -186,8 +191,8 @@ class Scalars:
             return estimates
 
         return [
-            (("min_distance",), lambda: [mean_over_sets(min_distance(self.points, self.sides))]),
-            (("mean_distance",), lambda: [mean_over_sets(mean_distance(self.points, self.sides))]),
+            (("min_distance",), lambda: [mean_over_sets(self.nearest.min(axis=1))]),
+            (("mean_distance",), lambda: [mean_over_sets(self.nearest.mean(axis=1))]),
             (("bond_order",), lambda: [mean_over_sets(bond_order(self.neighbours()))]),
             (("psi6",), lambda: [mean_over_sets(psi6(self.neighbours()))]),
             (("valence6",), lambda: [mean_over_sets(valence6(self.neighbours()))]),

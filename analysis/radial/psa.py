@@ -5,25 +5,26 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import j0
 
+from gbnbench.analysis.radial.hankel_nodes import nodes_for, on_nodes, stride_for
 from gbnbench.analysis.spatial.rdf import pair_density
 from gbnbench.analysis.standard_errors import left_out_sums, sample_variance
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.sides import Sides, as_sides, shortest_side
 from gbnbench.core.torus import FloatArray, as_realizations
 
-# Rows of the Bessel matrix made at once; with 50 sqrt(n) columns they stay small.
-ROWS = 256
+ROWS = 256  # of the Bessel matrix made at once: the lower their frequencies, the fewer radii carry the sum
+WIDEST = 0.25  # where the window ends for all frequencies from sqrt(n)/8 on
 KEPT = 1 << 22  # numbers of a matrix that is kept from call to call, in blocks
 KEPT_BLOCKS = 16
 # Frequencies evaluated first, in units of sqrt(n): the statistics of most sets need no more.
 FIRST_RANGE = 8.0
-# Some minutes on one core, where there is no OpenCL device.
-MOST_POINTS = 200_000
+MOST_POINTS = 200_000  # some minutes on one core, where there is no OpenCL device
 
 
 @dataclass(frozen=True)
@@ -94,7 +95,8 @@ def spectral_statistics(x: ArrayLike, sides: ArrayLike | None = None) -> Spectra
     Oscillations: 10 sqrt(2 pi Int (P - 1)^2 v dv / (pi (v1^2 - v0^2))) over v0..v1. P first reaches 0.98 at
     v0, or has its maximum there if it never does; v1 = min(v0 + 5 sqrt(n), n/2).
 
-    The window ends at r = 1/4 at the latest, so pairs farther apart are not counted. Integrals are by the
+    The window ends at r = 1/4 at the latest, so pairs farther apart are not counted. From v = sqrt(n)/8 on
+    the sum is taken over fewer radii (``hankel_nodes``): P changes by some 1e-15. Integrals are by the
     trapezoidal rule. PSA drops one sample if their number is odd and reads coordinates as float32, so that
     its figures may differ by 0.001.
 
@@ -157,23 +159,33 @@ def _excess_density(sets: FloatArray, total: int, sides: Sides | None) -> FloatA
 
 def _power(density: FloatArray, frequency: FloatArray, n: int, total: int) -> FloatArray:
     """Radial power of all sets at once: (realizations, frequencies)."""
-    power = np.empty((density.shape[1], len(frequency)))
-    kept = len(frequency) * len(density) <= KEPT
-    for start in range(0, len(frequency), ROWS):
-        block = (_kept_kernel if kept else _kernel)(n, total, len(density), start, len(frequency))
-        power[:, start : start + ROWS] = np.abs(1 + block @ density).T
+    bins, rows = len(density), len(frequency)
+    lowest = min(rows, 1 + math.ceil(0.25 * total / math.sqrt(n)))  # frequencies of narrower windows
+    blocks = [(0, lowest, 1)]
+    for start, end in pairwise([*range(lowest, rows, ROWS), rows]):
+        blocks.append((start, end, stride_for(0.5 * math.pi * end * n / total**2)))
+    kept = sum((end - start) * nodes_for(bins, stride) for start, end, stride in blocks) <= KEPT
+    kernel = _kept_kernel if kept else _kernel
+    radii = np.arange(bins, dtype=np.float64) * (0.5 / total)
+    windowed = density * _window(radii, np.array(WIDEST))[:, None]
+    power = np.empty((density.shape[1], rows))
+    for start, end, stride in blocks:
+        weights = on_nodes(windowed, stride) if start else density
+        power[:, start:end] = np.abs(1 + kernel(n, total, len(weights), start, end, stride) @ weights).T
     return power
 
 
-def _kernel(n: int, total: int, bins: int, start: int, end: int) -> FloatArray:
-    """J0(2 pi v r) times the window, for ``ROWS`` frequencies from ``start`` on: (frequencies, bins)."""
-    r = np.arange(bins) * (0.5 / total)
-    v = np.arange(start, min(start + ROWS, end))[:, None] * (0.5 * n / total)
-    reach = 0.5 * np.clip(4 * v / math.sqrt(n), 0.2, 0.5)
-    if reach[0, 0] == reach[-1, 0]:  # one window for the block, as for all but the lowest frequencies
-        reach = reach[:1]
-    window = 0.43 + 0.5 * np.cos(math.pi * r / reach) + 0.08 * np.cos(2 * math.pi * r / reach)
-    return np.asarray(j0(2 * math.pi * v * r) * np.where(r > reach, 0.0, window))
+def _kernel(n: int, total: int, nodes: int, start: int, end: int, stride: int) -> FloatArray:
+    """J0(2 pi v r) at every ``stride``-th bin, times the window for the lowest v: (frequencies, nodes)."""
+    r = np.arange(nodes, dtype=np.float64) * (stride * 0.5 / total)
+    v = np.arange(start, end)[:, None] * (0.5 * n / total)
+    bessel = np.asarray(j0(2 * math.pi * v * r))
+    return bessel if start else bessel * _window(r, 0.5 * np.clip(4 * v / math.sqrt(n), 0.2, 2 * WIDEST))
+
+
+def _window(r: FloatArray, reach: FloatArray) -> FloatArray:
+    window: FloatArray = 0.43 + 0.5 * np.cos(math.pi * r / reach) + 0.08 * np.cos(2 * math.pi * r / reach)
+    return np.asarray(np.where(r > reach, 0.0, window))
 
 
 # It depends on n alone, and is most of the work for a few sets of a thousand points.

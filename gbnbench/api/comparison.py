@@ -204,10 +204,11 @@ def draw(run: Run, folder: Path) -> None:
     UndrawnError
         If any of them cannot be made; all others are.
     """
+    drawn: dict[str, bytes] = {}
     make_each(
         [
-            (FIGURES, lambda: write_figures(run, folder / FIGURES)),
-            (REPORT, lambda: write_report(run, folder / REPORT)),
+            (FIGURES, lambda: write_figures(run, folder / FIGURES, drawn)),
+            (REPORT, lambda: write_report(run, folder / REPORT, drawn)),
         ]
     )
 

@@ -76,7 +76,7 @@ def png(figure: Figure, dpi: float = style.DPI) -> bytes:
     figure.savefig(pixels, format="rgba", dpi=dpi)
     width, height = (int(inches * dpi) for inches in figure.get_size_inches())
     # Figures are opaque: without the fourth channel they are packed in half the time, and no larger.
-    picture = Image.frombuffer("RGBA", (width, height), pixels.getbuffer(), "raw", "RGBA", 0, 1).convert("RGB")
+    picture = Image.frombytes("RGBA", (width, height), pixels.getvalue()).convert("RGB")
     picture.save(stream, format="png", dpi=(dpi, dpi), compress_level=COMPRESSION)
     return stream.getvalue()
 
@@ -90,21 +90,24 @@ def pdf(figure: Figure) -> bytes:
     return stream.getvalue()
 
 
+def stem(run: Run, name: str, group: Group) -> str:
+    """Name the files of a figure of one (n, d), which the name tells in a run of several."""
+    return name + (f"_n{group[0]}_d{group[1]}" if len(groups(run)) > 1 else "")
+
+
 def planned(run: Run) -> list[tuple[str, Callable[[Run, Group | None], Figure], Group | None]]:
     """List the figures of a run as (file stem, drawing function, (n, d)); stems tell several (n, d) apart."""
-    every = groups(run)
     plan: list[tuple[str, Callable[[Run, Group | None], Figure], Group | None]] = []
-    for group in every:
-        suffix = f"_n{group[0]}_d{group[1]}" if len(every) > 1 else ""
+    for group in groups(run):
         for name, kind in FIGURES.items():
             if any(map(kind.needs, members(run, group))):
-                plan.append((name + suffix, kind.draw, group))
+                plan.append((stem(run, name, group), kind.draw, group))
     if sweep.several(run):
         plan.append(("sweep", sweep.figure, None))
     return plan
 
 
-def write_figures(run: Run, folder: str | Path) -> list[Path]:
+def write_figures(run: Run, folder: str | Path, drawn: dict[str, bytes] | None = None) -> list[Path]:
     """Draw every figure that the run has data for.
 
     Parameters
@@ -113,6 +116,8 @@ def write_figures(run: Run, folder: str | Path) -> list[Path]:
         The comparison. Nothing in it is measured again.
     folder : path
         Folder of the files, made where missing. Files of the same names are replaced.
+    drawn : dict of bytes, optional
+        Takes each PNG by the stem of its file, as ``write_report`` can use them.
 
     Returns
     -------
@@ -129,10 +134,13 @@ def write_figures(run: Run, folder: str | Path) -> list[Path]:
     folder.mkdir(parents=True, exist_ok=True)
     written: list[Path] = []
 
-    def make(stem: str, draw: Callable[[Run, Group | None], Figure], group: Group | None) -> None:
+    def make(name: str, draw: Callable[[Run, Group | None], Figure], group: Group | None) -> None:
         figure = draw(run, group)
-        for ending, content in (("png", png(figure)), ("pdf", pdf(figure))):
-            path = folder / f"{stem}.{ending}"
+        picture = png(figure)
+        if drawn is not None:
+            drawn[name] = picture
+        for ending, content in (("png", picture), ("pdf", pdf(figure))):
+            path = folder / f"{name}.{ending}"
             write_whole(path, content)
             written.append(path)
 

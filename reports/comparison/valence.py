@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -9,6 +11,7 @@ from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path
 
 from gbnbench.core.errors import RefusalError
+from gbnbench.core.sides import Sides
 from gbnbench.reports import captions, layout, style
 from gbnbench.reports.comparison import points
 from gbnbench.reports.comparison.voronoi_cells import cells
@@ -18,6 +21,7 @@ from gbnbench.runs.comparison_result import Run, SourceResult
 # ColorBrewer RdBu around a near white six: fewer neighbours blue, more red; safe for the colour-blind.
 DEGREE_COLOURS = {4: "#2166ac", 5: "#92c5de", 6: "#f3f3f1", 7: "#f4a582", 8: "#b2182b"}
 DEGREE_NAMES = {4: "4 or fewer", 5: "5", 6: "6", 7: "7", 8: "8 or more"}
+KEPT_SOURCES = 16  # whose cells are kept: the gallery, the figure and the report show the same
 
 
 def colour(degree: int) -> str:
@@ -40,7 +44,8 @@ def panel(ax: Axes, source: SourceResult) -> None:
         return
     side = points.window(source)
     try:
-        polygons, degrees = cells(source.points[0], side, source.sides)
+        outlined = _kept_outlines if source.n <= points.MOST else _outlines
+        count, outlines = outlined(source.points[0].tobytes(), side, source.sides)
     except RefusalError as refusal:
         layout.empty(ax, str(refusal))
         return
@@ -49,22 +54,33 @@ def panel(ax: Axes, source: SourceResult) -> None:
     ax.set_xlim(0, side * width)
     ax.set_ylim(0, side * height)
     ax.set_aspect("equal")
-    classes = np.clip(degrees, 4, 8)
-    for degree in np.unique(classes):  # one path a colour: a thousand patches would take a second to draw
-        mine = [polygon for polygon, k in zip(polygons, classes, strict=True) if k == degree]
-        outline = Path(
-            np.concatenate([np.vstack([polygon, polygon[:1]]) for polygon in mine]),
-            np.concatenate([[Path.MOVETO, *[Path.LINETO] * (len(p) - 1), Path.CLOSEPOLY] for p in mine]),
-        )
+    for degree, outline in outlines.items():
         ax.add_artist(
             PathPatch(
                 outline,
-                facecolor=colour(int(degree)),
+                facecolor=colour(degree),
                 edgecolor="#8a94a3",
-                linewidth=0.35 if len(polygons) > 400 else 0.7,
-                rasterized=len(polygons) > 2 * points.VECTOR,
+                linewidth=0.35 if count > 400 else 0.7,
+                rasterized=count > 2 * points.VECTOR,
             )
         )
+
+
+def _outlines(x: bytes, side: float, sides: Sides | None) -> tuple[int, dict[int, Path]]:
+    """Count the cells of a set of points, and outline each class by one path: a thousand draw slowly."""
+    polygons, degrees = cells(np.frombuffer(x).reshape(-1, 2), side, sides)
+    classes = np.clip(degrees, 4, 8)
+    outlines = {}
+    for degree in np.unique(classes):
+        mine = [polygon for polygon, k in zip(polygons, classes, strict=True) if k == degree]
+        outlines[int(degree)] = Path(
+            np.concatenate([np.vstack([polygon, polygon[:1]]) for polygon in mine]),
+            np.concatenate([[Path.MOVETO, *[Path.LINETO] * (len(p) - 1), Path.CLOSEPOLY] for p in mine]),
+        )
+    return len(polygons), outlines
+
+
+_kept_outlines = lru_cache(maxsize=KEPT_SOURCES)(_outlines)
 
 
 def histogram_panel(ax: Axes, source: SourceResult) -> None:

@@ -4,20 +4,23 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from importlib import resources
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from jinja2 import Environment, FunctionLoader, StrictUndefined
+from matplotlib.figure import Figure
 
 from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.number_text import NOTHING
 from gbnbench.reports import captions, style
 from gbnbench.reports.comparison import gallery, loglog, points, rdf, spectrum, sweep, table, valence
+from gbnbench.reports.comparison.figure_files import stem
 from gbnbench.reports.comparison.left_out import left_out
 from gbnbench.reports.html import notes
-from gbnbench.reports.html.pictures import colour_bar, figure_picture, gallery_panel
+from gbnbench.reports.html.pictures import Picture, colour_bar, figure_picture, gallery_panel
 from gbnbench.reports.source_groups import Group, groups, members
 from gbnbench.runs.comparison_result import Run, SourceResult
 
@@ -33,7 +36,7 @@ ALTERNATIVE_TEXTS = {  # of the pictures in each row of the gallery
 GROUP_SECTIONS = (("table", "Measures"), ("gallery", "Side by side"), ("loglog", "Log-log"))
 
 
-def write_report(run: Run, path: str | Path) -> None:
+def write_report(run: Run, path: str | Path, drawn: Mapping[str, bytes] | None = None) -> None:
     """Write the page of a run, whole or not at all.
 
     Parameters
@@ -42,11 +45,13 @@ def write_report(run: Run, path: str | Path) -> None:
         The comparison. Nothing in it is measured again.
     path : path
         Usually ``report.html`` in the run folder; an older page there is replaced.
+    drawn : mapping of bytes, optional
+        PNGs that ``write_figures`` made of the same run, by the stems of their files: not drawn again.
     """
-    write_whole(Path(path), page(run).encode("utf-8"))
+    write_whole(Path(path), page(run, drawn or {}).encode("utf-8"))
 
 
-def page(run: Run) -> str:
+def page(run: Run, drawn: Mapping[str, bytes] = MappingProxyType({})) -> str:
     """Return the page as text; every label, path and setting in it is escaped."""
     every = groups(run)
     swept = sweep.several(run)
@@ -58,9 +63,14 @@ def page(run: Run) -> str:
         links=_links(every, swept),
         warnings=[(table.row_label(s, run), warning) for s in run.sources for warning in s.warnings],
         skipped=[_sentence(source) for source in run.manifest.get("skipped") or []],
-        groups=[_group(run, group, several=len(every) > 1) for group in every],
+        groups=[_group(run, group, drawn, several=len(every) > 1) for group in every],
         compared=bool(run.verdicts),
-        sweep=figure_picture(sweep.figure(run), "Measures against the number of points, a curve a source")
+        sweep=_figure(
+            drawn,
+            "sweep",
+            lambda: sweep.figure(run),
+            "Measures against the number of points, a curve a source",
+        )
         if swept
         else None,
         undefined_values=notes.undefined_values(run),
@@ -119,13 +129,28 @@ def _sentence(item: object) -> str:
     return ", ".join(f"{k}: {v}" for k, v in item.items()) if isinstance(item, Mapping) else str(item)
 
 
-def _group(run: Run, group: Group, several: bool) -> dict[str, Any]:
+def _figure(drawn: Mapping[str, bytes], name: str, draw: Callable[[], Figure], alt: str) -> Picture:
+    """Take a figure's PNG, or draw it where it is not there."""
+    return Picture(alt, drawn[name]) if name in drawn else figure_picture(draw(), alt)
+
+
+def _group(run: Run, group: Group, drawn: Mapping[str, bytes], several: bool) -> dict[str, Any]:
     """Content of the sections of one (n, d)."""
     sources = members(run, group)
-    overlay = figure_picture(loglog.figure(run, group), "Log-log overlay of the radial power of all sources")
+    overlay = _figure(
+        drawn,
+        stem(run, "loglog", group),
+        lambda: loglog.figure(run, group),
+        "Log-log overlay of the radial power of all sources",
+    )
     pairs = None
     if any(source.rdf is not None for source in sources):
-        pairs = figure_picture(rdf.figure(run, group), "Radial distribution functions of all sources")
+        pairs = _figure(
+            drawn,
+            stem(run, "rdf", group),
+            lambda: rdf.figure(run, group),
+            "Radial distribution functions of all sources",
+        )
     return {
         "anchor": _anchor(group),
         "mark": f", n = {group[0]}, d = {group[1]}" if several else "",

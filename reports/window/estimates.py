@@ -107,6 +107,7 @@ def _points(ax: Axes, points: FloatArray, found: WindowEstimates) -> None:
     )  # fmt: skip
     ax.set_title("points" if found.d <= 2 else "points, first two axes")
     ax.set_xlim(low[0], high[0])
+    ax.ticklabel_format(useMathText=True)  # of windows in any unit
     if flat:
         ax.set_yticks([])
         return
