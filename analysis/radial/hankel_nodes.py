@@ -31,7 +31,17 @@ def stride_for(step: float) -> int:
 
 
 def nodes_for(bins: int, stride: int) -> int:
-    """Count the nodes that ``on_nodes`` returns for so many bins."""
+    """Count the nodes that ``on_nodes`` carries weights to.
+
+    Parameters
+    ----------
+    bins, stride : int
+        Radii, and bins from node to node.
+
+    Returns
+    -------
+    int
+    """
     return bins if stride == 1 else -(-bins // stride) + HALF
 
 

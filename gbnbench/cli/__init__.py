@@ -24,6 +24,7 @@ from gbnbench.cli.report import report
 from gbnbench.cli.spectrum import spectrum
 from gbnbench.cli.standard_streams import in_words, lasting_streams
 from gbnbench.core.errors import GbnbenchError
+from gbnbench.core.garbage import collect_rarely
 from gbnbench.core.memory import memory_limit, too_little
 
 BAD, STOPPED, PIPE = 2, 130, 141  # exit codes; 0 is done, 1 is worse than a baseline or a failed check
@@ -94,6 +95,7 @@ for _commands in TASKS.values():
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command and exit: 0 done, 1 worse or failed check, 2 bad input or use, 130 stopped."""
+    collect_rarely()
     with lasting_streams() as output:
         fault = too_little()
         code = _fail(fault, BAD) if fault else run(sys.argv[1:] if arguments is None else arguments)

@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import IO, Any, Self
 
 from gbnbench.core.errors import GbnbenchError
+from gbnbench.core.garbage import OBJECTS
 from gbnbench.core.process_end import cause_of_end
 from gbnbench.opencl.device import DEVICE_VARIABLE, selected
 
@@ -159,7 +160,8 @@ class Pool:
         complaints.seek(0)
         with contextlib.suppress(OSError):  # the null device has no length
             complaints.truncate()
-        program = f"import sys; sys.path[:] = {sys.path!r}; from {__name__} import serve; serve()"
+        program = f"import gc, sys; gc.set_threshold({OBJECTS}); sys.path[:] = {sys.path!r}; "
+        program += f"from {__name__} import serve; serve()"
         with self._lock:
             if self._closing:
                 return None
