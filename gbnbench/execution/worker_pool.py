@@ -7,7 +7,6 @@ import os
 import pickle
 import queue
 import signal
-import struct
 import subprocess
 import sys
 import tempfile
@@ -21,7 +20,8 @@ from typing import IO, Any, Self
 from gbnbench.core.errors import GbnbenchError
 from gbnbench.core.garbage import OBJECTS
 from gbnbench.core.process_end import cause_of_end
-from gbnbench.opencl.device import DEVICE_VARIABLE, selected
+from gbnbench.execution.messages import receive, send
+from gbnbench.opencl.device import DEVICE_VARIABLE, FOUND_VARIABLE, found_already, selected
 
 # One thread a worker: the processes share the cores, and CPU seconds then mean one core's seconds.
 ONE_THREAD = {
@@ -37,7 +37,6 @@ ONE_THREAD = {
     "MALLOC_TOP_PAD_": "67108864",
     "MALLOC_MMAP_MAX_": "0",
 }
-HEADER = struct.Struct("<Q")
 
 
 @dataclass(frozen=True)
@@ -145,8 +144,8 @@ class Pool:
                 if child is None:
                     break
                 try:
-                    _send(child.stdin, call)
-                    succeeded, value = pickle.loads(_receive(child.stdout))  # noqa: S301 - our own child
+                    send(child.stdin, call)
+                    succeeded, value = pickle.loads(receive(child.stdout))  # noqa: S301 - our own child
                     self._done.put(Finished(key, value) if succeeded else Finished(key, failure=value))
                 except (EOFError, OSError):
                     self._end(child)
@@ -162,6 +161,7 @@ class Pool:
             complaints.truncate()
         program = f"import gc, sys; gc.set_threshold({OBJECTS}); sys.path[:] = {sys.path!r}; "
         program += f"from {__name__} import serve; serve()"
+        found = {FOUND_VARIABLE: "1"} if found_already() else {}
         with self._lock:
             if self._closing:
                 return None
@@ -170,7 +170,7 @@ class Pool:
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=complaints,
-                env={**os.environ, **self._environment, DEVICE_VARIABLE: self._device},
+                env={**os.environ, **self._environment, **found, DEVICE_VARIABLE: self._device},
             )
             self._children.add(child)
         return child
@@ -198,27 +198,6 @@ def _scratch() -> IO[bytes]:
         return Path(os.devnull).open("w+b")
 
 
-def _send(pipe: IO[bytes] | None, message: bytes) -> None:
-    if pipe is None:
-        raise EOFError
-    pipe.write(HEADER.pack(len(message)))
-    pipe.write(message)
-    pipe.flush()
-
-
-def _receive(pipe: IO[bytes] | None) -> bytes:
-    if pipe is None:
-        raise EOFError
-    head = pipe.read(HEADER.size)
-    if len(head) < HEADER.size:
-        raise EOFError
-    (size,) = HEADER.unpack(head)
-    message = pipe.read(size)
-    if len(message) < size:
-        raise EOFError
-    return message
-
-
 def serve() -> None:
     """Answer tasks from standard input on standard output until the input closes: the child's whole life."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the terminal sends Ctrl-C to all; the parent decides
@@ -227,13 +206,13 @@ def serve() -> None:
     calls: queue.SimpleQueue[bytes] = queue.SimpleQueue()
     threading.Thread(target=_listen, args=(calls,), daemon=True).start()
     while True:
-        _send(replies, pickle.dumps(_answer(calls.get()), protocol=5))
+        send(replies, pickle.dumps(_answer(calls.get()), protocol=5))
 
 
 def _listen(calls: queue.SimpleQueue[bytes]) -> None:
     while True:
         try:
-            calls.put(_receive(sys.stdin.buffer))
+            calls.put(receive(sys.stdin.buffer))
         except EOFError:
             os._exit(0)  # the parent is done, or dead: nobody wants the answer
 

@@ -1,0 +1,12 @@
+"""How often a process of the command looks for garbage."""
+
+from __future__ import annotations
+
+import gc
+
+OBJECTS = 50_000  # Python looks each time that so many more were made than freed; by itself, at 700
+
+
+def collect_rarely() -> None:
+    """Look for garbage seldom: modules and the parts of a figure are many small objects that stay."""
+    gc.set_threshold(OBJECTS)
