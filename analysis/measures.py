@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike
 
 from gbnbench.analysis.radial.border_warning import border_warnings
 from gbnbench.analysis.scalars import Scalars
-from gbnbench.analysis.spatial.rdf import rdf
-from gbnbench.analysis.spatial.valence import valence
+from gbnbench.analysis.spatial.rdf import RadialDistribution, rdf
+from gbnbench.analysis.spatial.valence import Valence, valence
 from gbnbench.analysis.spatial.zone_plate import zone_plate
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.results.measures import Measures
@@ -59,6 +59,31 @@ class Analysis:
     zone_plate: FloatArray | None
     measures: Measures
     warnings: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class AnalysisArrays:
+    """An ``Analysis`` whose curves are not tables yet, as a process measures it that does not load pandas."""
+
+    spectrum: Spectrum
+    radial: RadialPower
+    anisotropy: dict[str, FloatArray]
+    rdf: RadialDistribution | None
+    valence: Valence | None
+    zone_plate: FloatArray | None
+    measures: Measures
+    warnings: tuple[str, ...]
+
+    def analysis(self) -> Analysis:
+        """Return it with tables."""
+        import pandas as pd
+
+        tables = {
+            "anisotropy": pd.DataFrame(self.anisotropy),
+            "rdf": None if self.rdf is None else self.rdf.to_frame(),
+            "valence": None if self.valence is None else self.valence.to_frame(),
+        }
+        return Analysis(**{**vars(self), **tables})
 
 
 def measures(
@@ -147,16 +172,26 @@ def analyse(x: ArrayLike, fmax: int | None = None, sides: ArrayLike | None = Non
     InputError
         As ``measures``.
     """
+    return analyse_to_arrays(x, fmax, sides).analysis()
+
+
+def analyse_to_arrays(
+    x: ArrayLike, fmax: int | None = None, sides: ArrayLike | None = None
+) -> AnalysisArrays:
+    """Measure what ``analyse`` does, without loading pandas.
+
+    Parameters, and what is raised, are those of ``analyse``.
+    """
     points = as_realizations(x)
     lengths = as_sides(sides, points.shape[2])
     scalars = Scalars(points, fmax, lengths)
     found = scalars.measures()  # first: it may take the shells farther
-    return Analysis(
+    return AnalysisArrays(
         spectrum=scalars.spectrum,
         radial=scalars.radial,
         anisotropy=scalars.anisotropy(),
-        rdf=_unless_refused(lambda: rdf(points, lengths).to_frame()),
-        valence=_unless_refused(lambda: valence(scalars.neighbours()).to_frame()),
+        rdf=_unless_refused(lambda: rdf(points, lengths)),
+        valence=_unless_refused(lambda: valence(scalars.neighbours())),
         zone_plate=_unless_refused(lambda: zone_plate(points, sides=lengths)),
         measures=found,
         warnings=border_warnings(scalars.spectrum, scalars.radial),

@@ -5,13 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import cached_property, partial
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from gbnbench.analysis.affordable_powers import farther_powers, set_powers
 from gbnbench.analysis.measure_definitions import DEFINITIONS
-from gbnbench.analysis.radial.anisotropy import anisotropy
+from gbnbench.analysis.radial.anisotropy import anisotropy_columns
 from gbnbench.analysis.radial.psa import spectral_statistics
 from gbnbench.analysis.set_powers import SetPowers
 from gbnbench.analysis.spatial.bond_order import bond_order, psi6
@@ -28,9 +27,6 @@ from gbnbench.core.results.measures import Measures
 from gbnbench.core.results.radial import RadialPower
 from gbnbench.core.sides import Sides
 from gbnbench.core.torus import FloatArray
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 NYQUIST_STEP = 0.005  # resolution of the effective Nyquist frequency, part of its error
 _Entry = tuple[tuple[str, ...], Callable[[], list[Estimate]]]
@@ -89,17 +85,14 @@ class Scalars:
             )
         )
 
-    def anisotropy(self) -> pd.DataFrame:
-        """Anisotropy of each ring, as far as shells were evaluated."""
-        near, far = anisotropy(self.near.shell_spectrum()), self._evaluated_far()
+    def anisotropy(self) -> dict[str, FloatArray]:
+        """Columns of the anisotropy of each ring, as far as shells were evaluated."""
+        near, far = anisotropy_columns(self.near.shell_spectrum()), self._evaluated_far()
         if far is None:
             return near
-        import pandas as pd
-
-        rings = anisotropy(far.shell_spectrum())
-        farther: pd.DataFrame = rings[rings.frequency > near.frequency.max()]
-        found: pd.DataFrame = pd.concat([near, farther], ignore_index=True)
-        return found
+        rings = anisotropy_columns(far.shell_spectrum())
+        farther = rings["frequency"] > near["frequency"].max()
+        return {name: np.append(values, rings[name][farther]) for name, values in near.items()}
 
     def _evaluated_far(self) -> SetPowers | None:
         """Return the farther shells if a measure needed them."""

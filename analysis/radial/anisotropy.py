@@ -72,6 +72,11 @@ def anisotropy(spectrum: Spectrum | ShellSpectrum) -> pd.DataFrame:
     """
     import pandas as pd
 
+    return pd.DataFrame(anisotropy_columns(spectrum))
+
+
+def anisotropy_columns(spectrum: Spectrum | ShellSpectrum) -> dict[str, FloatArray]:
+    """Columns of ``anisotropy`` by name, for a process that does not load pandas."""
     if isinstance(spectrum, Spectrum):
         if spectrum.frequencies is not None:
             raise InputError("anisotropy needs a whole cube: periodogram(x, fmax), not listed frequencies")
@@ -94,9 +99,7 @@ def anisotropy(spectrum: Spectrum | ShellSpectrum) -> pd.DataFrame:
         around = pooled(shells.deviation + m * (shells.power - mean[ring]) ** 2)
         psa = 10 * np.log10(around / (total - 1) / mean**2)
     psa[mean <= ROUNDING_POWER] = np.nan
-    return pd.DataFrame(
-        {"frequency": rings, "nu": rings * shells.spacing, "anisotropy_db": ours, "psa_db": psa}
-    )
+    return {"frequency": rings, "nu": rings * shells.spacing, "anisotropy_db": ours, "psa_db": psa}
 
 
 def anisotropy_db(power: FloatArray, shells: Shells, realizations: int, spacing: float) -> float:

@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from gbnbench.analysis.measures import Analysis, analyse
+from gbnbench.analysis.measures import AnalysisArrays, analyse_to_arrays
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import Generator, checked_draw, realization_rng
 from gbnbench.io.points.point_sets import NO_TORUS
@@ -57,7 +57,7 @@ def comparison_tasks(sources: Sequence[Source], seed: int, jobs: int) -> list[Ta
         measure = Task(
             source.key,
             f"{row}, measuring it",
-            analyse if source.generator is None else analyse_realizations,
+            analyse_to_arrays if source.generator is None else analyse_realizations,
             (source.sets, None, source.sides) if source.generator is None else (),
             tuple(draw.key for draw in draws),
             partial(source_result, source),
@@ -103,19 +103,21 @@ def draw_realization(
     return Realization(x, cost, first)
 
 
-def analyse_realizations(realizations: Sequence[Realization]) -> Analysis:
+def analyse_realizations(realizations: Sequence[Realization]) -> AnalysisArrays:
     """Measure the realizations of one source in a worker."""
-    return analyse(_points(realizations))
+    return analyse_to_arrays(_points(realizations))
 
 
-def source_result(source: Source, analysis: Analysis, realizations: Sequence[Realization]) -> SourceResult:
+def source_result(
+    source: Source, arrays: AnalysisArrays, realizations: Sequence[Realization]
+) -> SourceResult:
     """Put together a source's sets and what was measured of them.
 
     Parameters
     ----------
     source : Source
         With the sets, unless they were drawn.
-    analysis : Analysis
+    arrays : AnalysisArrays
         What was measured.
     realizations : sequence of Realization
         The sets drawn; empty where the source brings its own.
@@ -125,6 +127,7 @@ def source_result(source: Source, analysis: Analysis, realizations: Sequence[Rea
     SourceResult
     """
     told = (f"the file {NO_TORUS}",) if source.toroidal is False else ()
+    analysis = arrays.analysis()
     return SourceResult(
         **{**vars(analysis), "warnings": (*told, *analysis.warnings)},
         key=source.key,
