@@ -5,7 +5,9 @@
  * shares of a side. A distance d falls in the bin (uint)(d * per_length + edge); all that lie beyond fall in the last
  * of its bins + 1 counts, which no other work-item touches.
  *
- * WHOLE, added and subtracted, rounds a difference to whole sides: rint is a call on PoCL. Needs vector.cl.
+ * WHOLE, 3 * 2^51, added and subtracted, rounds a difference to whole sides: rint is a call on PoCL. Less 1 where
+ * that rounded upwards, a bin plus WHOLE has its number in its low bits: lanes are not converted one by one. In
+ * double alone. Needs vector.cl.
  */
 __kernel void pair_distances(__global const REAL *restrict x, __global const REAL *restrict columns,
                              __global const REAL *restrict sides, __global const uint *restrict windows,
@@ -28,11 +30,16 @@ __kernel void pair_distances(__global const REAL *restrict x, __global const REA
                     squared += step * step;
                 }
                 const REALV bin = sqrt(squared) * per_length + edge;
+                const REALV near = bin < (REALV)bins ? bin : (REALV)bins;
+                const REALV whole = near + (REALV)WHOLE;
                 REAL lane[LANES];
-                STOREV(bin, lane, 0);
-                const uint count = end - j < LANES ? end - j : LANES;
-                for (uint l = 0; l < count; l++)
-                    own[lane[l] < bins ? (uint)lane[l] : bins]++;
+                STOREV(whole - (REALV)WHOLE > near ? whole - (REALV)1 : whole, lane, 0);
+                if (end - j >= LANES)
+                    for (uint l = 0; l < LANES; l++)
+                        own[(uint)as_ulong(lane[l])]++;
+                else
+                    for (uint l = 0; l < end - j; l++)
+                        own[(uint)as_ulong(lane[l])]++;
             }
         }
 }
