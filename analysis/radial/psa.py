@@ -180,7 +180,10 @@ def _kernel(n: int, total: int, nodes: int, start: int, end: int, stride: int) -
     r = np.arange(nodes, dtype=np.float64) * (stride * 0.5 / total)
     v = np.arange(start, end)[:, None] * (0.5 * n / total)
     bessel = np.asarray(j0(2 * math.pi * v * r))
-    return bessel if start else bessel * _window(r, 0.5 * np.clip(4 * v / math.sqrt(n), 0.2, 2 * WIDEST))
+    if start:
+        return bessel
+    reach = np.asarray(0.5 * np.clip(4 * v / math.sqrt(n), 0.2, 2 * WIDEST), dtype=np.float64)
+    return np.asarray(bessel * _window(r, reach))
 
 
 def _window(r: FloatArray, reach: FloatArray) -> FloatArray:
