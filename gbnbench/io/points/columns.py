@@ -103,7 +103,7 @@ def advice(names: Sequence[str]) -> str:
 
 
 def _likely_axes(names: list[str]) -> list[str]:
-    """Find x, y, z; else names that differ by these letters alone, or by numbers from 0 or 1; else any two."""
+    """Find x, y, z; else names that differ by such a letter alone, or by numbers from 0 or 1; else two."""
     plain = sorted((name for name in names if name.lower() in _LETTERS[:3]), key=str.lower)
     if plain:
         return plain
