@@ -65,9 +65,7 @@ def _read(file: PointFile) -> FileContent:
     named = isinstance(parts[0][0], dict)
     if named and columns is None and tuple(name.lower() for name in parts[0][0]) == XYZ:
         refuse_plane(path, np.concatenate([one.points for one in sets]), columns)
-    elif (
-        not named and columns is None and "sides" not in about
-    ):  # in its own unit a box may hold whole numbers
+    if not named and columns is None and "sides" not in about:  # in the unit of a box points may count
         for one in sets:
             refuse_row_numbers(path, one)
     return FileContent(sets, _box(path, about, sets[0].points.shape[1]))
