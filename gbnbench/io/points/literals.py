@@ -50,6 +50,8 @@ def fault_in_line(cell: bytes, k: int, line: bytes, names: Sequence[str]) -> str
         return "an empty cell after the last comma: remove it" + (
             "" if names else ", or take columns, such as --columns 1,2"
         )
+    if not names and cell[:1].isalpha() and not any(digit in line for digit in b"0123456789"):
+        return f"{shown(line.strip())} holds no number: begin a line of words with '#', or remove it"
     return fault_of_cell(cell)
 
 

@@ -123,9 +123,13 @@ def _parsed(path: Path, data: bytes) -> Any:
                 "to_json(path, 'records')",
                 error.lineno,
             ) from None
+        if text.lstrip().startswith("{{"):
+            said = 'is a list of Mathematica: Export["points.csv", x] writes its points'
+            raise FormatError(path, said) from None
         raise FormatError(
             path,
-            f"begins as JSON does and is none: {error.msg.lower()} in column {error.colno}",
+            f"begins as JSON does and is none: {error.msg.lower()} in column {error.colno}; rows of "
+            "plain text have no brackets",
             error.lineno,
         ) from None
     except UnicodeDecodeError:
