@@ -66,9 +66,9 @@ _TEXTS: tuple[tuple[re.Pattern[bytes], str, str], ...] = (
     (re.compile(rb"(?:[^\n]*\n)*?(?:ATOM  |HETATM)[ 0-9]"), "a PDB file", _ATOMS),
     (re.compile(rb"data_[^\s,;]*\s*\n\s*(?:[_#]|loop_)"), "a CIF file", _ATOMS),
     (re.compile(rb"[^\n]*\n\s*[0-9]+\s*\n\s*[0-9]+[A-Za-z]\w*\s+[A-Za-z]"), "a GROMACS file", _ATOMS),
-    (re.compile(rb"(?:[^\n]*\n)*?\s*(?:[Dd]irect|[Cc]artesian)\s*\n"), "a POSCAR of VASP", _ATOMS),
+    (re.compile(rb"(?:[^\n]*\n)*?[ \t]*(?:[Dd]irect|[Cc]artesian)[ \t]*\n"), "a POSCAR of VASP", _ATOMS),
     (
-        re.compile(rb"(?:[^\n]*\n)*?\s*[0-9]+\s+atoms\s*\n"),
+        re.compile(rb"(?:[^\n]*\n)*?[ \t]*[0-9]+[ \t]+atoms[ \t]*\n"),
         "a data file of LAMMPS",
         "'ase convert -i lammps-data FILE points.extxyz' (pip install ase) writes what is read here, "
         "with its box",
