@@ -25,6 +25,8 @@ READ: list[tuple[str, str]] = [
     ("tabs, decimal commas and words", "label\tx\ty\ncell 1, a\t0,125\t0,25\nb\t0,5\t0,75\n"),
     ("a tab in front", "\tx\ty\nfirst one\t0.125\t0.25\nsecond one\t0.5\t0.75\n"),
     ("tabs in front of all", "\tx\ty\n\t0.125\t0.25\n\t0.5\t0.75\n"),
+    ("tabs that line columns up", "name\tx\ty\nlonger\t\t0.125\t0.25\na\t\t0.5\t0.75\n"),
+    ("ImageJ's results", "   \tLabel\tX\tY\n1\t\t0.125\t0.25\n2\tb c\t0.5\t0.75\n"),
     ("a comment among tabs", "label\tx\ty\ncell 1\t0.125\t0.25\n# half way\ncell 2\t0.5\t0.75\n"),
     ("a semicolon in a quoted name", 'x,y,"note; more"\n0.125,0.25,a\n0.5,0.75,b\n'),
     ("a semicolon in a name", "x,y,note; more\n0.125,0.25,a\n0.5,0.75,b\n"),
@@ -86,8 +88,8 @@ REFUSED: list[tuple[str, str, str | None, int | None, str]] = [
     ("no names alike", "id,mass,charge\n1,2,3\n", None, 1, "takes those wanted; here are id, mass, charge"),
     ("names with commas", '"x, mm","y, mm",m\n1,2,3\n', None, 1, "rename 'x, mm', 'y, mm' without commas"),
     ("a name twice", "x,y,x\n0.5,0.25,0.75\n", "x,y", None, "column 'x' is there twice"),
-    ("units below the names", "x,y\num,um\n0.5,0.25\n", None, 2, "no number in it: remove what stands betw"),
-    ("more names", "id,x,y\nID,X,Y\n,(px),(px)\n0,0.5,0.25\n", "x,y", 2, "no number in it: remove"),
+    ("units below the names", "x,y\num,um\n0.5,0.25\n", None, 2, "no number in it, nor in line 1: keep"),
+    ("more names", "id,x,y\nID,X,Y\n,(px),(px)\n0,0.5,0.25\n", "x,y", 2, "nor in line 1: keep the one"),
     ("a row of none", "x,y\nnan,nan\n0.5,0.25\n", None, 2, "'nan' is not a number: remove the point"),
     ("a missing number of R", "x,y\n0.5,NA\n", None, 2, "'NA' is not a number: remove the point"),
     ("Matlab's comment", "% x y\n0.5 0.25\n", None, 1, "begins with '%', and comments begin with '#' here"),
@@ -98,6 +100,9 @@ REFUSED: list[tuple[str, str, str | None, int | None, str]] = [
     ("Fortran's exponent", "5.0D-01 2.5D-01\n", None, 1, "write its exponent with e, such as 1e-3"),
     ("Mathematica's exponent", "5.0*^-1,0.25\n", None, 1, "write its exponent with e, such as 1e-3"),
     ("Swiss thousands", "x;y\n1'234.5;7\n", None, 2, "write it without parted thousands"),
+    ("a unit", "x,y\n0.5 um,0.25 um\n", None, 2, "'0.5 um' is not a number: write the number alone"),
+    ("C's floats", "0.5f, 0.25f\n", None, 1, "'0.5f' is not a number: write the number alone"),
+    ("brackets", "(0.5, 0.25)\n", None, 1, "'(0.5' is not a number: write the number alone"),
     ("French thousands", "x;y\n1\u202f234,5;7\n", None, 2, "write it without parted thousands"),
     ("tabs, a row too short", "a\tx\ty\n1\t0.5\t0.25\n2\t0.5\n", "x,y", 3, "2 columns where the lines bef"),
     ("tabs, an empty coordinate", "a\tx\ty\tb\n1\t\t0.25\t3\n", "x,y", 2, "an empty cell, in column 'x'"),
@@ -113,3 +118,25 @@ def test_says_what_to_do(tmp_path: Path, text: str, columns: str | None, line: i
         load(put(tmp_path, "a.csv", text.encode()), columns=columns)
     assert said in str(caught.value)
     assert caught.value.line == line
+
+
+@pytest.mark.parametrize("separator", [",", ";"])
+def test_pandas_index_and_numbers_of_columns_are_left_out(tmp_path: Path, separator: str) -> None:
+    text = ",0,1\n0,0.125,0.25\n1,0.5,0.75\n".replace(",", separator)
+    assert np.array_equal(load(put(tmp_path, "a.csv", text.encode())), P)
+
+
+@pytest.mark.parametrize("d", [2, 3, 4])
+@pytest.mark.parametrize("separator", [",", " "])
+def test_numbers_of_columns_are_no_point(tmp_path: Path, d: int, separator: str) -> None:
+    """pandas writes them where columns have no names and the index is left out."""
+    pixels = np.arange(2 * d).reshape(2, d) + 7
+    rows = [separator.join(map(str, row)) + "\n" for row in (range(d), *pixels.tolist())]
+    with pytest.raises(
+        FormatError, match=r"line 1: '0 1.*' may number the columns, be .*: remove it, or write the p"
+    ):
+        load(put(tmp_path, "a.csv", "".join(rows).encode()), period=16)
+    assert np.array_equal(load(put(tmp_path, "b.csv", "".join(rows[1:]).encode()), period=16), pixels / 16)
+    told = "".join([separator.join(f"{k}.0" for k in range(d)) + "\n", *rows[1:]])
+    found = load(put(tmp_path, "c.csv", told.encode()), period=16)
+    assert np.array_equal(found, np.vstack([np.arange(d), pixels]) / 16)

@@ -12,6 +12,9 @@ MISSING = (b"nan", b"na", b"n/a", b"#n/a", b"null", b"none", b"inf", b"infinity"
 
 _EXPONENT = re.compile(rb"[+-]?[0-9]*\.?[0-9]*(?:[dDqQ]|\*\^|[eE]?\*10\^)[+-]?[0-9]+")
 _THOUSANDS = re.compile(rb"[+-]?[0-9]{1,3}(?:(?:['_ ]|\xc2?\xa0|\xe2\x80[\x89\xaf])[0-9]{3})+(?:[.,][0-9]*)?")
+_WITH_MORE = re.compile(
+    rb"[^0-9A-Za-z\"]?[ ]?" + NUMBER.pattern + rb"[ ]?[^0-9 \"][^0-9\"]{0,7}|[(\[{$]" + NUMBER.pattern
+)
 _QUOTED_COMMA = re.compile(rb'"([+-]?[0-9]*,[0-9]+)"')
 
 
@@ -66,6 +69,8 @@ def fault_of_cell(cell: bytes) -> str:
         return f"{said}: write its exponent with e, such as 1e-3"
     if _THOUSANDS.fullmatch(cell):
         return f"{said}: write it without parted thousands"
+    if _WITH_MORE.fullmatch(cell):
+        return f"{said}: write the number alone"
     if cell.startswith((b"#", b"%", b"//", b"!")):
         return f"{said}: a comment stands on a line of its own, which begins with '#'"
     if re.fullmatch(rb"[0-9]+[ \t]+[+-]?[0-9]+", cell) or DECIMAL_COMMA.fullmatch(cell):

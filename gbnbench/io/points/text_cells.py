@@ -108,6 +108,8 @@ def names_of(line: bytes, separator: bytes | None = None) -> tuple[str, ...]:
     if separator is None and b'"' not in line and b"," not in line and b"\t" in line:
         separator = b"\t"
     cells = cells_of(line) if separator is None else cells_between(line, separator)
+    if cells[:1] == [b""] and cells[1:] and cells[1:] == [b"%d" % k for k in range(len(cells) - 1)]:
+        return ("", *(f"x{k}" for k in range(len(cells) - 1)))  # pandas' index and numbers of columns
     names = tuple(_decoded(cell.strip(b"\"'").strip()) for cell in cells)
     words = [name[:1].isalpha() and name.lower() not in ("nan", "inf", "infinity") for name in names]
     if not any(words) or not all(word or not name for word, name in zip(words, names, strict=True)):

@@ -95,9 +95,7 @@ def plain_rows(path: Path, data: bytes, columns: tuple[str, ...] | None, *, coun
         row = content_line(data, first.end + 1, first.number + 1)
         cells = [] if row is None else text.cells(data[row.start : row.end], len(names))
         if row is not None and _holds_no_number(cells):
-            said = (
-                f"no number in it: remove what stands between the names of line {first.number} and the rows"
-            )
+            said = f"no number in it, nor in line {first.number}: keep the one line that names the columns"
             raise FormatError(path, said, row.number)
         layout = column_layout(path, names, first, row, cells)
         return _headed(path, text, layout, first, columns)

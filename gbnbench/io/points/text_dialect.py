@@ -129,7 +129,7 @@ def plain_text(path: Path, data: bytes) -> PlainText:
     if told is None and b";" in bare and not (b"," in bare and row is not None and b";" not in row.text):
         told = b";"
     if told is None or told == TAB:
-        if row is not None and _is_tabbed_table(first.text, data[row.start : row.end]):
+        if row is not None and _is_tabbed_table(data[first.start : first.end], data[row.start : row.end]):
             cells = cells_between(row.text, TAB)
             commas = [cell for cell in cells if _COMMA.fullmatch(cell.lstrip(b"+-"))]
             decimal = commas and all(DECIMAL_COMMA.fullmatch(cell) for cell in commas)
@@ -142,12 +142,18 @@ def plain_text(path: Path, data: bytes) -> PlainText:
 
 
 def _is_tabbed_table(header: bytes, row: bytes) -> bool:
-    """Whether tabs alone part the names of a table and the cells of its first row."""
-    return (
-        0 < header.count(TAB) <= row.count(TAB)
-        and b"," not in _QUOTES.sub(b"", header)
-        and bool(names_of(header, TAB))
-    )
+    """Whether tabs alone part the names of a table and the cells of its first row; one may stand in front.
+
+    Several tabs that only line columns up make more cells than there are names, some of them empty.
+    """
+    header = header.strip(b" ").rstrip()
+    names = names_of(header, TAB)
+    if len(names) < 2 or b"," in _QUOTES.sub(b"", header):
+        return False
+    cells = cells_between(row.strip(b" "), TAB)
+    while len(cells) > len(names) and not cells[-1]:
+        cells.pop()
+    return len(cells) == len(names) or (len(cells) == len(names) + 1 and all(cells))
 
 
 def _is_tabbed(line: bytes) -> bool:
