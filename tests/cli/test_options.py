@@ -138,7 +138,7 @@ def test_a_folder_is_not_written_as_a_file(tmp_path, capsys):
         (["analyze", "-"], "standard input is not read: name a file"),
         (
             ["convert", "x.txt", "--period", "640", "480", "-o", "y.txt"],
-            "480: cannot be read: no such file or directory; numbers of one option are parted by commas alone",
+            "480: cannot be read: no such file or directory; numbers of one option are parted by commas",
         ),
         (
             ["analyze", "x.txt", "--window", "512,512"],
