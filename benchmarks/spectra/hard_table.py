@@ -18,7 +18,7 @@ from gbnbench.analysis.precision import PrecisionName
 from gbnbench.analysis.spectrum.evaluators.gridded.product import griddable
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import AXES
 from gbnbench.analysis.spectrum.evaluators.nufft import transform as nufft
-from gbnbench.analysis.spectrum.evaluators.nufft.limits import DIMENSIONS
+from gbnbench.analysis.spectrum.evaluators.nufft.library import DIMENSIONS
 from gbnbench.analysis.spectrum.evaluators.registry import Method, title_of
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.benchmarks.spectra.hard_case import Frequencies, HardCase
@@ -108,7 +108,7 @@ def _evaluations(
     if has and case.d <= AXES and runtime().device.is_cpu:
         methods.append("fft")
     methods.append("numpy")
-    if precision == "double" and case.d <= DIMENSIONS and nufft.available():
+    if precision == "double" and case.d <= DIMENSIONS and nufft.installed():
         methods.append("nufft")
     for way in methods:
         cube = periodogram(x, case.reach, precision, method=way)
