@@ -81,7 +81,7 @@ def nufft_errors(
         scaled = np.abs(weights) / np.abs(weights).max()
         worst = float(scaled.sum() / np.linalg.norm(scaled))
     units = library.roundings[d - 1]
-    together = units.together if upsampling.together is None else upsampling.together
+    together = math.exp(np.interp(math.log(tolerance), *np.log(upsampling.together or units.together).T))
     rounding = units.worst + units.worst_harmonic * fmax + together * min(n, units.most)
     return Errors(
         rms=math.hypot(library.typical * tolerance, _floor(library, n, d, fmax)),

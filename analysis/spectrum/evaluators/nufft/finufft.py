@@ -14,9 +14,8 @@ import numpy as np
 from gbnbench.analysis.spectrum.evaluators.nufft.library import Library, Rounding, TransformCost, Upsampling
 from gbnbench.core.torus import FloatArray
 
-# Small FFTs with wide kernels, or large with narrow. At tighter tolerances the first magnifies rounding at
-# the corners of a grid, and on coincident points even at these.
-NARROW, WIDE = Upsampling(1.25, 1e-7, together=1e5), Upsampling(2.0)
+# Small FFTs with wide kernels, or large with narrow. The first magnifies rounding at the corners of a grid.
+NARROW, WIDE = Upsampling(1.25, 1e-7, together=((1.0, 1e5),)), Upsampling(2.0)
 
 
 def transform(
@@ -53,9 +52,9 @@ FINUFFT = Library(
         TransformCost(380e3, 0.0, 99, 54, 0.34, 1.1, 0.50),
     ),
     roundings=(
-        Rounding(15.0, 1.0, 0.1, 0.5, 100.0, 3.0, 5.0, 10_000),
-        Rounding(15.0, 1.0, 0.1, 0.5, 100.0, 3.0, 8.0, 100_000),
-        Rounding(15.0, 1.0, 0.1, 0.5, 100.0, 3.0, 20.0, 100_000),
+        Rounding(15.0, 1.0, 0.1, 0.5, 100.0, 3.0, ((1.0, 5.0),), 10_000),
+        Rounding(15.0, 1.0, 0.1, 0.5, 100.0, 3.0, ((1.0, 8.0),), 100_000),
+        Rounding(15.0, 1.0, 0.1, 0.5, 100.0, 3.0, ((1.0, 20.0),), 100_000),
     ),
     typical=0.35,
     coherent=30.0,

@@ -18,6 +18,10 @@ Transform = Callable[[FloatArray, Any, tuple[int, ...], float, float, int], Any]
 threads (0 for all) to complex amplitudes, of which that of the zero mode is at modes // 2 on each axis."""
 
 
+Magnification = tuple[tuple[float, float], ...]
+"""Tolerances, and a factor at each, between which the logarithms are interpolated."""
+
+
 @dataclass(frozen=True)
 class TransformCost:
     """Parts of a transform's time on one core in one dimension, in nanoseconds.
@@ -55,13 +59,13 @@ class Upsampling:
         Grid points over modes on each axis.
     reaches : float
         Tightest tolerance at which it is taken.
-    together : float, optional
-        ``Rounding.together`` of this factor where it is another.
+    together : tuple of (float, float), optional
+        ``Rounding.together`` at this factor, where it is another.
     """
 
     factor: float
     reaches: float = 0.0
-    together: float | None = None
+    together: Magnification | None = None
 
 
 @dataclass(frozen=True)
@@ -76,8 +80,9 @@ class Rounding:
         On scattered points: a factor of the points over the number of modes to this power.
     worst, worst_harmonic : float
         Bound on coincident points, over sqrt(n): a constant and a factor of the largest harmonic.
-    together : float
-        The same: a factor of the points that are summed one after another.
+    together : tuple of (float, float)
+        The same: tolerances, and at each a factor of the points that are summed one after another. Loose
+        tolerances allow small grids, whose corners magnify what is rounded in their nodes.
     most : float
         Largest number of points that are.
     """
@@ -88,7 +93,7 @@ class Rounding:
     power: float
     worst: float
     worst_harmonic: float
-    together: float
+    together: Magnification
     most: float
 
 

@@ -88,6 +88,20 @@ def test_crowds_and_far_frequencies_are_within_the_stated_errors(library, n, d, 
     assert np.abs(np.sqrt(same) - np.sqrt(n)).max() <= errors.bound
 
 
+@each_library
+@pytest.mark.parametrize(
+    ("n", "d", "fmax", "tolerance"),
+    [(20_000, 1, 60_000, 1e-11), (20_000, 2, 300, 1e-10), (20_000, 2, 400, 2e-8), (10_000, 3, 40, 1e-9)],
+)
+def test_rounding_that_a_small_grid_magnifies_is_within_the_bound(library, n, d, fmax, tolerance):
+    bound, largest = nufft_errors(library, n, d, fmax, tolerance).bound, 0.0
+    for place in (points(1, d, 5), (np.round(points(1, d, 6) * fmax) + 0.5) / (fmax + 1)):
+        cube = nufft_power(library, np.repeat(place, n, axis=0), fmax, tolerance)
+        largest = max(largest, float(np.abs(np.sqrt(cube) - np.sqrt(n)).max()))
+    assert largest <= bound
+    assert bound <= SLACK * largest
+
+
 def test_the_shift_is_exact_to_five_units():
     x = np.array([0.0, 2.0**-70, 1e-9, 0.1, 0.25, 0.5, 1 / 3, 0.9, 1 - 2.0**-53])
     with mpmath.workdps(60):
