@@ -93,10 +93,12 @@ class NonuniformFFT(Evaluator):
         return f"{self.title} to {self.tolerance:.2g}"
 
     def cost(self, request: SpectrumRequest) -> EvaluationCost:
-        """Estimate the transforms' cost on one core."""
-        n, d, f = request.n, request.d, request.fmax
-        seconds = request.realizations * nufft_seconds(self.library, n, d, f, self.tolerance)
-        return EvaluationCost(seconds * NUMPY_RATE, self._held(request), CALL_SECONDS / 4 + seconds)
+        """Estimate the transforms' cost: each on one core, and as many at a time as the cores take."""
+        n, d, f, sets = request.n, request.d, request.fmax, request.realizations
+        seconds = sets * nufft_seconds(self.library, n, d, f, self.tolerance)
+        together = self._together(sets, n, d, f)
+        held = together * self._held(request)
+        return EvaluationCost(seconds * NUMPY_RATE, held, CALL_SECONDS / 4 + seconds / together)
 
     def expected_errors(self, request: SpectrumRequest) -> Errors:
         """State the errors met on scattered and on coincident points."""
@@ -110,10 +112,7 @@ class NonuniformFFT(Evaluator):
         Sets that take long enough are dealt to the cores, as many at a time as there is memory for.
         """
         sets, n, d = x.shape
-        together = 1
-        if nufft_seconds(self.library, n, d, fmax, self.tolerance) > WORTH_A_THREAD:
-            room = MEMORY_SHARE * memory_limit() / nufft_bytes(self.library, n, d, fmax, self.tolerance)
-            together = max(1, min(sets, os.cpu_count() or 1, int(room)))
+        together = self._together(sets, n, d, fmax)
 
         def one_set(one: FloatArray, w: FloatArray | None) -> tuple[FloatArray, Errors]:
             threads = 1 if together > 1 else None
@@ -121,6 +120,13 @@ class NonuniformFFT(Evaluator):
             return power, nufft_errors(self.library, n, d, fmax, self.tolerance, w)
 
         return set_by_set(x, weights, one_set, mean=mean, together=together)
+
+    def _together(self, sets: int, n: int, d: int, fmax: int) -> int:
+        """Count the sets that are transformed at the same time."""
+        if nufft_seconds(self.library, n, d, fmax, self.tolerance) < WORTH_A_THREAD:
+            return 1
+        room = MEMORY_SHARE * memory_limit() / nufft_bytes(self.library, n, d, fmax, self.tolerance)
+        return max(1, min(sets, os.cpu_count() or 1, int(room)))
 
     def _held(self, request: SpectrumRequest) -> int:
         """Count the bytes of one transform."""
