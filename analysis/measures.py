@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from gbnbench.analysis.radial.border_warning import border_warnings
 from gbnbench.analysis.scalars import Scalars
@@ -67,7 +67,7 @@ class AnalysisArrays:
 
     spectrum: Spectrum
     radial: RadialPower
-    anisotropy: dict[str, FloatArray]
+    anisotropy: dict[str, NDArray[Any]]
     rdf: RadialDistribution | None
     valence: Valence | None
     zone_plate: FloatArray | None

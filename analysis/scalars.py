@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import cached_property, partial
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gbnbench.analysis.affordable_powers import farther_powers, set_powers
 from gbnbench.analysis.measure_definitions import DEFINITIONS
@@ -85,7 +87,7 @@ class Scalars:
             )
         )
 
-    def anisotropy(self) -> dict[str, FloatArray]:
+    def anisotropy(self) -> dict[str, NDArray[Any]]:
         """Columns of the anisotropy of each ring, as far as shells were evaluated."""
         near, far = anisotropy_columns(self.near.shell_spectrum()), self._evaluated_far()
         if far is None:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gbnbench.analysis.radial.profile_measures import ROUNDING_POWER
 from gbnbench.analysis.radial.radial_power import shells_from_cube
@@ -75,7 +76,7 @@ def anisotropy(spectrum: Spectrum | ShellSpectrum) -> pd.DataFrame:
     return pd.DataFrame(anisotropy_columns(spectrum))
 
 
-def anisotropy_columns(spectrum: Spectrum | ShellSpectrum) -> dict[str, FloatArray]:
+def anisotropy_columns(spectrum: Spectrum | ShellSpectrum) -> dict[str, NDArray[Any]]:
     """Columns of ``anisotropy`` by name, for a process that does not load pandas."""
     if isinstance(spectrum, Spectrum):
         if spectrum.frequencies is not None:

@@ -1,4 +1,4 @@
-"""How often a process of the command looks for garbage."""
+"""Rarer looks for garbage in the processes of the command."""
 
 from __future__ import annotations
 

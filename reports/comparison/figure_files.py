@@ -91,7 +91,22 @@ def pdf(figure: Figure) -> bytes:
 
 
 def stem(run: Run, name: str, group: Group) -> str:
-    """Name the files of a figure of one (n, d), which the name tells in a run of several."""
+    """Name the files of a figure of one (n, d), which the name tells in a run of several.
+
+    Parameters
+    ----------
+    run : Run
+        The comparison.
+    name : str
+        One of ``FIGURES``.
+    group : (n, d)
+        Size and dimension of the sources that it shows.
+
+    Returns
+    -------
+    str
+        Without a suffix.
+    """
     return name + (f"_n{group[0]}_d{group[1]}" if len(groups(run)) > 1 else "")
 
 

@@ -52,7 +52,20 @@ def write_report(run: Run, path: str | Path, drawn: Mapping[str, bytes] | None =
 
 
 def page(run: Run, drawn: Mapping[str, bytes] = MappingProxyType({})) -> str:
-    """Return the page as text; every label, path and setting in it is escaped."""
+    """Return the page as text; every label, path and setting in it is escaped.
+
+    Parameters
+    ----------
+    run : Run
+        The comparison.
+    drawn : mapping of bytes
+        PNGs by the stems of their files, which are not drawn again.
+
+    Returns
+    -------
+    str
+        HTML.
+    """
     every = groups(run)
     swept = sweep.several(run)
     environment = _environment()
