@@ -8,6 +8,8 @@ from importlib import resources
 from threading import Lock
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 if TYPE_CHECKING:
     from gbnbench.opencl.runtime import Runtime
 
@@ -21,6 +23,7 @@ class Program:
     def __init__(self, owner: Runtime, built: Any) -> None:
         self.owner = owner
         self._kernels = {kernel.function_name: kernel for kernel in built.all_kernels()}
+        self._typed: set[str] = set()
 
     def run(self, name: str, global_size: Sequence[int], local_size: Sequence[int], *args: Any) -> None:
         """Enqueue a kernel.
@@ -32,10 +35,15 @@ class Program:
         global_size, local_size : sequences of int
             Work-items. The local size is always given, since without it PoCL uses one core.
         *args
-            Buffers and numpy scalars of the kernel's own types.
+            Buffers and numpy scalars of the kernel's own types, the same ones at every launch.
         """
         with LAUNCH:
-            self._kernels[name](self.owner.queue, tuple(global_size), tuple(local_size), *args)
+            kernel = self._kernels[name]
+            if name not in self._typed:
+                # A number whose type pyopencl is not told is tried as a buffer first, which takes it 8 us.
+                kernel.set_arg_types([arg.dtype if isinstance(arg, np.generic) else None for arg in args])
+                self._typed.add(name)
+            kernel(self.owner.queue, tuple(global_size), tuple(local_size), *args)
 
 
 @cache
