@@ -26,14 +26,17 @@ class CubeWriter:
         The two groups of axes.
     fmax : int or tuple of d ints
         Largest harmonic on each axis.
-    norms : (sets,) float64
-        Numbers by which the squared amplitudes of each set are divided.
-    d : int
-        Dimension.
+    sets, d : int
+        Number of sets, and dimension.
     half, mean : bool
         As in ``cube_powers``.
     gains : (rows,) float64, optional
         Numbers by which the squared amplitudes at each leading frequency are divided besides; 1 if not given.
+
+    Attributes
+    ----------
+    nbytes : int
+        Bytes of the cube.
     """
 
     def __init__(
@@ -41,25 +44,33 @@ class CubeWriter:
         p: Precision,
         divided: Division,
         fmax: Harmonics,
-        norms: FloatArray,
+        sets: int,
         d: int,
         half: bool,
         mean: bool,
         gains: FloatArray | None = None,
     ) -> None:
         self._p, self._harmonics, self._half, self._mean = p, each_axis(d, fmax), half, mean
-        self._sets = len(norms)
+        self._sets = sets
         self._rows, self._columns = half_size(divided.leading), half_size(divided.trailing)
         shape = covered(divided, d)
         self._start = shape[0] // 2 * math.prod(shape[1:]) if half else 0
         self._count = math.prod(shape) - self._start
         self._shape = (shape[0] - shape[0] // 2, *shape[1:]) if half else shape
-        self._out = p.runtime.empty(self._count * (1 if mean else self._sets) * np.dtype(p.sum).itemsize)
-        self._norms = p.runtime.upload(norms.astype(p.sum))
+        self.nbytes = self._count * (1 if mean else self._sets) * np.dtype(p.sum).itemsize
+        self._out = p.runtime.empty(self.nbytes)
         self._gains = p.runtime.upload((np.ones(self._rows) if gains is None else gains).astype(p.sum))
 
     def add(
-        self, program: Program, amplitude: Any, splits: int, first: int, count: int, first_row: int, rows: int
+        self,
+        program: Program,
+        amplitude: Any,
+        splits: int,
+        norms: Any,
+        first: int,
+        count: int,
+        first_row: int,
+        rows: int,
     ) -> None:
         """Turn the amplitudes of a batch into power, which is added up over sets or written set by set.
 
@@ -71,6 +82,8 @@ class CubeWriter:
             Amplitudes of the batch.
         splits : int
             Slots of a set, whose amplitudes are added up.
+        norms : buffer
+            Numbers by which the squared amplitudes of each set are divided.
         first, count : int
             First set of the batch, and how many sets it has.
         first_row, rows : int
@@ -90,7 +103,7 @@ class CubeWriter:
             np.uint32(each),
             np.uint32(splits),
             np.uint32(count),
-            self._norms,
+            norms,
             self._gains,
             np.uint32(first),
             self._out,

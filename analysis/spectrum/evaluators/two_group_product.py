@@ -8,6 +8,8 @@ This takes one multiply-add for each frequency and point, half of what a complex
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cached_property, lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,6 +48,8 @@ class TwoGroupProduct:
         Amplitudes of one batch; layout in product.cl.
     slots : Slots
         Slots of a batch.
+    nbytes : int
+        Bytes of the tables and amplitudes of a batch.
     """
 
     def __init__(
@@ -69,9 +73,11 @@ class TwoGroupProduct:
         self.program = self.frequencies.program(compensated)
         self._sizes = self.frequencies.table_sizes(self.slots.length)
         real, total = np.dtype(p.real).itemsize, np.dtype(p.sum).itemsize
-        self._tables = tuple(p.runtime.empty(size * self.slots.count * real) for size in self._sizes)
-        kept = 8 if compensated else 4
-        self.amplitude = p.runtime.empty(self.slots.count * rows * columns * kept * total)
+        of_tables = [size * self.slots.count * real for size in self._sizes]
+        of_amplitudes = self.slots.count * rows * columns * (8 if compensated else 4) * total
+        self.nbytes = sum(of_tables) + of_amplitudes
+        self._tables = tuple(p.runtime.empty(size) for size in of_tables)
+        self.amplitude = p.runtime.empty(of_amplitudes)
 
     def batches(self, x: FloatArray, weights: FloatArray | None = None) -> Iterator[tuple[int, int]]:
         """Evaluate the amplitudes of one batch of sets after another, and leave each on the device.
@@ -89,14 +95,14 @@ class TwoGroupProduct:
             First set and number of sets whose amplitudes ``amplitude`` holds until the next batch.
         """
         p, slots = self.p, self.slots
-        weight = np.zeros((1 if weights is None else len(weights), self.stride), p.real)
-        weight[:, : self.n] = 1 if weights is None else weights
-        shared = p.runtime.upload(weight[:1])
+        each = weights is not None and len(weights) > 1
+        own = self._ones if weights is None else self._upload_weights(weights[:1])
         for first in range(0, len(x), slots.sets):
             batch = slice(first, first + slots.sets)
-            own = shared if len(weight) == 1 else p.runtime.upload(weight[batch])
+            if weights is not None and each:
+                own = self._upload_weights(weights[batch])
             turns = p.runtime.upload(p.turns(x[batch], self.stride))
-            points = DevicePoints(turns, own, self.stride, 0 if own is shared else self.stride)
+            points = DevicePoints(turns, own, self.stride, self.stride if each else 0)
             count = len(x[batch])
             for begin in range(0, self.stride, slots.span):
                 self.frequencies.tabulate(
@@ -104,6 +110,17 @@ class TwoGroupProduct:
                 )
                 self.multiply(count, again=begin > 0)
             yield first, count
+
+    @cached_property
+    def _ones(self) -> Any:
+        """The weights of points without weights."""
+        return self._upload_weights(np.ones((1, self.n)))
+
+    def _upload_weights(self, weights: FloatArray) -> Any:
+        """Upload weights, which are 0 beyond the last point: (k, n) float64."""
+        padded_weights = np.zeros((len(weights), self.stride), self.p.real)
+        padded_weights[:, : self.n] = weights
+        return self.p.runtime.upload(padded_weights)
 
     def multiply(self, sets: int, again: bool = False) -> None:
         """Multiply the tables of a batch.
@@ -130,6 +147,7 @@ class TwoGroupProduct:
         )
 
 
+@lru_cache(maxsize=256)
 def product_errors(p: Precision, n: int, slots: Slots, fmax: int, at: Coordinates) -> Errors:
     """State the errors of sqrt(power), for terms of four cosines and three complex products.
 
