@@ -117,13 +117,9 @@ def cube_powers(
     """
     sets, n, d = x.shape
     cube = kept(PreparedCube, p, n, d, sets, fmax, half, mean)
-    at, largest, norms = coordinates(x, p.name, weights), max(each_axis(d, fmax)), cube.norms(weights)
+    used = cube.fill(x, weights)
+    at, largest = coordinates(x, p.name, weights), max(each_axis(d, fmax))
     errors = Errors(0.0, 0.0)
-    for first_row, rows, product in cube.products():
-        for first, count in product.batches(x, weights):
-            cube.writer.add(
-                *(product.program, product.amplitude, product.slots.splits, norms),
-                *(first, count, first_row, rows),
-            )
-        errors = errors.or_larger(product_errors(p, n, product.slots, largest, at))
+    for slots in used:
+        errors = errors.or_larger(product_errors(p, n, slots, largest, at))
     return cube.writer.result(), errors

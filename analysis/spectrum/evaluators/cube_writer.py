@@ -35,6 +35,10 @@ class CubeWriter:
 
     Attributes
     ----------
+    out, gains : buffer
+        The cube, and the gains.
+    start, set_size : int
+        Index of the whole cube at which it begins, and numbers from one set's to the next set's, 0 for a mean.
     nbytes : int
         Bytes of the cube.
     """
@@ -54,12 +58,13 @@ class CubeWriter:
         self._sets = sets
         self._rows, self._columns = half_size(divided.leading), half_size(divided.trailing)
         shape = covered(divided, d)
-        self._start = shape[0] // 2 * math.prod(shape[1:]) if half else 0
-        self._count = math.prod(shape) - self._start
+        self.start = shape[0] // 2 * math.prod(shape[1:]) if half else 0
+        self._count = math.prod(shape) - self.start
         self._shape = (shape[0] - shape[0] // 2, *shape[1:]) if half else shape
         self.nbytes = self._count * (1 if mean else self._sets) * np.dtype(p.sum).itemsize
-        self._out = p.runtime.empty(self.nbytes)
-        self._gains = p.runtime.upload((np.ones(self._rows) if gains is None else gains).astype(p.sum))
+        self.set_size = 0 if mean else self._count
+        self.out = p.runtime.empty(self.nbytes)
+        self.gains = p.runtime.upload((np.ones(self._rows) if gains is None else gains).astype(p.sum))
 
     def add(
         self,
@@ -104,17 +109,17 @@ class CubeWriter:
             np.uint32(splits),
             np.uint32(count),
             norms,
-            self._gains,
+            self.gains,
             np.uint32(first),
-            self._out,
-            np.uint64(self._start),
-            np.uint64(0 if self._mean else self._count),
+            self.out,
+            np.uint64(self.start),
+            np.uint64(self.set_size),
         )
 
     def result(self) -> FloatArray:
         """Download the cube, and cut off the frequencies beyond its edge that the groups cover."""
         sets = 1 if self._mean else self._sets
-        power = self._p.runtime.download(self._out, np.empty((sets, *self._shape), self._p.sum))
+        power = self._p.runtime.download(self.out, np.empty((sets, *self._shape), self._p.sum))
         inner = tuple(
             slice(0, f + 1) if self._half and a == 0 else slice(have // 2 - f, have // 2 + f + 1)
             for a, (f, have) in enumerate(zip(self._harmonics, self._shape, strict=True))

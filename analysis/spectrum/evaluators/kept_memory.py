@@ -7,7 +7,7 @@ from collections import OrderedDict
 from collections.abc import Callable, Hashable
 from typing import Protocol, TypeVar
 
-KEPT_BYTES = 64 << 20  # that a thread keeps in all
+KEPT_BYTES = 128 << 20  # that a thread keeps in all
 KEPT_REQUESTS = 8  # whose memory a thread keeps
 
 

@@ -12,7 +12,8 @@ from gbnbench.analysis.precision import Precision
 from gbnbench.analysis.spectrum.digits import Division, Harmonics, cheapest_division, half_size, size
 from gbnbench.analysis.spectrum.evaluators.cube_writer import CubeWriter
 from gbnbench.analysis.spectrum.evaluators.frequency_group import Group
-from gbnbench.analysis.spectrum.evaluators.point_slots import AMPLITUDE_BYTES, tile_rows
+from gbnbench.analysis.spectrum.evaluators.point_slots import AMPLITUDE_BYTES, Slots, tile_rows
+from gbnbench.analysis.spectrum.evaluators.small_cube import SmallCube, is_small
 from gbnbench.analysis.spectrum.evaluators.two_group_product import TwoGroupProduct, norms_of
 from gbnbench.core.torus import FloatArray
 
@@ -45,31 +46,50 @@ class PreparedCube:
         self.writer = CubeWriter(p, self._divided, fmax, sets, d, half=half, mean=mean)
         whole = half_size(self._divided.leading) <= most_rows(p, self._divided)
         self._whole = self._product(Group(self._divided.leading)) if whole else None
+        small = self._whole is not None and is_small(self._whole, sets)
+        self._small = SmallCube(self._whole, self.writer) if self._whole is not None and small else None
 
     @property
     def nbytes(self) -> int:
         """Bytes on the device."""
         return self.writer.nbytes + (0 if self._whole is None else self._whole.nbytes)
 
-    def products(self) -> Iterator[tuple[int, int, TwoGroupProduct]]:
-        """Give the product of one run of leading frequencies after another.
+    def fill(self, x: FloatArray, weights: FloatArray | None) -> list[Slots]:
+        """Evaluate the cube, and leave it on the device.
 
-        Yields
-        ------
-        first_row, rows : int
-            Position of the run's first frequency, and how many it has.
-        product : TwoGroupProduct
-            The product of the run and the whole trailing group.
+        Parameters
+        ----------
+        x : (sets, n, d) float64
+            Points.
+        weights : (sets or 1, n) float64 or None
+            Weights of the points.
+
+        Returns
+        -------
+        list of Slots
+            Those of each run of leading frequencies.
         """
+        norms = self._counts if weights is None else self._upload_norms(weights)
+        if self._small is not None:
+            self._small(x, weights, norms)
+            return [self._small.product.slots]
+        used = []
+        for first_row, rows, product in self._products():
+            for first, count in product.batches(x, weights):
+                self.writer.add(
+                    *(product.program, product.amplitude, product.slots.splits, norms),
+                    *(first, count, first_row, rows),
+                )
+            used.append(product.slots)
+        return used
+
+    def _products(self) -> Iterator[tuple[int, int, TwoGroupProduct]]:
+        """Give the first frequency and the length of each run of leading frequencies, with its product."""
         if self._whole is not None:
             yield 0, half_size(self._divided.leading), self._whole
             return
         for first_row, group in row_blocks(self._p, self._divided):
             yield first_row, group.count, self._product(group)
-
-    def norms(self, weights: FloatArray | None) -> Any:
-        """Upload the numbers by which squared amplitudes are divided; those of no weights are kept."""
-        return self._counts if weights is None else self._upload_norms(weights)
 
     def _product(self, leading: Group) -> TwoGroupProduct:
         return TwoGroupProduct(self._p, self._n, self._d, self._sets, leading, Group(self._divided.trailing))

@@ -48,6 +48,10 @@ class TwoGroupProduct:
         Amplitudes of one batch; layout in product.cl.
     slots : Slots
         Slots of a batch.
+    stride : int
+        Numbers from one coordinate of a set to the next.
+    tables, sizes : (buffer, buffer), (int, int)
+        Leading and trailing table of a batch, and numbers from one slot's to the next slot's.
     nbytes : int
         Bytes of the tables and amplitudes of a batch.
     """
@@ -71,12 +75,16 @@ class TwoGroupProduct:
         compensated = self.slots.sums(n, p.lanes) > COMPENSATED_FROM
         self._bounds = self.frequencies.all_columns if bounds is None else p.runtime.upload(bounds)
         self.program = self.frequencies.program(compensated)
-        self._sizes = self.frequencies.table_sizes(self.slots.length)
+        self.sizes = self.frequencies.table_sizes(self.slots.length)
         real, total = np.dtype(p.real).itemsize, np.dtype(p.sum).itemsize
-        of_tables = [size * self.slots.count * real for size in self._sizes]
+        of_tables = [size * self.slots.count * real for size in self.sizes]
         of_amplitudes = self.slots.count * rows * columns * (8 if compensated else 4) * total
         self.nbytes = sum(of_tables) + of_amplitudes
-        self._tables = tuple(p.runtime.empty(size) for size in of_tables)
+        self.tables = p.runtime.empty(of_tables[0]), p.runtime.empty(of_tables[1])
+        if self.frequencies.a.count < rows:
+            # The last tile's rows beyond the last frequency are multiplied too: by numbers, not by whatever the
+            # memory held, since denormals take a processor a hundred cycles each.
+            p.runtime.clear(self.tables[0], of_tables[0])
         self.amplitude = p.runtime.empty(of_amplitudes)
 
     def batches(self, x: FloatArray, weights: FloatArray | None = None) -> Iterator[tuple[int, int]]:
@@ -94,22 +102,38 @@ class TwoGroupProduct:
         first, count : int
             First set and number of sets whose amplitudes ``amplitude`` holds until the next batch.
         """
-        p, slots = self.p, self.slots
-        each = weights is not None and len(weights) > 1
-        own = self._ones if weights is None else self._upload_weights(weights[:1])
+        slots = self.slots
         for first in range(0, len(x), slots.sets):
             batch = slice(first, first + slots.sets)
-            if weights is not None and each:
-                own = self._upload_weights(weights[batch])
-            turns = p.runtime.upload(p.turns(x[batch], self.stride))
-            points = DevicePoints(turns, own, self.stride, self.stride if each else 0)
+            shared = weights is None or len(weights) == 1
+            points = self.upload(x[batch], weights if weights is None or shared else weights[batch])
             count = len(x[batch])
             for begin in range(0, self.stride, slots.span):
                 self.frequencies.tabulate(
-                    *(self.program, (0, 2), points, self._tables, slots), self._sizes, count, begin
+                    *(self.program, (0, 2), points, self.tables, slots), self.sizes, count, begin
                 )
                 self.multiply(count, again=begin > 0)
             yield first, count
+
+    def upload(self, x: FloatArray, weights: FloatArray | None) -> DevicePoints:
+        """Upload a batch of sets.
+
+        Parameters
+        ----------
+        x : (sets, n, d) float64
+            Points.
+        weights : (sets or 1, n) float64 or None
+            Their weights.
+
+        Returns
+        -------
+        DevicePoints
+        """
+        turns = self.p.runtime.upload(self.p.turns(x, self.stride))
+        if weights is None:
+            return DevicePoints(turns, self._ones, self.stride, 0)
+        own = self._upload_weights(weights)
+        return DevicePoints(turns, own, self.stride, 0 if len(weights) == 1 else self.stride)
 
     @cached_property
     def _ones(self) -> Any:
@@ -136,8 +160,8 @@ class TwoGroupProduct:
             *(
                 self.frequencies,
                 self.program,
-                self._tables,
-                self._sizes,
+                self.tables,
+                self.sizes,
                 self.slots.length,
                 sets * self.slots.splits,
             ),

@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import ClassVar
 
 from gbnbench.analysis.spectrum.error_model import UNIT, Errors, rms_for, rounded_at_worst
 from gbnbench.analysis.spectrum.evaluators.cube_product import CubeProduct
 from gbnbench.analysis.spectrum.evaluators.device_evaluator import DeviceEvaluator
 from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.bands import CACHE_BYTES, bin_counts, bins, run_count
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.bands import (
+    CACHE_BYTES,
+    BinnedPoints,
+    binned,
+    run_count,
+)
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.errors import WINDOW_TYPICAL, fft_errors, usual_crowd
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import AXES, real_grid
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.powers import fft_powers, sets_together
@@ -31,11 +36,19 @@ LARGEST_TYPICAL = 9.0  # typical error in units of rounding, beyond which crowde
 
 @dataclass(frozen=True)
 class GriddedFFT(DeviceEvaluator):
-    """The gridded FFT beside an OpenCL device that is a CPU, for cubes in up to three dimensions."""
+    """The gridded FFT beside an OpenCL device that is a CPU, for cubes in up to three dimensions.
+
+    Attributes
+    ----------
+    points : BinnedPoints or None
+        The points that ``for_points`` binned, which need not be binned again.
+    """
 
     method: ClassVar[str] = "fft"
     title: ClassVar[str] = "gridded FFT"
     serves: ClassVar[tuple[Frequencies, ...]] = ("cube", "half cube")
+
+    points: BinnedPoints | None = field(default=None, compare=False, repr=False)
 
     @classmethod
     def offer(
@@ -95,14 +108,16 @@ class GriddedFFT(DeviceEvaluator):
         """Give the product's place to crowded points, as ``Evaluator.for_points`` describes it."""
         p, (_, n, d) = self.on_device, x.shape
         grid = real_grid(d, fmax, self.precision)
-        crowd = int(bin_counts(bins(p.turns(x, n), grid), grid).max())
-        errors = fft_errors(p, grid, n, crowd, run_count(grid, n, crowd), rounded_at_worst(n, d, p.name))
+        points = binned(p, grid, x)
+        runs = run_count(grid, n, points.crowd)
+        errors = fft_errors(p, grid, n, points.crowd, runs, rounded_at_worst(n, d, p.name))
         usual = math.hypot(LARGEST_TYPICAL * UNIT[p.name], WINDOW_TYPICAL[p.name])
         allowed = usual if floor is None else max(usual, rms_for(floor))
-        return CubeProduct(self.precision) if errors.rms > allowed else self
+        return CubeProduct(self.precision) if errors.rms > allowed else replace(self, points=points)
 
     def cube(
         self, x: FloatArray, fmax: int, weights: FloatArray | None, *, half: bool, mean: bool
     ) -> tuple[FloatArray, Errors]:
         """Evaluate the power of a cube, as ``Evaluator.cube`` describes it."""
-        return fft_powers(self.on_device, x, fmax, weights, half, mean)
+        known = self.points if self.points is not None and self.points.x is x else None
+        return fft_powers(self.on_device, x, fmax, weights, half, mean, known)

@@ -47,8 +47,8 @@ class Workspace:
 
     @property
     def nbytes(self) -> int:
-        """Bytes of the grids, of their transforms, and of the parts of the grids that runs may need."""
-        return 2 * self.nodes.nbytes + self.harmonics.nbytes
+        """Bytes of the grids and of their transforms."""
+        return self.nodes.nbytes + self.harmonics.nbytes
 
     @cached_property
     def parts(self) -> Any:
