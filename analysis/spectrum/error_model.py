@@ -112,11 +112,12 @@ def coordinates(x: FloatArray, precision: str, weights: FloatArray | None = None
     else:
         share = float((np.abs(weights).sum(axis=1) / np.sqrt((weights**2).sum(axis=1))).max())
     flat = x.reshape(-1)
-    inexact = np.flatnonzero(flat < EXACT_FROM) if precision == "double" else np.arange(flat.size)
+    inexact = (flat < EXACT_FROM).nonzero()[0] if precision == "double" else np.arange(flat.size)
     scaled = flat[inexact] * 2.0 ** BITS[precision]
-    away = np.abs(scaled - np.rint(scaled)) * 2.0 ** -BITS[precision]
-    if not away.any():
+    scaled -= np.rint(scaled)
+    if not scaled.any():
         return Coordinates(0.0, 0.0, share)
+    away = np.abs(scaled) * 2.0 ** -BITS[precision]
     of_set, of_point, _ = np.unravel_index(inexact, x.shape)
     norm: FloatArray | float = float(n)
     if weights is not None:

@@ -152,10 +152,10 @@ def bins(turns: NDArray[Any], grid: RealGrid) -> NDArray[np.int64]:
     (sets, n) int64
         0 .. grid.bins**d - 1, the last axis fastest.
     """
-    found = cells(turns[:, 0], grid.nodes) // grid.width
+    along = cells(turns, grid.nodes) // grid.width
+    found = along[:, 0]
     for a in range(1, turns.shape[1]):
-        found *= grid.bins
-        found += cells(turns[:, a], grid.nodes) // grid.width
+        found = found * grid.bins + along[:, a]
     return found
 
 
@@ -236,5 +236,11 @@ def cells(turns: NDArray[Any], nodes: int) -> NDArray[np.int64]:
     half, size = np.uint64(32), np.uint64(nodes)
     if turns.dtype == np.uint32:
         return (turns.astype(np.uint64) * size >> half).astype(np.int64)
-    low = (turns & np.uint64(0xFFFFFFFF)) * size >> half
-    return ((turns >> half) * size + low >> half).astype(np.int64)
+    low = turns & np.uint64(0xFFFFFFFF)
+    low *= size
+    low >>= half
+    high = turns >> half
+    high *= size
+    high += low
+    high >>= half
+    return high.view(np.int64)  # below 2^32
