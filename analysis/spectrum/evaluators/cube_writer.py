@@ -38,7 +38,7 @@ class CubeWriter:
     out, gains : buffer
         The cube, and the gains.
     start, set_size : int
-        Index of the whole cube at which it begins, and numbers from one set's to the next set's, 0 for a mean.
+        Index of the whole cube at which it begins, and numbers from a set's to the next set's, 0 for a mean.
     nbytes : int
         Bytes of the cube.
     """

@@ -82,8 +82,8 @@ class TwoGroupProduct:
         self.nbytes = sum(of_tables) + of_amplitudes
         self.tables = p.runtime.empty(of_tables[0]), p.runtime.empty(of_tables[1])
         if self.frequencies.a.count < rows:
-            # The last tile's rows beyond the last frequency are multiplied too: by numbers, not by whatever the
-            # memory held, since denormals take a processor a hundred cycles each.
+            # The last tile's rows beyond the last frequency are multiplied too: as numbers, not as whatever
+            # the memory held, since denormals take a processor a hundred cycles each.
             p.runtime.clear(self.tables[0], of_tables[0])
         self.amplitude = p.runtime.empty(of_amplitudes)
 
