@@ -75,7 +75,7 @@ class NonuniformFFT(Evaluator):
         n, d, f = request.n, request.d, request.fmax
         seconds = request.realizations * nufft_seconds(n, d, f, self.tolerance)
         room = nufft_bytes(n, d, f, self.tolerance)
-        return EvaluationCost(seconds * NUMPY_RATE, room, CALL_SECONDS / 4 + seconds)
+        return EvaluationCost(seconds * NUMPY_RATE, room, CALL_SECONDS + seconds)
 
     def expected_errors(self, request: SpectrumRequest) -> Errors:
         """State the errors met on scattered and on coincident points."""
