@@ -14,11 +14,9 @@ from gbnbench.analysis.spectrum.evaluators.kept_memory import kept
 from gbnbench.analysis.spectrum.evaluators.point_slots import TABLE_BYTES, Slots, choose_slots, tile_rows
 from gbnbench.analysis.spectrum.evaluators.prepared_cube import PreparedCube
 from gbnbench.analysis.spectrum.evaluators.two_group_product import product_errors
-from gbnbench.analysis.spectrum.evaluators.work_model import ENTRY, TILE, WRITTEN, device_cost
+from gbnbench.analysis.spectrum.evaluators.work_model import ENTRY, SET_UP, TILE, WRITTEN, device_cost
 from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest
 from gbnbench.core.torus import FloatArray
-
-SET_UP = 1.4e6  # multiply-adds that take as long as all else in a call, 60 us of a core
 
 
 @dataclass(frozen=True)

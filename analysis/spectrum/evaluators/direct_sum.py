@@ -19,7 +19,7 @@ from gbnbench.analysis.spectrum.error_model import (
 from gbnbench.analysis.spectrum.evaluators.device_evaluator import DeviceEvaluator
 from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
 from gbnbench.analysis.spectrum.evaluators.two_group_product import norms_of
-from gbnbench.analysis.spectrum.evaluators.work_model import COSINE, device_cost
+from gbnbench.analysis.spectrum.evaluators.work_model import COSINE, SET_UP, device_cost
 from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest
 from gbnbench.core.torus import FloatArray
 
@@ -37,7 +37,7 @@ class DirectSum(DeviceEvaluator):
 
     def cost(self, request: SpectrumRequest) -> EvaluationCost:
         """Estimate the sum's cost on the device."""
-        work = request.frequencies * (COSINE + 2 * request.d) * request.n * request.realizations
+        work = request.frequencies * (COSINE + 2 * request.d) * request.n * request.realizations + SET_UP
         return device_cost(self.on_device, request, work, 2.0, request.frequencies * 64)
 
     def expected_errors(self, request: SpectrumRequest) -> Errors:

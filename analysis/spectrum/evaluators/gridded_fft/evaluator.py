@@ -28,8 +28,8 @@ from gbnbench.core.memory import memory_limit
 from gbnbench.core.torus import FloatArray
 
 # Multiply-adds of the product that take as long as a point on each axis, a node that it reaches, in the cache
-# and beyond it, a node and level of the transform, a power, and a call. Fitted to the CPU times of 38 cubes on
-# one Intel core, n = 16 to 16,384 and F = 4 to 4,096 in 1D to 3D: 8 in 10 are within 15%.
+# and beyond it, a node and level of the transform, a power, and a call. Fitted to the CPU times of 38 cubes
+# on one Intel core, n = 16 to 16,384 and F = 4 to 4,096 in 1D to 3D: 8 in 10 are within 15%.
 POINT, REACHED, FAR_REACHED, LEVEL, WRITTEN, SET_UP = 610.0, 7.6, 10.9, 4.9, 78.0, 3.5e6
 LARGEST_TYPICAL = 9.0  # typical error in units of rounding, beyond which crowded points go to the product
 
