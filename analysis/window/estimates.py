@@ -64,6 +64,8 @@ class WindowEstimates:
     scalars : Measures
         Values by name with ``standard_error`` and ``reasons``: intensity, s_zero, s_peak, nu_peak,
         hyperuniformity, exponent, mean_distance, min_distance, resolution.
+    intervals : dict
+        Name -> ends of the 95% interval, of the same names; nan where there is no error.
 
     Examples
     --------
@@ -84,10 +86,14 @@ class WindowEstimates:
     pair_correlation: pd.DataFrame
     nearest: NearestDistances
     scalars: Measures
+    intervals: Mapping[str, tuple[float, float]]
 
     def to_frame(self) -> pd.DataFrame:
-        """One row a scalar: columns measure, value, standard_error, reason."""
-        return self.scalars.to_frame()
+        """One row a scalar: columns measure, value, standard_error, low, high, reason."""
+        table = self.scalars.to_frame()
+        table.insert(3, "low", [self.intervals[name][0] for name in table["measure"]])
+        table.insert(4, "high", [self.intervals[name][1] for name in table["measure"]])
+        return table
 
 
 def in_window(
@@ -163,7 +169,7 @@ def in_window(
     alpha = low_band.exponent
     relative = count_variance(spectrum, window, 0.0 if alpha.reason else alpha.value - alpha.error)
     found = {
-        "intensity": Value(intensity, intensity * math.sqrt(relative / n)),
+        "intensity": Value.normal(intensity, intensity * math.sqrt(relative / n)),
         "s_zero": low_band.s_zero,
         "s_peak": low_band.s_peak,
         "nu_peak": Value(low_band.nu_peak, math.nan, low_band.s_peak.reason),
@@ -178,7 +184,8 @@ def in_window(
         {name: v.error for name, v in found.items()},
         {name: v.reason for name, v in found.items() if v.reason},
     )
-    return WindowEstimates(n, d, window, seen.tapers.counts, spectrum, pairs, nearest, scalars)
+    intervals = {name: v.interval for name, v in found.items()}
+    return WindowEstimates(n, d, window, seen.tapers.counts, spectrum, pairs, nearest, scalars, intervals)
 
 
 def _mean_distance(nearest: NearestDistances, window: Window) -> Value:
@@ -193,7 +200,7 @@ def _mean_distance(nearest: NearestDistances, window: Window) -> Value:
             f"the neighbours of some {nearest.hidden:.2g} of the points are farther than half the window's "
             f"shortest side, {longest:g}, where none can be seen for the border: a wider window is needed",
         )  # fmt: skip
-    return Value(nearest.mean, nearest.mean_error)
+    return Value.normal(nearest.mean, nearest.mean_error)
 
 
 def count_variance(spectrum: pd.DataFrame, window: Window, exponent: float) -> float:

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from gbnbench.analysis.window.gamma_regression import NORMAL_95, errors, gamma_regression, profile_interval
 from gbnbench.core.torus import FloatArray
 
 if TYPE_CHECKING:
@@ -24,16 +25,21 @@ if TYPE_CHECKING:
 BAND = 0.5  # nu up to which both are fitted
 PEAK = (0.5, 2.0)  # nu between which the peak is sought
 LEAST_BINS = 3  # of a fit
-STEPS = 100
 
 
 @dataclass(frozen=True)
 class Value:
-    """A number with its standard error; both nan where ``reason`` says why there is none."""
+    """A number with its standard error and 95% interval; all nan where ``reason`` says why there is none."""
 
     value: float
     error: float
     reason: str = ""
+    interval: tuple[float, float] = (math.nan, math.nan)
+
+    @classmethod
+    def normal(cls, value: float, error: float) -> Value:
+        """Make one whose interval is 1.96 standard errors to either side."""
+        return cls(value, error, interval=(value - NORMAL_95 * error, value + NORMAL_95 * error))
 
 
 @dataclass(frozen=True)
@@ -77,7 +83,8 @@ def hyperuniformity(spectrum: pd.DataFrame, covariance: FloatArray) -> Hyperunif
 
     Notes
     -----
-    An exponent's 95% confidence interval is 1.96 standard errors to either side. Errors are those of Gaussian
+    The 95% interval of ``s_zero`` is that of its profile likelihood and wider above than below, since small
+    powers vary less; the others are 1.96 standard errors to either side. Errors are those of Gaussian
     amplitudes; what a formula misses of the true S in the band comes on top.
     """
     nu, resolved = spectrum["nu"].to_numpy(), spectrum["resolved"].to_numpy()
@@ -87,11 +94,7 @@ def hyperuniformity(spectrum: pd.DataFrame, covariance: FloatArray) -> Hyperunif
     else:
         s_zero = exponent = Value(math.nan, math.nan, _no_fit(spectrum[spectrum["nu"] <= BAND]))
     s_peak, nu_peak = _peak(*_chosen(spectrum, covariance, resolved & (nu >= PEAK[0]) & (nu <= PEAK[1])))
-    ratio = Value(math.nan, math.nan, s_zero.reason or s_peak.reason)
-    if not ratio.reason:
-        h = s_zero.value / s_peak.value
-        ratio = Value(h, math.hypot(s_zero.error, h * s_peak.error) / s_peak.value)
-    return Hyperuniformity(s_zero, s_peak, nu_peak, ratio, exponent)
+    return Hyperuniformity(s_zero, s_peak, nu_peak, _ratio(s_zero, s_peak), exponent)
 
 
 def _chosen(
@@ -117,81 +120,30 @@ def _no_fit(low: pd.DataFrame) -> str:
 
 def _fits(low: pd.DataFrame, covariance: FloatArray) -> tuple[Value, Value]:
     """Fit S at 0 and the exponent to the bins of the low band."""
-    bins = len(low)
-    k, s = low["k"].to_numpy(), low["S"].to_numpy()
-    u = (k / k[-1]) ** 2
-    powers = np.stack([np.ones(bins), u, u**2], axis=1)
-    start = np.zeros(powers.shape[1])
-    start[0] = np.average(s, weights=1 / np.diag(covariance))
-    fitted, errors = gamma_regression(powers, s, covariance, start, log=False)
-    s_zero = Value(float(fitted[0]), math.sqrt(float(errors[0, 0])))
-    logs = np.stack([np.ones(bins), np.log(k / k[-1]), u], axis=1)
-    start = np.zeros(logs.shape[1])
-    start[0] = math.log(float(np.average(s, weights=1 / np.diag(covariance))))
-    fitted, errors = gamma_regression(logs, s, covariance, start, log=True)
-    return s_zero, Value(float(fitted[1]), math.sqrt(float(errors[1, 1])))
+    k, s, degrees = low["k"].to_numpy(), low["S"].to_numpy(), 1 / np.diag(covariance)
+    u, mean = (k / k[-1]) ** 2, float(np.average(s, weights=degrees))
+    powers = np.stack([np.ones(len(low)), u, u**2], axis=1)
+    fit = gamma_regression(powers, s, degrees, np.array([mean, 0.0, 0.0]))
+    counted, _ = errors(powers / fit.means[:, None], covariance)
+    interval = profile_interval(powers, s, covariance, fit)
+    s_zero = Value(float(fit.coefficients[0]), math.sqrt(float(counted[0, 0])), interval=interval)
+    logs = np.stack([np.ones(len(low)), np.log(k / k[-1]), u], axis=1)
+    fit = gamma_regression(logs, s, degrees, np.array([math.log(mean), 0.0, 0.0]), log=True)
+    counted, _ = errors(logs, covariance)
+    return s_zero, Value.normal(float(fit.coefficients[1]), math.sqrt(float(counted[1, 1])))
 
 
-def gamma_regression(
-    design: FloatArray, s: FloatArray, covariance: FloatArray, start: FloatArray, *, log: bool
-) -> tuple[FloatArray, FloatArray]:
-    """Fit means of exponential variables by maximum likelihood.
-
-    Parameters
-    ----------
-    design : (bins, q) float64
-        Columns of the model.
-    s : (bins,) float64
-        Means, above 0.
-    covariance : (bins, bins) float64
-        Of the means, over the product of their expectations: each is worth 1 / its diagonal variables.
-    start : (q,) float64
-        Coefficients to begin with, whose means are above 0.
-    log : bool
-        The mean is exp(design @ coefficients); otherwise design @ coefficients.
-
-    Returns
-    -------
-    coefficients : (q,) float64
-    errors : (q, q) float64
-        Covariance of the coefficients, in which that between bins is counted (the sandwich formula).
-
-    Notes
-    -----
-    Fisher's scoring of sum over bins of (log mean + s / mean) / variance, a step halved until it does not
-    rise.
-    """
-    degrees = 1 / np.diag(covariance)
-
-    def means(coefficients: FloatArray) -> FloatArray:
-        linear: FloatArray = design @ coefficients
-        return np.exp(linear) if log else linear
-
-    def deviance(mean: FloatArray) -> float:
-        return float(degrees @ (np.log(mean) + s / mean)) if (mean > 0).all() else math.inf
-
-    at, mean = start, means(start)
-    lowest = deviance(mean)
-    for _ in range(STEPS):
-        slopes = design if log else design / mean[:, None]  # of log mean
-        information = slopes.T @ (slopes * degrees[:, None])
-        step = np.linalg.lstsq(information, slopes.T @ (degrees * (s / mean - 1)), rcond=None)[0]
-        for _ in range(40):
-            trial = means(at + step)
-            with np.errstate(over="ignore", invalid="ignore"):
-                reached = deviance(trial)
-            if reached <= lowest:
-                break
-            step = step / 2
-        else:
-            break
-        gained, at, mean, lowest = lowest - reached, at + step, trial, reached
-        if gained <= 1e-12 * float(degrees.sum()):
-            break
-    slopes = design if log else design / mean[:, None]
-    scores = slopes * degrees[:, None]
-    inverse = np.linalg.pinv(slopes.T @ scores, hermitian=True)
-    return at, inverse @ scores.T @ covariance @ scores @ inverse
+def _ratio(s_zero: Value, s_peak: Value) -> Value:
+    """Divide, the errors of both being independent."""
+    if s_zero.reason or s_peak.reason:
+        return Value(math.nan, math.nan, s_zero.reason or s_peak.reason)
+    h = s_zero.value / s_peak.value
+    of_peak = abs(h) * s_peak.error / s_peak.value
+    # Each arm as if both were normal (Zou & Donner 2008).
+    below, above = (
+        math.hypot((end - s_zero.value) / s_peak.value, NORMAL_95 * of_peak) for end in s_zero.interval
+    )
+    return Value(h, math.hypot(s_zero.error / s_peak.value, of_peak), interval=(h - below, h + above))
 
 
 def _peak(band: pd.DataFrame, covariance: FloatArray) -> tuple[Value, float]:
@@ -206,4 +158,4 @@ def _peak(band: pd.DataFrame, covariance: FloatArray) -> tuple[Value, float]:
     weight = degrees[top] / degrees[top].sum()
     part = weight * s[top]
     error = math.sqrt(float(part @ covariance[top, top] @ part))
-    return Value(float(part.sum()), error), float(weight @ nu[top])
+    return Value.normal(float(part.sum()), error), float(weight @ nu[top])

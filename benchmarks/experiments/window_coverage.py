@@ -17,11 +17,11 @@ import numpy as np
 import pandas as pd
 
 from gbnbench.analysis.window.estimates import WindowEstimates, in_window
+from gbnbench.analysis.window.gamma_regression import NORMAL_95
 from gbnbench.benchmarks.experiments.window_processes import PROCESSES, Process
 from gbnbench.core.torus import FloatArray
 
 SETS, SEED = 100, 12
-TWO_SIDED = 1.959964  # standard errors to either side of a 95% interval
 FEWEST_PAIRS = 10  # of a bin of g, from which its error is close to normal
 BRAGG = 0.9  # share of the first Bragg peak's wave number up to which the formula of a lattice holds
 COLUMNS = ["process", "sets", "n", "quantity", "values", "z_mean", "z_variance", "covered"]
@@ -42,7 +42,8 @@ def z_scores(process: Process, found: WindowEstimates) -> dict[str, tuple[FloatA
     dict
         Quantity -> (z, covered), one value each bin or one of a scalar. A z is the difference over the
         standard error; of S over the true S / sqrt(degrees), since an estimate and its stated error rise and
-        fall together. ``covered`` tells whether the 95% interval holds the truth.
+        fall together; of a scalar over the arm of its 95% interval on the side of the truth, in units of
+        1.96. ``covered`` tells whether the 95% interval holds the truth.
     """
     table = found.structure_factor
     table = table[table["resolved"]]
@@ -58,7 +59,7 @@ def z_scores(process: Process, found: WindowEstimates) -> dict[str, tuple[FloatA
         z = (
             (pairs["g"] - process.pair_correlation(pairs["r"].to_numpy())) / pairs["standard_error"]
         ).to_numpy()
-        scores["g"] = (z, (np.abs(z) <= TWO_SIDED).astype(float))
+        scores["g"] = (z, (np.abs(z) <= NORMAL_95).astype(float))
     truths = {
         "s_zero": process.s_zero,
         "exponent": process.exponent,
@@ -67,8 +68,10 @@ def z_scores(process: Process, found: WindowEstimates) -> dict[str, tuple[FloatA
     }
     for name, truth in truths.items():
         if truth is not None and math.isfinite(found.scalars.standard_error[name]):
-            one = np.array([(found.scalars[name] - truth) / found.scalars.standard_error[name]])
-            scores[name] = (one, (np.abs(one) <= TWO_SIDED).astype(float))
+            value, (low, high) = found.scalars[name], found.intervals[name]
+            arm = value - low if truth < value else high - value
+            one = np.array([NORMAL_95 * (value - truth) / arm])
+            scores[name] = (one, (np.abs(one) <= NORMAL_95).astype(float))
     return scores
 
 

@@ -120,6 +120,7 @@ def _as_json(path: Path, index: int, found: WindowEstimates) -> dict[str, Any]:
         "tapers": found.tapers,
         "estimates": dict(found.scalars),
         "standard_errors": dict(found.scalars.standard_error),
+        "intervals": dict(found.intervals),
         "reasons": dict(found.scalars.reasons),
         "structure_factor": records(found.structure_factor),
         "pair_correlation": records(found.pair_correlation),
@@ -131,10 +132,14 @@ def _print(path: Path, index: int, found: WindowEstimates) -> None:
     from gbnbench.analysis.window.estimates import TITLES
 
     corners = ",".join(f"{a:g},{b:g}" for a, b in zip(found.window.low, found.window.high, strict=True))
-    click.echo(f"{path}, set {index}: {found.n} points, d={found.d}, in the window {corners}\n")
+    click.echo(f"{path}, set {index}: {found.n} points, d={found.d}, in the window {corners}")
+    click.echo("with standard errors and 95% intervals:\n")
     for name, value in found.scalars.items():
         error = found.scalars.standard_error[name]
-        shown = f"{value:.4g}" + (f" +- {error:.2g}" if math.isfinite(error) else "")
+        shown = f"{value:.4g}"
+        if math.isfinite(error):
+            low, high = found.intervals[name]
+            shown = f"{shown} +- {error:.2g}  ({low:.4g} .. {high:.4g})"
         click.echo(f"  {TITLES[name]:40s} {found.scalars.reasons.get(name) or shown}")
     table = found.structure_factor.drop(columns="degrees")
     click.echo("\nstructure factor, k in radians a unit of length, 95% intervals low .. high:")

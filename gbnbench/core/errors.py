@@ -57,7 +57,7 @@ class DeviceError(GbnbenchError, RuntimeError):
 
 
 class NoRoomError(DeviceError):
-    """A device may be there, but no folder takes the files of its compiled kernels."""
+    """A device may be there, but memory is short, or no folder takes the files of its compiled kernels."""
 
 
 class UnfinishedError(GbnbenchError):

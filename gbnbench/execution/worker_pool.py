@@ -20,7 +20,7 @@ from typing import IO, Any, Self
 
 from gbnbench.core.errors import GbnbenchError
 from gbnbench.core.process_end import cause_of_end
-from gbnbench.opencl.device import DEVICE_VARIABLE, selected
+from gbnbench.opencl.device import DEVICE_VARIABLE, FOUND_VARIABLE, found_already, selected
 
 # One thread a worker: the processes share the cores, and CPU seconds then mean one core's seconds.
 ONE_THREAD = {
@@ -160,6 +160,7 @@ class Pool:
         with contextlib.suppress(OSError):  # the null device has no length
             complaints.truncate()
         program = f"import sys; sys.path[:] = {sys.path!r}; from {__name__} import serve; serve()"
+        found = {FOUND_VARIABLE: "1"} if found_already() else {}
         with self._lock:
             if self._closing:
                 return None
@@ -168,7 +169,7 @@ class Pool:
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=complaints,
-                env={**os.environ, **self._environment, DEVICE_VARIABLE: self._device},
+                env={**os.environ, **self._environment, **found, DEVICE_VARIABLE: self._device},
             )
             self._children.add(child)
         return child

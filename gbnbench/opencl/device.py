@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     import pyopencl as cl
 
 DEVICE_VARIABLE = "GBNBENCH_DEVICE"
+FOUND_VARIABLE = "GBNBENCH_DEVICE_FOUND"  # set for worker processes of one that has found a device
+SHORT_OF_MEMORY = ("failed to map", "allocate memory")  # in the linker's words
 _selector: ContextVar[str | None] = ContextVar("selector", default=None)
 
 INSTALL = (
@@ -90,6 +92,11 @@ def import_pyopencl() -> Any:
     try:
         import pyopencl
     except ImportError as error:
+        if any(words in str(error) for words in SHORT_OF_MEMORY):
+            raise NoRoomError(
+                f"pyopencl cannot be loaded ({error}): give the process more memory (ulimit -v), or use "
+                "fewer workers with --jobs"
+            ) from None
         raise DeviceError(f"pyopencl cannot be imported ({error}). {INSTALL}") from None
     return pyopencl
 
@@ -109,16 +116,22 @@ def devices() -> tuple[Device, ...]:
     ------
     DeviceError
         If pyopencl is not installed.
+    NoRoomError
+        If it, or a device, cannot be loaded for want of memory or of room for compiled kernels.
     """
     cl = import_pyopencl()
     try:
         platforms = cl.get_platforms()
     except cl.LogicError:  # the loader's way of saying that it knows no platform
         return ()
+    except cl.MemoryError as error:
+        raise NoRoomError(f"there is not enough memory to look for OpenCL devices ({error})") from None
     found: list[Device] = []
     for i, platform in enumerate(platforms):
         try:
             present = platform.get_devices()
+        except cl.MemoryError as error:
+            raise NoRoomError(f"{platform.name.strip()} has not enough memory to start ({error})") from None
         except cl.Error:
             continue
         for j, device in enumerate(present):
@@ -145,15 +158,27 @@ def devices_present() -> bool:
     Raises
     ------
     NoRoomError
-        If kernels cannot be compiled for want of room: numpy's last digits would differ from those of a
-        worker, or of an earlier part of the same run, that had room.
+        If kernels cannot be compiled for want of room or memory, or this is a worker process and finds no
+        device where its parent found one: numpy's last digits would differ from those of another worker, or
+        of an earlier part of the same run.
     """
     try:
-        return bool(devices())
+        present = bool(devices())
     except NoRoomError:
         raise
     except DeviceError:
-        return False
+        present = False
+    if not present and os.environ.get(FOUND_VARIABLE):
+        raise NoRoomError(
+            "a worker process finds no OpenCL device where the process that started it found one. If memory "
+            "is limited, give it more, or use fewer workers with --jobs"
+        )
+    return present
+
+
+def found_already() -> bool:
+    """Whether this process has looked for devices and found one; it does not look now."""
+    return devices.cache_info().currsize > 0 and bool(devices())
 
 
 @contextmanager

@@ -1,3 +1,5 @@
+"""Worker processes: one that dies costs its task, and none goes on without the device of its parent."""
+
 from __future__ import annotations
 
 import os
@@ -12,6 +14,8 @@ import pytest
 from gbnbench.core.errors import InputError
 from gbnbench.execution import worker_pool
 from gbnbench.execution.worker_pool import ONE_THREAD, Finished, Pool
+from gbnbench.opencl import devices_present
+from tests.processes import NO_DEVICE
 
 
 def work(number: int) -> tuple[int, int, str | None]:
@@ -39,6 +43,19 @@ def test_a_dead_child_costs_only_its_own_task() -> None:
     assert "ZeroDivisionError" in done[15].failure
     assert os.getpid() not in {done[key].value[1] for key in (1, 2, 3)}
     assert {done[key].value[2] for key in (1, 2, 3)} == {ONE_THREAD["OMP_NUM_THREADS"]}
+
+
+def device_is_present() -> bool:
+    return devices_present()
+
+
+def test_a_child_without_its_parents_device_refuses_instead_of_turning_to_numpy() -> None:
+    assert devices_present()
+    with Pool(1, {**ONE_THREAD, **NO_DEVICE}) as pool:
+        pool.submit(0, device_is_present)
+        finished = pool.next()
+    assert "finds no OpenCL device where the process that started it found one" in finished.failure
+    assert "--jobs" in finished.failure
 
 
 PARENT = """

@@ -9,7 +9,6 @@ import pytest
 from scipy import stats
 
 import gbnbench
-from gbnbench.analysis.window.hyperuniformity import gamma_regression
 from gbnbench.benchmarks.experiments.window_coverage import coverage, markdown
 from gbnbench.benchmarks.experiments.window_processes import PROCESSES, ginibre, perturbed_lattice, poisson
 from gbnbench.core.errors import InputError
@@ -50,29 +49,24 @@ def test_stated_errors_hold_over_many_sets(name):
     assert markdown(table).count("\n") == 2
 
 
-def test_gamma_regression_finds_what_was_put_in():
-    rng = np.random.default_rng(0)
-    u = np.linspace(0.1, 1, 12)
-    design = np.stack([np.ones(12), u], axis=1)
-    degrees = np.full(12, 25.0)
-    truth = np.array([0.3, 2.0])
-    found, errors = [], []
-    for _ in range(300):
-        s = design @ truth * rng.gamma(degrees, 1 / degrees)
-        one, covariance = gamma_regression(design, s, np.diag(1 / degrees), np.array([1.0, 0.0]), log=False)
-        found.append(one)
-        errors.append(np.sqrt(np.diag(covariance)))
-    z = (np.array(found) - truth) / errors
-    assert np.abs(z.mean(axis=0)).max() < 4 / math.sqrt(300)
-    assert z.var(axis=0) == pytest.approx(1, abs=0.3)
-
-
 def test_a_deep_gap_is_said_to_lie_below_the_side_lobes():
     x = gbnbench.generate("gbn[iterations=60]", n=400, d=2, seed=0)
     found = gbnbench.in_window(x, 0, 1)
     assert math.isnan(found.scalars["s_zero"])
     assert "side lobes" in found.scalars.reasons["s_zero"]
     assert "side lobes" in found.scalars.reasons["hyperuniformity"]
+
+
+def test_intervals_hold_their_value_and_are_in_the_frame():
+    found = gbnbench.in_window(np.random.default_rng(2).random((300, 2)), 0, 1)
+    table = found.to_frame().set_index("measure")
+    stated = table[np.isfinite(table["standard_error"])]
+    assert {"s_zero", "hyperuniformity", "exponent", "intensity", "mean_distance"} <= set(stated.index)
+    assert ((stated["low"] < stated["value"]) & (stated["value"] < stated["high"])).all()
+    assert table.loc["resolution", ["low", "high"]].isna().all()
+    above, below = table["high"] - table["value"], table["value"] - table["low"]
+    assert above["s_zero"] > below["s_zero"]  # small powers vary less
+    assert above["exponent"] == pytest.approx(below["exponent"])
 
 
 def test_few_points_say_why_there_is_no_fit():
