@@ -29,18 +29,21 @@ class CubeProduct(DeviceEvaluator):
 
     def work(self, request: SpectrumRequest) -> float:
         """Count the pairs of frequencies, the tables, the powers that are written, and the set-up."""
+        return self._product_work(request) + SET_UP
+
+    def _product_work(self, request: SpectrumRequest) -> float:
         p, n = self.on_device, request.n
         divided = cheapest_division(request.d, request.largest, tile_rows(p))
         a, b = half_size(divided.leading), half_size(divided.trailing)
         each = (TILE * padded(a, tile_rows(p)) * b + ENTRY * (a + b)) * n
-        return request.realizations * float(each + WRITTEN * request.frequencies / 2) + SET_UP
+        return request.realizations * float(each + WRITTEN * request.frequencies / 2)
 
     def cost(self, request: SpectrumRequest) -> EvaluationCost:
         """Estimate the product's cost on the device."""
         slots = product_slots(self.on_device, request)
         launches = 3.0 * slots.launches(request.n) * -(-request.realizations // slots.sets)
         held = 3 * 8 * request.frequencies + 2 * TABLE_BYTES
-        return device_cost(self.on_device, request, self.work(request), launches, held)
+        return device_cost(self.on_device, request, self._product_work(request), launches, held)
 
     def expected_errors(self, request: SpectrumRequest) -> Errors:
         """State the product's errors, coordinates being exact in double and rounded at worst in float."""

@@ -35,9 +35,13 @@ class DirectSum(DeviceEvaluator):
     title: ClassVar[str] = "direct sum"
     serves: ClassVar[tuple[Frequencies, ...]] = ("listed",)
 
+    def work(self, request: SpectrumRequest) -> float:
+        """Count the sines and cosines, and the set-up."""
+        return super().work(request) + SET_UP
+
     def cost(self, request: SpectrumRequest) -> EvaluationCost:
         """Estimate the sum's cost on the device."""
-        work = request.frequencies * (COSINE + 2 * request.d) * request.n * request.realizations + SET_UP
+        work = request.frequencies * (COSINE + 2 * request.d) * request.n * request.realizations
         return device_cost(self.on_device, request, work, 2.0, request.frequencies * 64)
 
     def expected_errors(self, request: SpectrumRequest) -> Errors:

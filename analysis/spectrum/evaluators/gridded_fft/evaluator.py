@@ -76,6 +76,9 @@ class GriddedFFT(DeviceEvaluator):
 
     def work(self, request: SpectrumRequest) -> float:
         """Count the points carried to the grid, its transform, the powers written, and the set-up."""
+        return self._arithmetic(request) + SET_UP
+
+    def _arithmetic(self, request: SpectrumRequest) -> float:
         grid = real_grid(request.d, request.fmax, self.precision)
         nodes = grid.nodes**request.d
         # In the plane bands of a grid stay in the cache.
@@ -84,11 +87,12 @@ class GriddedFFT(DeviceEvaluator):
         points = request.n * (POINT * request.d + reached * grid.width**request.d)
         outputs = (2 * request.fmax + 1) ** request.d
         each = points + LEVEL * nodes * math.log2(nodes) + WRITTEN * outputs
-        return float(request.realizations * each + SET_UP)
+        return float(request.realizations * each)
 
     def cost(self, request: SpectrumRequest) -> EvaluationCost:
         """Estimate the cost on the device, the grids of a batch and their transforms included."""
-        return device_cost(self.on_device, request, self.work(request), 2.0, self._held(request))
+        held = self._held(request)
+        return device_cost(self.on_device, request, self._arithmetic(request), 2.0, held, SET_UP)
 
     def _held(self, request: SpectrumRequest) -> float:
         """Count the bytes of the grids of a batch, their transforms and the cube."""
