@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gbnbench.opencl.device import import_pyopencl
+
 if TYPE_CHECKING:
     from gbnbench.opencl.runtime import Runtime
 
@@ -61,7 +63,7 @@ class Program:
         -------
         Launch
         """
-        kernel = self.owner.kernel(self._built, name)
+        kernel = import_pyopencl().Kernel(self._built, name)
         kernel.set_arg_types(_types(args))
         kernel.set_args(*args)
         return Launch(self.owner, kernel, tuple(global_size), tuple(local_size), args)

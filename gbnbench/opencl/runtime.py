@@ -118,12 +118,16 @@ class Runtime:
             self._programs[key] = Program(self, built)
         return self._programs[key]
 
-    def kernel(self, built: Any, name: str) -> Any:
-        """Make a kernel object of a built pyopencl program, besides those that its ``Program`` holds."""
-        return self._cl.Kernel(built, name)
-
     def enqueue(self, kernel: Any, global_size: tuple[int, ...], local_size: tuple[int, ...]) -> None:
-        """Enqueue a kernel whose arguments are set."""
+        """Enqueue a kernel whose arguments are set.
+
+        Parameters
+        ----------
+        kernel : pyopencl.Kernel
+            The kernel.
+        global_size, local_size : tuple of int
+            Work-items, as in ``Program.run``.
+        """
         self._cl.enqueue_nd_range_kernel(self.queue, kernel, global_size, local_size)
 
     def upload(self, array: NDArray[Any]) -> Any:

@@ -103,7 +103,20 @@ class PreparedCube:
 
 
 def most_rows(p: Precision, divided: Division) -> int:
-    """Count the leading frequencies whose amplitudes fit in ``AMPLITUDE_BYTES``: one tile of them or more."""
+    """Count the leading frequencies whose amplitudes fit in ``AMPLITUDE_BYTES``.
+
+    Parameters
+    ----------
+    p : Precision
+        Precision on the device.
+    divided : Division
+        The two groups of axes.
+
+    Returns
+    -------
+    int
+        One tile of them or more.
+    """
     of_a_row = 8 * np.dtype(p.sum).itemsize * half_size(divided.trailing)
     return max(tile_rows(p), AMPLITUDE_BYTES // of_a_row // tile_rows(p) * tile_rows(p))
 

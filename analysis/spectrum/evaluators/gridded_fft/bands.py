@@ -46,10 +46,9 @@ class BinnedPoints:
         """Points in the fullest bin of any set."""
         return int(self.counts.max())
 
-    def of_sets(self, first: int, end: int) -> BinnedPoints:
-        """Give some of the sets, from ``first`` to ``end`` less one."""
-        some = slice(first, end)
-        return BinnedPoints(self.x[some], self.turns[some], self.bin_of[some], self.counts[some])
+    def __getitem__(self, sets: slice) -> BinnedPoints:
+        """Give some of the sets."""
+        return BinnedPoints(self.x[sets], self.turns[sets], self.bin_of[sets], self.counts[sets])
 
 
 @dataclass(frozen=True)

@@ -54,7 +54,7 @@ def fft_powers(
     at, errors = coordinates(x, p.name, weights), Errors(0.0, 0.0)
     for first in range(0, sets, together):
         end = min(first + together, sets)
-        some = binned(p, grid, x[first:end]) if points is None else points.of_sets(first, end)
+        some = binned(p, grid, x[first:end]) if points is None else points[first:end]
         bands = dealt_to_bands(p, grid, some)
         errors = errors.or_larger(fft_errors(p, grid, n, bands.crowd, bands.runs, at))
         weight = None if weights is None or len(weights) == 1 else weights[first:end]
