@@ -38,7 +38,17 @@ class Value:
 
     @classmethod
     def normal(cls, value: float, error: float) -> Value:
-        """Make one whose interval is 1.96 standard errors to either side."""
+        """Make one whose interval is 1.96 standard errors to either side.
+
+        Parameters
+        ----------
+        value, error : float
+            The number and its standard error.
+
+        Returns
+        -------
+        Value
+        """
         return cls(value, error, interval=(value - NORMAL_95 * error, value + NORMAL_95 * error))
 
 

@@ -68,6 +68,8 @@ def strict_text(data: bytes) -> Sets:
             need(all(t.isdigit() for t in struck) and not all(t.isdigit() for t in tokens[-1]))
     if names:
         need(all(len(row) == len(names) for row in tokens))
+        if axes == ["x", "y", "z"]:  # points of one z are a set of the plane
+            need(len(tokens) == 1 or len({float(row[names.index("z")]) for row in tokens}) > 1)
         key = [i for i, n in enumerate(names) if n in ("set", "realization")]
         need(len(key) <= 1 and len(names) > len(key))
         if key:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator
 from functools import partial
 from typing import Any
@@ -10,10 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.transform import ducc_available
-from gbnbench.analysis.spectrum.evaluators.nufft import transform as nufft
-from gbnbench.analysis.spectrum.evaluators.nufft.limits import DIMENSIONS
-from gbnbench.core.torus import FloatArray, fixed_point
+from gbnbench.analysis.spectrum.evaluators.nufft.ducc import DUCC0
+from gbnbench.analysis.spectrum.evaluators.nufft.finufft import FINUFFT
+from gbnbench.analysis.spectrum.evaluators.nufft.library import DIMENSIONS
+from gbnbench.analysis.spectrum.evaluators.nufft.transform import shifted
+from gbnbench.core.torus import FloatArray
 
 TOLERANCES = {
     "FINUFFT": (1e-3, 1e-6, 1e-9, 1e-12, 1e-14),
@@ -40,8 +40,8 @@ def transform_calls(d: int) -> Iterator[tuple[str, float, Callable[[FloatArray, 
     """
     if d > DIMENSIONS:
         return
-    libraries = {"FINUFFT": finufft} if nufft.available() else {}
-    if ducc_available():
+    libraries = {"FINUFFT": finufft} if FINUFFT.available else {}
+    if DUCC0.available:
         libraries |= {"ducc0, half": partial(ducc, half=True), "ducc0, all": partial(ducc, half=False)}
     for library, call in libraries.items():
         for tolerance in TOLERANCES[library]:
@@ -99,11 +99,7 @@ def ducc(x: FloatArray, fmax: int, tolerance: float, *, half: bool) -> FloatArra
 
     n, d = x.shape
     base = 2 * fmax + 1
-    strengths = np.ones(n, complex)
-    if half:
-        shift = (fixed_point(x[:, 0], 64) * np.uint64((fmax + 1) // 2)).view(np.int64)
-        angle = shift * (2 * math.pi / 2.0**64)
-        strengths.real, strengths.imag = np.cos(angle), -np.sin(angle)
+    strengths = shifted(x[:, 0], np.ones(n), (fmax + 1) // 2) if half else np.ones(n, complex)
     call: Any = ducc0.nufft.nu2u
     amplitude = call(
         points=strengths,

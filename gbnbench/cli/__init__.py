@@ -134,7 +134,9 @@ def run(arguments: Sequence[str]) -> int:
 
 
 def _mistaken_file(error: click.ClickException, arguments: Sequence[str]) -> str:
-    """Tell how to name a file that was taken for an option, since its name begins with a dash."""
+    """Tell how to name a file that was taken for an option or a command."""
+    if error.message.startswith("No such command") and Path(arguments[0]).exists():
+        return f" A file stands behind a command: gbnbench analyze {shlex.quote(arguments[0])}."
     if not isinstance(error, click.NoSuchOption):
         return ""
     file = next((word for word in arguments if word.startswith("-") and Path(word).is_file()), None)

@@ -57,7 +57,7 @@ def analyze_window(
             reading = replace(reading, bounds=reading_options(bounds=window).bounds)
         except InputError as error:
             said = str(error).removeprefix("bounds ")
-            raise InputError(f"--window {said}, or {OWN!r} for the box that the file tells") from None
+            raise InputError(f"--window {said}; {OWN!r} takes the box that the file tells") from None
     reading = replace(reading, window=True)
     listed: list[dict[str, Any]] = []
     failed = False

@@ -20,11 +20,11 @@ from tests.oracles.power import direct_power, lattice_of, root_distance
 
 @pytest.fixture
 def without_double(monkeypatch):
-    """Let the device at hand say that it has no double; FINUFFT, which has, is not there."""
+    """Let the device at hand say that it has no double; the non-uniform FFTs, which have, are not there."""
     device = replace(runtime().device, is_cpu=False, has_double=False)
     poor = Runtime(device)
     monkeypatch.setattr(module, "runtime", lambda: poor)
-    monkeypatch.setattr(nufft, "available", lambda: False)
+    monkeypatch.setattr(nufft, "installed", lambda: ())
     return device
 
 

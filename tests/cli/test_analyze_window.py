@@ -84,7 +84,7 @@ def test_errors_of_the_box_speak_of_the_window(tmp_path):
         assert said in result.output
         assert "--bounds" not in result.output
     result = _run(pixels, "--window", "abc")
-    assert "such as 0,512,0,512; got 'abc', or 'file' for the box" in str(result.exception)
+    assert "such as 0,512,0,512; got 'abc'; 'file' takes the box" in str(result.exception)
 
 
 @pytest.mark.parametrize(

@@ -129,3 +129,25 @@ def test_a_folder_is_not_written_as_a_file(tmp_path, capsys):
     assert run(["generate", "random", "-n", "4", "-o", f"{tmp_path}/dots.txt/"]) == 2
     assert "dots.txt/' ends as a folder does: name a file" in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["x.txt"], "No such command 'x.txt'. A file stands behind a command: gbnbench analyze x.txt."),
+        (["analyze", "-"], "standard input is not read: name a file"),
+        (
+            ["convert", "x.txt", "--period", "640", "480", "-o", "y.txt"],
+            "480: cannot be read: no such file or directory; numbers of one option are parted by commas",
+        ),
+        (
+            ["analyze", "x.txt", "--window", "512,512"],
+            "--window must have low < high on each axis; axis 0 has 512, 512; 'file' takes the box that",
+        ),
+    ],
+)
+def test_a_word_in_a_wrong_place_is_told(tmp_path, monkeypatch, capsys, words, said):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "x.txt").write_text("0.5 0.25\n0.125 0.75\n")
+    assert run(words) == 2
+    assert said in capsys.readouterr().err

@@ -148,7 +148,7 @@ BAD: list[tuple[str, str, bytes | str, int | None, str]] = [
     ),
     ("JSON, a key twice", "a.json", '{"points": [[0.5]], "points": [[0.1]]}', None, "a key stands twice"),
     ("JSON, deep", "a.json", "[" * 100_000, None, "nested too deeply"),
-    ("JSON, huge", "a.json", f"[[0.5, 1{'0' * 400}]]", None, "point 0: a number is too large"),
+    ("JSON, huge", "a.json", f"[[0.5, 1{'0' * 400}]]", None, "0...' is too large for a number"),
     ("JSON outside", "a.json", "[[[0.5, 0.25]], [[0.5, 2]]]", None, "set 1: coordinate 2.0 is not in [0, 1]"),
     ("JSON, dimensions", "a.json", "[[[0.5, 0.25]], [[0.5]]]", None, "different dimensions: [1, 2]"),
     ("JSON, a weight", "a.json", '[{"x": 0.5, "y": 0.5, "m": 2}]', None, "column 'm' is no coordinate"),

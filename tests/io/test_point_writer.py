@@ -111,22 +111,29 @@ def test_save_replaces_whole(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     assert sorted(p.name for p in tmp_path.iterdir()) == ["kept.txt", "link.txt"]
 
 
-@pytest.mark.parametrize("suffix", [".txt", ".csv", ".tsv", ".npz", ".json", ".edat", ".csv.gz"])
+@pytest.mark.parametrize("suffix", [".txt", ".csv", ".tsv", ".dat", ".npz", ".json", ".edat", ".csv.gz"])
 def test_few_points_of_many_dimensions_come_back(tmp_path: Path, suffix: str) -> None:
     """A header, names or the format say that rows are points: nothing is taken for transposed."""
     x = np.random.default_rng(3).random((4, 16))
     save(tmp_path / f"a{suffix}", x)
     assert np.array_equal(load(tmp_path / f"a{suffix}"), x)
+    sets = np.random.default_rng(4).random((3, 2, 20))
+    save(tmp_path / f"b{suffix}", sets)
+    assert np.array_equal(load(tmp_path / f"b{suffix}"), sets)
 
 
-@pytest.mark.parametrize("suffix", [".npy", ".dat"])
+@pytest.mark.parametrize("suffix", [".npy", ".asc"])
 def test_a_bare_matrix_of_few_points_is_read_where_columns_are_told(tmp_path: Path, suffix: str) -> None:
     x = np.random.default_rng(3).random((4, 16))
-    save(tmp_path / f"a{suffix}", x)
+    path = tmp_path / f"a{suffix}"
+    if suffix == ".npy":
+        save(path, x)
+    else:
+        np.savetxt(path, x, "%.17g")
     with pytest.raises(FormatError, match=r"4 points of 16 dimensions: is it transposed\? .* --columns 1-16"):
-        load(tmp_path / f"a{suffix}")
-    assert np.array_equal(load(tmp_path / f"a{suffix}", columns="1-16"), x)
-    assert np.array_equal(load(tmp_path / f"a{suffix}", columns="2,4-6"), x[:, [1, 3, 4, 5]])
+        load(path)
+    assert np.array_equal(load(path, columns="1-16"), x)
+    assert np.array_equal(load(path, columns="2,4-6"), x[:, [1, 3, 4, 5]])
 
 
 @pytest.mark.parametrize("suffix", [".npz", ".json", ".xyz", ".edat", ".lammpstrj"])

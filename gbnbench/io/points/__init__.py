@@ -11,14 +11,15 @@ any line ends, with or without a byte-order mark or a last newline. Its sets are
 
 A first line of words names the columns: x, y, z, w in turn, or one letter with numbers from 0 or 1 on; so
 does a comment right above the first row that has a word for each number. Double quotes around a cell are
-dropped, and so are a column in front without a name that counts the rows or quotes their names, and an
-empty cell at the end of every row that no name belongs to. Where the first line has a semicolon, or is
-``sep=;``, semicolons part cells and commas are decimal; so are commas in rows that tabs part. A first line
-of bare whole numbers is a header where one of them exceeds 1, since no coordinate does. Where it might be a
-header, a line of column numbers or a point (``0`` or ``1`` before single numbers, ``0 1``, ``1 1``), the
-file is refused and the error says how to write it: a point as ``0.0 1.0``, a header as ``1024 2``. Blank
-lines count for nothing, except that between rows that nothing else frames they are refused, because some
-programs part sets by them; so is a comment that holds just the numbers of a point.
+dropped, and so are a column in front without a name that counts the rows or quotes their names, and an empty
+cell at the end of every row that no name belongs to. Where the first line has a semicolon, or is ``sep=;``,
+semicolons part cells and commas are decimal; so are commas in rows that tabs part. Where tabs part the names
+and the first row, they alone part all rows, and cells may hold blanks and commas. A first line of bare whole
+numbers is a header where one of them exceeds 1, since no coordinate does. Where it might be a header, a line
+of column numbers or a point (``0`` or ``1`` before single numbers, ``0 1``, ``1 1``), the file is refused and
+the error says how to write it: a point as ``0.0 1.0``, a header as ``1024 2``. Blank lines count for nothing,
+except that between rows that nothing else frames they are refused, because some programs part sets by them;
+so is a comment that holds just the numbers of a point.
 
 Coordinates lie in [0, 1], or in the box that the file or the reading options tell, by whose sides they are
 divided; its upper end is its lower; nothing else is altered or left out.

@@ -5,10 +5,12 @@ from __future__ import annotations
 import re
 import shlex
 from collections.abc import Sequence
+from itertools import takewhile
 from pathlib import Path
 
 from gbnbench.core.errors import FormatError
 
+LONGEST = 40  # letters of a name in an error
 SET_NAMES = ("set", "realization")
 
 _LETTERS = ("x", "y", "z", "w")
@@ -45,6 +47,8 @@ def choose(path: Path, wanted: Sequence[str], names: Sequence[str], width: int) 
     if not names:
         wanted = [number for name in wanted for number in _range(name, width)]
     for name in wanted:
+        if list(names).count(name) > 1:
+            raise FormatError(path, f"column {name!r} is there twice; name columns once each")
         if name in names:
             found.append(list(names).index(name))
         elif lower.count(name.lower()) == 1:
@@ -74,6 +78,50 @@ def _range(name: str, width: int) -> list[str]:
 def advised(names: Sequence[str]) -> str:
     """Write the option that takes columns of these names, as a shell takes it."""
     return f"--columns {shlex.quote(','.join(names))}"
+
+
+def advice(names: Sequence[str]) -> str:
+    """Say which columns may be the coordinates, with the option that takes them.
+
+    Parameters
+    ----------
+    names : sequence of str
+        As they stand in the file.
+
+    Returns
+    -------
+    str
+        For an error. Where no names are alike but for an axis or a number all are told, none advised.
+    """
+    some = _likely_axes([name for name in names if name])
+    if some and all(len(name) <= LONGEST and "," not in name for name in some):
+        return f"{advised(some)} takes those wanted"
+    if some:
+        return f"to take those wanted by --columns, rename {', '.join(map(repr, some))[:80]} without commas"
+    shown = ", ".join(name[:LONGEST] for name in names[:8] if name) + ", ..." * (len(names) > 8)
+    return f"--columns takes those wanted; here are {shown}"
+
+
+def _likely_axes(names: list[str]) -> list[str]:
+    """Find x, y, z; else names that differ by such a letter alone, or by numbers from 0 or 1; else two."""
+    plain = sorted((name for name in names if name.lower() in _LETTERS[:3]), key=str.lower)
+    if plain:
+        return plain
+    for name in names:
+        for at in (match.start() for match in re.finditer("[xX]", name)):
+            alike = [name[:at] + letter + name[at + 1 :] for letter in ("yz" if name[at] == "x" else "YZ")]
+            if alike[0] in names:
+                return [name, *(other for other in alike if other in names)]
+    for name in names:
+        for match in re.finditer("[01]", name):
+            series = [
+                name[: match.start()] + str(k) + name[match.end() :]
+                for k in range(int(match[0]), len(names) + 2)
+            ]
+            there = list(takewhile(names.__contains__, series))
+            if len(there) > 1:
+                return there
+    return names if len(names) == 2 else []
 
 
 def is_axis(name: str) -> bool:
@@ -118,9 +166,7 @@ def fault_of_names(given: Sequence[str]) -> str | None:
         and [number - order[0][0][1] for (_, number), _ in order] == [*range(len(names))]
     ):
         return f"coordinates stand out of order; put the columns as {', '.join(name for _, name in order)}"
-    some = [name for name in given if name.lower() in _LETTERS[:3]] or [name for name in given if name][:2]
-    fits = all(len(name) <= 20 and "," not in name for name in some)
-    wanted = f"{advised(some if fits else ['x', 'y'])} takes those wanted"
+    wanted = advice(given)
     if "" in names:
         return (
             f"column {names.index('') + 1} has no name, as where each line ends in a comma: remove it, or "

@@ -77,6 +77,14 @@ def reason(error: Exception) -> str:
     return text[:1].lower() + text[1:]
 
 
+def _mistaken(path: Path) -> str:
+    """Say what a name that is no file's may be meant for: standard input, or a number of a list."""
+    if str(path) == "-":
+        return "; standard input is not read: name a file"
+    is_number = not str(path).translate(str.maketrans("", "", "0123456789.,"))
+    return "; numbers of one option are parted by commas alone, such as 512,512" if is_number else ""
+
+
 def look(path: Path, limit: int) -> tuple[int, bytes]:
     """Return the size and the first bytes of a regular file that is within the limit.
 
@@ -111,7 +119,7 @@ def look(path: Path, limit: int) -> tuple[int, bytes]:
     except FormatError:
         raise
     except (OSError, ValueError) as error:  # ValueError: a NUL in the name
-        raise FormatError(path, f"cannot be read: {reason(error)}") from None
+        raise FormatError(path, f"cannot be read: {reason(error)}{_mistaken(path)}") from None
     if not head:
         raise FormatError(path, "the file is empty")
     return status.st_size, head

@@ -9,12 +9,12 @@ import numpy as np
 from gbnbench.core.errors import FormatError
 from gbnbench.core.torus import FloatArray
 from gbnbench.io.points.options import ReadingOptions, listed
-from gbnbench.io.points.point_sets import Box, Coordinates, FileContent, PointSets
+from gbnbench.io.points.point_sets import Box, Coordinates, FileContent, PointSets, seems_transposed
 
 ROUNDING = 1e-6  # in sides: float32 and six written digits leave the box by less
 FAR = 1.0  # sides beyond the unit torus up to which wrap is believed without a box
 SHOWN = 9  # dimensions from which an option is not written out
-FEW, MANY = 4, 16  # points and dimensions of an array that is more likely transposed
+ROWS = 9  # a first column that counts more rows than these from any number is no coordinate
 
 
 def fractions_of_box(path: Path, content: FileContent, options: ReadingOptions) -> PointSets:
@@ -45,7 +45,9 @@ def fractions_of_box(path: Path, content: FileContent, options: ReadingOptions) 
         dimensions = sorted({one.points.shape[1] for one in content.sets})
         raise FormatError(path, f"its sets have different dimensions: {dimensions}")
     for one in content.sets:
-        _refuse_transposed(path, one)
+        if one.bare:
+            _refuse_transposed(path, one)
+            refuse_row_numbers(path, one)
     box = _box(path, content.box, options, d)
     toroidal = None if box is None or box.periodic is None else all(box.periodic)
     edge = 0.0 if box is None or toroidal else float(np.nextafter(1, 0))
@@ -56,11 +58,39 @@ def fractions_of_box(path: Path, content: FileContent, options: ReadingOptions) 
 def _refuse_transposed(path: Path, one: Coordinates) -> None:
     """Refuse a matrix that is likely transposed, where nothing says that it is not."""
     n, d = one.points.shape
-    if one.bare and n <= FEW and d >= MANY:
+    if seems_transposed(one.points):
         raise FormatError(
             path,
             f"{one.where}{n} point{'s' * (n != 1)} of {d} dimensions: is it transposed? Rows are points and "
             f"columns coordinates; save its transpose, or say that its rows are points, by --columns 1-{d}",
+        )
+
+
+def refuse_row_numbers(path: Path, one: Coordinates) -> None:
+    """Refuse a first column that counts the rows, from 0 or 1 or many of them: it would become a coordinate.
+
+    Parameters
+    ----------
+    path : Path
+        Named in the error.
+    one : Coordinates
+        A set whose columns have no names.
+
+    Raises
+    ------
+    FormatError
+        If it does.
+    """
+    n, d = one.points.shape
+    first = one.points[:, 0]
+    counts = d > 1 and n > (2 if first[0] in (0, 1) else ROWS) and first[0] == np.floor(first[0])
+    if counts and np.array_equal(first, first[0] + np.arange(n)):
+        wanted = ",".join(str(k) for k in range(2, d + 1))
+        raise FormatError(
+            path,
+            f"{one.where}the first column numbers the rows: take the others by --columns {wanted}, "
+            "or name all",
+            None if one.lines is None else int(one.lines[0]),
         )
 
 

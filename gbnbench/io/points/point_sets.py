@@ -12,6 +12,7 @@ from gbnbench.core.torus import FloatArray
 
 IntArray = NDArray[np.int64]
 
+FEW, MANY = 4, 16  # points and dimensions of an array that is more likely transposed
 NO_TORUS = "says that its box is no torus, and it is measured as one: what crosses the sides is not real"
 
 
@@ -97,6 +98,12 @@ class FileContent:
 
     sets: list[Coordinates]
     box: Box | None = None
+
+
+def seems_transposed(points: FloatArray) -> bool:
+    """Tell whether a matrix has so few rows and so many columns that its rows may be the axes."""
+    n, d = points.shape
+    return bool(n <= FEW and d >= MANY)
 
 
 def in_own_unit(x: PointSets) -> list[FloatArray]:

@@ -108,11 +108,21 @@ def names_of(line: bytes, separator: bytes | None = None) -> tuple[str, ...]:
     if separator is None and b'"' not in line and b"," not in line and b"\t" in line:
         separator = b"\t"
     cells = cells_of(line) if separator is None else cells_between(line, separator)
-    cells = [cell.strip(b"\"'").strip() for cell in cells]
-    words = [cell[:1].isalpha() and cell.lower() not in (b"nan", b"inf", b"infinity") for cell in cells]
-    if not any(words) or not all(word or not cell for word, cell in zip(words, cells, strict=True)):
+    if cells[:1] == [b""] and cells[1:] and cells[1:] == [b"%d" % k for k in range(len(cells) - 1)]:
+        return ("", *(f"x{k}" for k in range(len(cells) - 1)))  # pandas' index and numbers of columns
+    names = tuple(_decoded(cell.strip(b"\"'").strip()) for cell in cells)
+    words = [name[:1].isalpha() and name.lower() not in ("nan", "inf", "infinity") for name in names]
+    if not any(words) or not all(word or not name for word, name in zip(words, names, strict=True)):
         return ()
-    return tuple(cell.decode("utf-8", "backslashreplace") for cell in cells)
+    return names
+
+
+def _decoded(name: bytes) -> str:
+    """Read a name as UTF-8, or as what older programs of Windows write."""
+    try:
+        return name.decode()
+    except UnicodeDecodeError:
+        return name.decode("latin-1")
 
 
 def unquoted(data: bytes) -> bytes:

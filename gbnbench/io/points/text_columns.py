@@ -11,7 +11,7 @@ from pathlib import Path
 
 from gbnbench.core.errors import FormatError
 from gbnbench.io.points.columns import SET_NAMES, choose, fault_of_names, is_axis
-from gbnbench.io.points.literals import NUMBER
+from gbnbench.io.points.literals import MISSING, NUMBER
 from gbnbench.io.points.text_cells import BLANKS, Line, cells_of, content_line, names_of, unquoted
 from gbnbench.io.points.text_dialect import PlainText, plain_text
 from gbnbench.io.points.text_layout import ColumnLayout, column_layout
@@ -93,7 +93,11 @@ def plain_rows(path: Path, data: bytes, columns: tuple[str, ...] | None, *, coun
     names = _names(text, first)
     if names:
         row = content_line(data, first.end + 1, first.number + 1)
-        layout = column_layout(path, names, first, row)
+        cells = [] if row is None else text.cells(data[row.start : row.end], len(names))
+        if row is not None and _holds_no_number(cells):
+            said = f"no number in it, nor in line {first.number}: keep the one line that names the columns"
+            raise FormatError(path, said, row.number)
+        layout = column_layout(path, names, first, row, cells)
         return _headed(path, text, layout, first, columns)
     names = _names_above(text, first, counted)
     by_number = columns is not None and all(name[:1].isdigit() for name in columns)
@@ -111,6 +115,11 @@ def plain_rows(path: Path, data: bytes, columns: tuple[str, ...] | None, *, coun
             first.number - 1,
         )
     return Rows(tuple(name.lower() for name in names), unquoted(data), False, text)
+
+
+def _holds_no_number(cells: Sequence[bytes]) -> bool:
+    """Whether a line is of names or units too: words alone, none of which stands for a missing number."""
+    return not any(cell.lower() in MISSING or any(digit in cell for digit in b"0123456789") for cell in cells)
 
 
 def _headed(

@@ -13,9 +13,13 @@ from pathlib import Path
 from gbnbench.core.errors import FormatError
 from gbnbench.io.points.file_format import without_marks
 from gbnbench.io.points.literals import DECIMAL_COMMA, NUMBER, shown
-from gbnbench.io.points.text_cells import cells_between, content_line, names_of
+from gbnbench.io.points.text_cells import BLANKS, cells_between, cells_of, content_line, names_of
 
+TAB = b"\t"
+
+_QUOTES = re.compile(rb'"[^"]*"')
 _SEPARATOR = re.compile(rb'[ \t]*"?sep=(.)"?[ \t]*(?=\n|$)', re.IGNORECASE)
+_OTHER_COMMENTS = re.compile(rb"%|//|!|;(?=[ \t])|/\*|\*")
 _COMMA = re.compile(rb"[0-9]+,[0-9]*|,[0-9]+")
 _THOUSANDS = re.compile(rb"[1-9][0-9]{0,2},[0-9]{3}")
 
@@ -31,7 +35,7 @@ class PlainText:
     original : bytes
         The same lines before commas and semicolons were replaced.
     separator : bytes or None
-        What parted the cells there, where anything was replaced.
+        What parted the cells there, where anything was replaced, or a tab where that alone parts cells.
     """
 
     data: bytes
@@ -40,7 +44,27 @@ class PlainText:
 
     def line(self, number: int) -> bytes:
         """Return a line as it stands in the file, by its 1-based number."""
-        return self.original.split(b"\n", number)[number - 1].strip()
+        line = self.original.split(b"\n", number)[number - 1].rstrip()
+        return line.lstrip(b" " if self.separator == TAB else BLANKS)
+
+    def cells(self, line: bytes, width: int) -> list[bytes]:
+        """Part a line of ``data``; where tabs part cells, blanks and commas are of the cells.
+
+        Parameters
+        ----------
+        line : bytes
+            Without its end.
+        width : int
+            Cells that rows have; further ones behind tabs that end the line are dropped where they are empty.
+
+        Returns
+        -------
+        list of bytes
+        """
+        if self.separator != TAB:
+            return cells_of(line.strip(BLANKS))
+        cells = cells_between(line, TAB)
+        return cells if any(cells[width:]) else cells[:width]
 
     def cell(self, number: int, k: int, plain: bytes) -> bytes:
         """Return a cell as it stands in the file.
@@ -58,7 +82,6 @@ class PlainText:
         -------
         bytes
         """
-        """Return a cell as it stands in the file: that of column k of a line, which became ``plain``."""
         if self.separator is None:
             return plain
         cells = cells_between(self.line(number), self.separator)
@@ -82,7 +105,8 @@ def plain_text(path: Path, data: bytes) -> PlainText:
     Raises
     ------
     FormatError
-        If it is not sure what a comma means, or the first line tells a separator that is not known.
+        If it is not sure what a comma means, the first line tells a separator that is not known, or it is a
+        comment of another language.
     """
     data = without_marks(data)
     if b"\r" in data:
@@ -96,15 +120,40 @@ def plain_text(path: Path, data: bytes) -> PlainText:
     first = content_line(data, 0, 1)
     if first is None or told == b",":
         return PlainText(data, data)
-    if told is None and b";" in first.text:
+    if (mark := _OTHER_COMMENTS.match(first.text)) is not None:
+        said = f"begins with {shown(mark.group())}, and comments begin with '#' here: write that or remove it"
+        raise FormatError(path, said, first.number)
+    row = content_line(data, first.end + 1, first.number + 1)
+    bare = _QUOTES.sub(b"", first.text)
+    # where commas part the rows of a table a name may hold a semicolon
+    if told is None and b";" in bare and not (b"," in bare and row is not None and b";" not in row.text):
         told = b";"
-    if told is None or told == b"\t":
-        named = names_of(first.text)
-        row = content_line(data, first.end + 1, first.number + 1) if named else first
+    if told is None or told == TAB:
+        if row is not None and _is_tabbed_table(data[first.start : first.end], data[row.start : row.end]):
+            cells = cells_between(row.text, TAB)
+            commas = [cell for cell in cells if _COMMA.fullmatch(cell.lstrip(b"+-"))]
+            decimal = commas and all(DECIMAL_COMMA.fullmatch(cell) for cell in commas)
+            return PlainText(_with_points(path, data) if decimal else data, data, TAB)
+        row = row if names_of(first.text) else first
         if row is None or not _is_tabbed(row.text):
             return PlainText(data, data)
-        told = b"\t"
+        told = TAB
     return PlainText(_with_points(path, data), data, told)
+
+
+def _is_tabbed_table(header: bytes, row: bytes) -> bool:
+    """Whether tabs alone part the names of a table and the cells of its first row; one may stand in front.
+
+    Several tabs that only line columns up make more cells than there are names, some of them empty.
+    """
+    header = header.strip(b" ").rstrip()
+    names = names_of(header, TAB)
+    if len(names) < 2 or b"," in _QUOTES.sub(b"", header):
+        return False
+    cells = cells_between(row.strip(b" "), TAB)
+    while len(cells) > len(names) and not cells[-1]:
+        cells.pop()
+    return len(cells) == len(names) or (len(cells) == len(names) + 1 and all(cells))
 
 
 def _is_tabbed(line: bytes) -> bool:

@@ -38,6 +38,7 @@ def header_form(path: Path, text: Lexed, unit_torus: bool) -> int:
         If the line may be either, or the numbers are those of pixels.
     """
     width = int(text.width[0])
+    _refuse_column_numbers(path, text, width)
     if width > 2 or not text.bare[:width].all():
         return 0
     first = text.value[:width]
@@ -68,6 +69,20 @@ def header_form(path: Path, text: Lexed, unit_torus: bool) -> int:
             int(text.line[0]),
         )
     return 0
+
+
+def _refuse_column_numbers(path: Path, text: Lexed, width: int) -> None:
+    """Refuse a first line of the whole numbers from 0 on, by which pandas names columns without names."""
+    numbers = range(width)
+    if width < 2 or len(text.line) < 2 or not text.bare[:width].all() or np.any(text.width != width):
+        return
+    if np.array_equal(text.value[:width], numbers):
+        raise FormatError(
+            path,
+            f"'{' '.join(map(str, numbers))}' may number the columns, be a header or a point: remove it, or "
+            f"write the point as '{' '.join(f'{k}.0' for k in numbers)}'",
+            int(text.line[0]),
+        )
 
 
 def _refuse_pixels(path: Path, text: Lexed) -> NoReturn:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from gbnbench.core.errors import FormatError
 from gbnbench.io.points.literals import NUMBER
-from gbnbench.io.points.text_cells import Line, cells_of, is_quoted_name
+from gbnbench.io.points.text_cells import Line, is_quoted_name
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,9 @@ class ColumnLayout:
     in_front: bool = False
 
 
-def column_layout(path: Path, names: tuple[str, ...], header: Line, row: Line | None) -> ColumnLayout:
+def column_layout(
+    path: Path, names: tuple[str, ...], header: Line, row: Line | None, cells: list[bytes]
+) -> ColumnLayout:
     """Tell which name belongs to which cell.
 
     Parameters
@@ -46,6 +48,8 @@ def column_layout(path: Path, names: tuple[str, ...], header: Line, row: Line | 
         That line.
     row : Line or None
         The first row.
+    cells : list of bytes
+        Its cells.
 
     Returns
     -------
@@ -57,7 +61,6 @@ def column_layout(path: Path, names: tuple[str, ...], header: Line, row: Line | 
         If the row has more cells than there are names, and they neither end in an empty one nor begin with a
         number or a name of the row.
     """
-    cells = cells_of(row.text) if row is not None else []
     if row is None or len(cells) < len(names):
         return ColumnLayout(names, len(names))
     if len(cells) == len(names):

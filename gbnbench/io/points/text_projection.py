@@ -8,7 +8,7 @@ from pathlib import Path
 from gbnbench.core.errors import FormatError
 from gbnbench.io.points.columns import advised
 from gbnbench.io.points.literals import NUMBER, fault_of_cell, shown
-from gbnbench.io.points.text_cells import BLANKS, cells_of, is_quoted_name
+from gbnbench.io.points.text_cells import BLANKS, is_quoted_name
 from gbnbench.io.points.text_dialect import PlainText
 from gbnbench.io.points.text_layout import ColumnLayout
 
@@ -63,11 +63,11 @@ def projected(
             rows.append(b"")
             continue
         if line.startswith(b"#"):
-            if _is_row(line.lstrip(b"#").strip(BLANKS), layout, kept, whole):
+            if _is_row(text.cells(line.lstrip(b"#"), layout.width), layout, kept, whole):
                 raise FormatError(path, STRUCK, number)
             rows.append(line)
             continue
-        cells = cells_of(line)
+        cells = text.cells(raw, layout.width)
         if len(cells) != layout.width:
             said = f"{len(cells)} column{'s' * (len(cells) != 1)} where the lines before have {layout.width}"
             raise FormatError(path, said, number)
@@ -89,9 +89,8 @@ def projected(
     return b"\n".join(rows)
 
 
-def _is_row(struck: bytes, layout: ColumnLayout, kept: Sequence[int], whole: bool) -> bool:
+def _is_row(cells: list[bytes], layout: ColumnLayout, kept: Sequence[int], whole: bool) -> bool:
     """Whether a comment holds a row of the table; bare whole numbers do where those of rows are."""
-    cells = cells_of(struck)
     if len(cells) not in (layout.width, layout.width - layout.trailing):
         return False
     taken = [cells[k] for k in kept]
@@ -111,7 +110,7 @@ def _counts(front: Sequence[_Front]) -> tuple[int, int, bytes] | None:
 
 def _check_front(path: Path, front: Sequence[_Front], layout: ColumnLayout, kept: Sequence[int]) -> None:
     """Refuse a first column without a name that neither counts the rows from 0 or 1 nor quotes names."""
-    if all(named for _, _, named in front):
+    if all(named or not cell for _, cell, named in front):
         return
     wrong = _counts(front)
     if wrong is None:

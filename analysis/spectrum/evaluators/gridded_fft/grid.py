@@ -17,7 +17,7 @@ AXES = 3  # axes at most: a point reaches WIDTH nodes on each
 WIDTH = {"double": 16, "float": 8}  # cells of the window
 DEGREE = {"double": 19, "float": 11}  # degree of its polynomials
 # Nodes for each frequency -fmax .. fmax: with these the error of the window is less than rounding.
-OVERSAMPLING = {"double": 2.25, "float": 2.0}
+OVERSAMPLING = {"double": 2.23, "float": 2.0}
 
 
 @dataclass(frozen=True)

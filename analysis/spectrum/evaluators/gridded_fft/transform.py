@@ -7,8 +7,6 @@ ducc0 (Reinecke) is faster than SciPy's pocketfft, its ancestor. It is under the
 from __future__ import annotations
 
 import math
-from functools import cache
-from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
@@ -16,20 +14,14 @@ import scipy.fft
 from numpy.typing import NDArray
 
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import RealGrid
+from gbnbench.analysis.spectrum.evaluators.optional_library import loads
 
 BLOCK_BYTES = 256 << 10  # of the rows that are transformed at once
 
 
-@cache
 def ducc_available() -> bool:
     """Tell whether ducc0 is installed and loads here."""
-    if find_spec("ducc0") is None:
-        return False
-    try:
-        import ducc0 as _  # noqa: F401 - only whether it loads
-    except (ImportError, OSError, RuntimeError):
-        return False
-    return True
+    return loads("ducc0")
 
 
 def shape_of_harmonics(grid: RealGrid) -> tuple[int, ...]:

@@ -1,1 +1,1 @@
-"""The non-uniform FFT of FINUFFT (Barnett, Magland & af Klinteberg 2019), to a chosen tolerance."""
+"""Non-uniform FFTs, by ducc0 (Reinecke) or FINUFFT (Barnett, Magland & af Klinteberg 2019)."""

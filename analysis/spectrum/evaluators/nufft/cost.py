@@ -1,155 +1,117 @@
-"""Time and memory of FINUFFT's transforms, by a model that was fitted to measured calls."""
+"""Time and memory of non-uniform FFTs, by a model that was fitted to measured calls of each library."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 
-from gbnbench.analysis.spectrum.evaluators.nufft.limits import check_tolerance
+from gbnbench.analysis.spectrum.evaluators.nufft.library import Library, Upsampling
 
-NARROW, WIDE = 1.25, 2.0  # upsampling factors: small FFTs with wide kernels, or large with narrow
-NARROW_REACHES = 1e-7  # at tighter tolerances NARROW magnifies rounding at the corners of a grid
+CACHED = 3e5  # complex grid points beyond which an FFT leaves the cache
+WIDEST = 16  # points across the widest kernel of both libraries
 
 
 @dataclass(frozen=True)
-class TransformCost:
-    """Parts of a transform's time on one core in one dimension, in nanoseconds.
+class Layout:
+    """The way in which a set of points is transformed.
 
     Attributes
     ----------
-    call : float
-        For each call.
-    axis : float
-        For each pair of a grid line's point and a kernel's point, which make the Fourier series of the
-        kernel.
-    point, shift, cell : float
-        For each point, for each point whose strength is shifted, and for each grid point that a point
-        reaches.
-    grid, far : float
-        For each grid point and level of the FFT, and the same besides for a grid beyond the cache.
+    halved : bool
+        Whether strengths are shifted, so that the modes are those of half the frequencies.
+    upsampling : Upsampling
+        Factor by which the library's grid exceeds the modes.
+    grid : float
+        Complex points of that grid.
+    seconds : float
+        Expected CPU seconds on one core.
     """
 
-    call: float
-    axis: float
-    point: float
-    shift: float
-    cell: float
+    halved: bool
+    upsampling: Upsampling
     grid: float
-    far: float
+    seconds: float
 
 
-# By dimension; fitted to 476 calls of FINUFFT 2.5.1 on an EPYC core, of which 98% lie within a factor of two.
-COSTS = (
-    TransformCost(230e3, 1.1, 18, 48, 3.6, 2.1, 0.06),
-    TransformCost(330e3, 5.6, 45, 54, 0.56, 1.06, 0.52),
-    TransformCost(380e3, 0.0, 99, 54, 0.34, 1.1, 0.50),
-)
-CACHED = 3e5  # complex grid points beyond which an FFT leaves the cache
-
-
-def nufft_seconds(n: int, d: int, fmax: int, tolerance: float) -> float:
-    """Estimate the CPU seconds of ``nufft_power`` on one core.
+@lru_cache(maxsize=256)
+def cheapest_layout(library: Library, n: int, d: int, fmax: int, tolerance: float) -> Layout:
+    """Find the cheapest way: half the modes for one sine and cosine a point, or all of them.
 
     Parameters
     ----------
+    library : Library
+        The library.
     n, d, fmax : int
         Points, dimensions and the largest |f_a|.
     tolerance : float
-        Tolerance of FINUFFT.
+        Relative error asked for.
+
+    Returns
+    -------
+    Layout
+
+    Raises
+    ------
+    InputError
+        If the library does not do these dimensions or cannot reach the tolerance.
+    """
+    library.check(d, tolerance)
+    return min(_layouts(library, n, d, fmax, tolerance), key=lambda layout: layout.seconds)
+
+
+def nufft_seconds(library: Library, n: int, d: int, fmax: int, tolerance: float) -> float:
+    """Estimate the CPU seconds of ``nufft_power`` on one core.
+
+    Parameters and errors are those of ``cheapest_layout``.
 
     Returns
     -------
     float
         Seconds; within a factor of two on the machine where the model was fitted.
 
-    Raises
-    ------
-    InputError
-        If FINUFFT does not do these dimensions or cannot reach the tolerance.
-
     Notes
     -----
-    The constants were fitted on one machine with one build of FINUFFT. Elsewhere all times change by about
-    the same factor.
+    The constants were fitted on one machine with one build of each library. Elsewhere all times change by
+    about the same factor.
     """
-    check_tolerance(d, tolerance)
-    return _seconds(n, d, fmax, tolerance, upsampling_factor(n, d, fmax, tolerance))
+    return cheapest_layout(library, n, d, fmax, tolerance).seconds
 
 
-def nufft_bytes(n: int, d: int, fmax: int, tolerance: float) -> int:
-    """Size the memory that ``nufft_power`` takes: upsampled grid, half space of amplitudes, cube and points.
+def nufft_bytes(library: Library, n: int, d: int, fmax: int, tolerance: float) -> int:
+    """Size the memory that ``nufft_power`` takes: upsampled grid, amplitudes, cube and points.
 
-    Parameters
-    ----------
-    n, d, fmax : int
-        Points, dimensions and the largest |f_a|.
-    tolerance : float
-        Tolerance of FINUFFT.
+    Parameters and errors are those of ``cheapest_layout``.
 
     Returns
     -------
     int
         Bytes.
     """
-    modes, grid = _sizes(n, d, fmax, upsampling_factor(n, d, fmax, tolerance))
-    return int(16 * grid + 32 * modes + 8 * (2 * fmax + 1) ** d + n * (16 * d + 48))
+    layout, base = cheapest_layout(library, n, d, fmax, tolerance), 2 * fmax + 1
+    modes = (fmax + 1 if layout.halved else base) * base ** (d - 1)
+    return int(16 * layout.grid + 32 * modes + 8 * base**d + n * (16 * d + 48))
 
 
-def half_grid_pays(n: int, d: int, fmax: int) -> bool:
-    """Tell whether transforming half a grid pays for one more sine and cosine a point.
-
-    Parameters
-    ----------
-    n, d, fmax : int
-        Points, dimensions and the largest |f_a|.
-
-    Returns
-    -------
-    bool
-    """
-    return bool(n <= (2 * fmax + 1) ** d)
-
-
-def _sizes(n: int, d: int, fmax: int, upsampling: float) -> tuple[int, float]:
-    """Count the modes asked of FINUFFT, and the points of its grid."""
-    base = 2 * fmax + 1
-    modes = (fmax + 1 if half_grid_pays(n, d, fmax) else base) * base ** (d - 1)
-    return int(modes), modes * upsampling**d
-
-
-def upsampling_factor(n: int, d: int, fmax: int, tolerance: float) -> float:
-    """Choose the cheaper upsampling factor, since FINUFFT's own choice hardly depends on the sizes.
-
-    Parameters
-    ----------
-    n, d, fmax : int
-        Points, dimensions and the largest |f_a|.
-    tolerance : float
-        Tolerance of FINUFFT.
-
-    Returns
-    -------
-    float
-        1.25 or 2.
-    """
-    if tolerance < NARROW_REACHES:
-        return WIDE
-    return min((WIDE, NARROW), key=lambda factor: _seconds(n, d, fmax, tolerance, factor))
-
-
-def _seconds(n: int, d: int, fmax: int, tolerance: float, upsampling: float) -> float:
-    cost = COSTS[d - 1]
-    halved = half_grid_pays(n, d, fmax)
-    # Barnett et al.: a kernel of width w has pi (w - 1) sqrt(1 - 1 / upsampling) / ln 10 digits.
-    decay = math.pi * math.sqrt(1 - 1 / upsampling)
-    width = max(2, min(16, math.ceil(1 - math.log(tolerance) / decay)))
-    grid = max(_sizes(n, d, fmax, upsampling)[1], (2 * width) ** d)
-    lines = upsampling * ((fmax + 1 if halved else 2 * fmax + 1) + (d - 1) * (2 * fmax + 1))
-    far = min(1.0, max(0.0, math.log2(grid / CACHED)))
-    nanoseconds = (
-        cost.call
-        + cost.axis * lines * width
-        + n * (cost.point + cost.shift * halved + cost.cell * width**d)
-        + grid * math.log2(grid) * (cost.grid + cost.far * far)
-    )
-    return float(1e-9 * nanoseconds)
+def _layouts(library: Library, n: int, d: int, fmax: int, tolerance: float) -> Iterator[Layout]:
+    """Count the work of every layout that reaches the tolerance."""
+    cost, base = library.costs[d - 1], 2 * fmax + 1
+    for upsampling in library.upsampling:
+        if tolerance < upsampling.reaches:
+            continue
+        factor = upsampling.factor
+        # Barnett et al.: a kernel of width w has pi (w - 1) sqrt(1 - 1 / factor) / ln 10 digits.
+        decay = math.pi * math.sqrt(1 - 1 / factor)
+        width = max(library.narrowest, min(WIDEST, math.ceil(1 - math.log(tolerance) / decay)))
+        for halved in (True, False):
+            first = fmax + 1 if halved else base
+            grid = max(first * base ** (d - 1) * factor**d, (2 * width) ** d)
+            far = min(1.0, max(0.0, math.log2(grid / CACHED)))
+            nanoseconds = (
+                cost.call
+                + cost.axis * factor * (first + (d - 1) * base) * width
+                + n * (cost.point + cost.shift * halved + cost.cell * width**d)
+                + grid * math.log2(grid) * (cost.grid + cost.far * far)
+            )
+            yield Layout(halved, upsampling, float(grid), float(1e-9 * nanoseconds))

@@ -1,131 +1,141 @@
-"""Power of large grids in up to three dimensions by FINUFFT (Barnett, Magland & af Klinteberg 2019).
+"""Power of large grids in up to three dimensions by a library's non-uniform FFT.
 
 A type 1 transform of n points to a grid of G frequencies costs n + G log G, where the exact product costs
-n G. Its error is chosen. FINUFFT is optional (``pip install finufft``) and loaded on first use. Reference:
-SIAM J. Sci. Comput. 41(5), 2019.
+n G. Its error is chosen. Either library is optional, and the first that is installed is taken.
 """
 
 from __future__ import annotations
 
 import math
-from functools import cache
-from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
 
-from gbnbench.analysis.spectrum.evaluators.nufft.cost import half_grid_pays, nufft_seconds, upsampling_factor
-from gbnbench.analysis.spectrum.evaluators.nufft.limits import check_tolerance
+from gbnbench.analysis.spectrum.evaluators.nufft.cost import cheapest_layout
+from gbnbench.analysis.spectrum.evaluators.nufft.ducc import DUCC0
+from gbnbench.analysis.spectrum.evaluators.nufft.finufft import FINUFFT
+from gbnbench.analysis.spectrum.evaluators.nufft.library import Library
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray, fixed_point
 
+LIBRARIES = (DUCC0, FINUFFT)  # the first is the faster one
 ALONE = 0.01  # seconds below which one thread is faster than several
+REMEDY = "pip install gbnbench[fast] (ducc0), or pip install finufft"
 
 
-@cache
-def available() -> bool:
-    """Tell whether FINUFFT is installed and loads here."""
-    if find_spec("finufft") is None:
-        return False
-    try:
-        import finufft as _  # noqa: F401 - only whether it loads
-    except (ImportError, OSError, RuntimeError):
-        return False
-    return True
+def installed() -> tuple[Library, ...]:
+    """List the libraries that are installed and load here, the preferred one first."""
+    return tuple(library for library in LIBRARIES if library.available)
 
 
 def nufft_power(
+    library: Library,
     x: FloatArray,
     fmax: int,
     tolerance: float,
     weights: FloatArray | None = None,
     threads: int | None = None,
+    *,
+    half: bool = False,
 ) -> FloatArray:
     """Power of one point set at every integer frequency with |f_a| <= fmax, to a tolerance.
 
     Parameters
     ----------
+    library : Library
+        The library.
     x : (n, d) float64
         Checked points of the unit torus, d <= 3.
     fmax : int
         Largest harmonic on each axis, cycles per unit length.
     tolerance : float
-        FINUFFT's eps, 1e-14 to 0.1; ``nufft_tolerance`` finds it from an error of sqrt(power).
+        The library's relative error, up to 0.1; ``nufft_tolerance`` finds it from an error of sqrt(power).
     weights : (n,) float64, optional
         A weight for each point, 1 without.
     threads : int, optional
-        Threads of FINUFFT. If not given, one for transforms of less than 10 ms, where more threads cost more
-        than they gain, and otherwise as many as there are cores.
+        Threads of the library. If not given, one for transforms of less than 10 ms, where more threads cost
+        more than they gain, and otherwise as many as there are cores.
+    half : bool
+        Only the half with f_0 >= 0.
 
     Returns
     -------
     (2*fmax+1,)*d float64
-        |sum_k w_k exp(-2 pi i f.x_k)|^2 / sum_k w_k^2, zero frequency at the centre.
+        |sum_k w_k exp(-2 pi i f.x_k)|^2 / sum_k w_k^2, zero frequency at the centre; the first axis only
+        fmax+1 long for a half.
 
     Raises
     ------
     InputError
-        If FINUFFT is not installed, does not do these dimensions, cannot reach the tolerance or has no room.
+        If the library is not installed, does not do these dimensions, cannot reach the tolerance or has no
+        room.
 
     Notes
     -----
-    Weights are real, so the half of the frequencies with f_1 >= 0 gives the rest. With strengths
-    w exp(-2 pi i s x_1), s = (fmax + 1) // 2, a grid of fmax + 1 modes on the first axis holds that half.
-    This halves the FFT for one sine and cosine a point, and is done unless points outnumber frequencies.
-    FINUFFT is given 2 pi (x - rint(x)), where the difference is exact; 2 pi x would round twice as coarsely.
+    Weights are real, so the half of the frequencies with f_0 >= 0 gives the rest. With strengths
+    w exp(-2 pi i s x_0), s = (fmax + 1) // 2, a grid of fmax + 1 modes on the first axis holds that half.
+    This halves the FFT for one sine and cosine a point, and is done unless points far outnumber frequencies.
+    The libraries are given x - rint(x), which is exact.
     """
-    check_tolerance(x.shape[1], tolerance)
-    if not available():
-        raise InputError("FINUFFT is not installed here: pip install finufft, or ask for an exact method")
     n, d = x.shape
+    layout = cheapest_layout(library, n, d, fmax, tolerance)
+    if not library.available:
+        raise InputError(f"{library.name} is not installed here: {REMEDY}, or ask for an exact method")
     base = 2 * fmax + 1
     scaled = np.ones(n) if weights is None else weights / np.abs(weights).max()
-    halved = half_grid_pays(n, d, fmax)
-    strengths = scaled.astype(np.complex128)
-    if halved:
-        shift = (fixed_point(x[:, 0], 64) * np.uint64((fmax + 1) // 2)).view(np.int64)
-        angle = shift * (2 * math.pi / 2.0**64)
-        strengths.real, strengths.imag = scaled * np.cos(angle), -scaled * np.sin(angle)
-    amplitude = _transform(
-        np.ascontiguousarray((2 * math.pi * (x - np.rint(x))).T),
-        strengths,
-        (fmax + 1 if halved else base,) + (base,) * (d - 1),
-        tolerance,
-        upsampling_factor(n, d, fmax, tolerance),
-        1 if threads is None and nufft_seconds(n, d, fmax, tolerance) < ALONE else threads,
-    )
-    cube = np.empty((base,) * d)
-    part = cube[base - len(amplitude) :]
-    np.multiply(amplitude.real, amplitude.real, out=part)
-    part += amplitude.imag**2
-    part /= float(scaled @ scaled)
-    flat = cube.reshape(-1)
-    flat[: flat.size // 2] = flat[: flat.size // 2 : -1]
-    # DC is known, and its error would be coherent.
-    flat[flat.size // 2] = scaled.sum() ** 2 / float(scaled @ scaled)
-    return cube
-
-
-def _transform(
-    radians: FloatArray,
-    strengths: Any,
-    modes: tuple[int, ...],
-    tolerance: float,
-    upsampling: float,
-    threads: int | None,
-) -> Any:
-    import finufft
-
-    call: Any = (finufft.nufft1d1, finufft.nufft2d1, finufft.nufft3d1)[len(modes) - 1]
+    if threads is None:
+        threads = 1 if layout.seconds < ALONE else 0
+    modes = (fmax + 1 if layout.halved else base, *(base,) * (d - 1))
     try:
-        return call(
-            *radians,
-            strengths,
-            modes if len(modes) > 1 else max(modes),
-            eps=tolerance,
-            isign=-1,
-            nthreads=threads or 0,
-            upsampfac=upsampling,
+        amplitude = library.transform(
+            x - np.rint(x),
+            shifted(x[:, 0], scaled, (fmax + 1) // 2) if layout.halved else scaled.astype(np.complex128),
+            modes,
+            tolerance,
+            layout.upsampling.factor,
+            threads,
         )
-    except RuntimeError as error:
-        raise InputError(f"FINUFFT cannot evaluate {math.prod(modes)} frequencies: {error}") from None
+    except (RuntimeError, MemoryError) as error:
+        raise InputError(
+            f"{library.name} cannot evaluate {math.prod(modes)} frequencies: {error}. Ask for another method"
+        ) from None
+    amplitude = amplitude[-fmax - 1 :]
+    power = np.empty((fmax + 1 if half else base, *(base,) * (d - 1)))
+    kept = power[-fmax - 1 :]
+    np.multiply(amplitude.real, amplitude.real, out=kept)
+    kept += amplitude.imag**2
+    kept /= float(scaled @ scaled)
+    middle = kept[:1].reshape(
+        -1
+    )  # the frequencies with f_0 = 0, each of which stands there with its mirror image
+    middle[: middle.size // 2] = middle[: middle.size // 2 : -1]
+    # DC is known, and its error would be coherent.
+    middle[middle.size // 2] = scaled.sum() ** 2 / float(scaled @ scaled)
+    if not half:
+        power[:fmax] = np.flip(kept[1:])
+    return power
+
+
+def shifted(coordinate: FloatArray, weights: FloatArray, shift: int) -> Any:
+    """Compute strengths whose spectrum is that of the weights, shifted along one axis.
+
+    Parameters
+    ----------
+    coordinate : (n,) float64
+        Coordinates on that axis, in [0, 1).
+    weights : (n,) float64
+        Weights of the points.
+    shift : int
+        Modes by which the spectrum is shifted.
+
+    Returns
+    -------
+    (n,) complex128
+        w exp(-2 pi i shift x), good to 5 units of 2^-53: phases are reduced in integers, where shift times x
+        would lose as many digits as it has before the point.
+    """
+    phase = (fixed_point(coordinate, 64) * np.uint64(shift)).view(np.int64)
+    angle = phase * (2 * math.pi / 2.0**64)
+    strengths = np.empty(len(weights), np.complex128)
+    strengths.real, strengths.imag = weights * np.cos(angle), -weights * np.sin(angle)
+    return strengths

@@ -10,13 +10,17 @@ from typing import Any
 import numpy as np
 
 from gbnbench.core.errors import FormatError
-from gbnbench.io.points.columns import choose, fault_of_names
+from gbnbench.io.points.columns import choose, fault_of_names, is_axis
+from gbnbench.io.points.formats.axes import XYZ, refuse_plane
 from gbnbench.io.points.formats.format import Format
+from gbnbench.io.points.fractions_of_box import refuse_row_numbers
+from gbnbench.io.points.literals import too_large
 from gbnbench.io.points.point_file import PointFile
 from gbnbench.io.points.point_sets import Box, Coordinates, FileContent, PointSets, in_own_unit
 
 _ABOUT = ("low", "sides", "toroidal")  # keys that tell the box
 _GEOJSON = ("FeatureCollection", "Feature", "GeometryCollection", "MultiPoint", "Point")
+_DIGITS = 300  # of a whole number that a float surely holds
 _LISTS = (
     "points are lists of numbers, such as [[0.1, 0.2], [0.3, 0.4]], alone or as the 'points' of an object"
 )
@@ -41,8 +45,10 @@ def _read(file: PointFile) -> FileContent:
         if key == "points" and key not in content and (held := _columns(path, content)):
             return _of_columns(file, content, held)
         if key not in content:
-            shown = ", ".join(map(repr, list(content)[:8])) or "nothing"
-            raise FormatError(path, f"its object has no {key!r}: it has {shown}; --array takes another key")
+            shown = ", ".join(map(repr, list(content)[:8]))
+            lists = any(isinstance(value, list) for value in content.values())
+            instead = "--array takes another key" if lists else f"none of them a list: {_LISTS}"
+            raise FormatError(path, f"its object has no {key!r}: it has {shown}; {instead}")
         about = content if file.options.array is None else {}
         content = content[key]
     elif file.options.array is not None:
@@ -56,18 +62,33 @@ def _read(file: PointFile) -> FileContent:
         Coordinates(_points(path, part, columns, f"set {k}, " * several), where=f"set {k}: " * several)
         for k, part in enumerate(parts)
     ]
+    named = isinstance(parts[0][0], dict)
+    if named and columns is None and tuple(name.lower() for name in parts[0][0]) == XYZ:
+        refuse_plane(path, np.concatenate([one.points for one in sets]), columns)
+    if not named and columns is None and "sides" not in about:  # in the unit of a box points may count
+        for one in sets:
+            refuse_row_numbers(path, one)
     return FileContent(sets, _box(path, about, sets[0].points.shape[1]))
 
 
 def _columns(path: Path, content: dict[str, Any]) -> dict[str, list[Any]]:
     """Return the columns of an object that holds a list for each, or nothing where it is another."""
     held = {name: value for name, value in content.items() if name not in _ABOUT}
-    if held and all(isinstance(value, dict) and value for value in held.values()):
+    if not held:
+        raise FormatError(path, f"holds no points: {_LISTS}")
+    if all(isinstance(value, dict) and value and not _nested(value) for value in held.values()) or all(
+        isinstance(value, dict) and any(map(is_axis, value)) for value in held.values()
+    ):
         raise FormatError(path, "its columns are objects, as pandas writes them: to_json(path, 'records')")
     lists = all(isinstance(value, list) for value in held.values())
     if not lists or any(isinstance(cell, (list, dict)) for value in held.values() for cell in value):
         return {}
     return held
+
+
+def _nested(value: dict[str, Any]) -> bool:
+    """Whether an object holds lists or objects, and so no cells."""
+    return any(isinstance(cell, (list, dict)) for cell in value.values())
 
 
 def _of_columns(file: PointFile, content: dict[str, Any], held: dict[str, list[Any]]) -> FileContent:
@@ -79,17 +100,36 @@ def _of_columns(file: PointFile, content: dict[str, Any], held: dict[str, list[A
     if not rows:
         raise FormatError(path, "holds no points: its columns are empty")
     points = _points(path, rows, file.options.columns, "")
+    if tuple(name.lower() for name in held) == XYZ:
+        refuse_plane(path, points, file.options.columns)
     return FileContent([Coordinates(points)], _box(path, content, points.shape[1]))
 
 
 def _parsed(path: Path, data: bytes) -> Any:
     try:
         text = data.decode("utf-8-sig")
-        return json.loads(text, parse_constant=_no_constant, object_pairs_hook=_no_twice)
+        return json.loads(
+            text,
+            parse_constant=_no_constant,
+            parse_float=_float,
+            parse_int=_int,
+            object_pairs_hook=_no_twice,
+        )
     except json.JSONDecodeError as error:
+        if error.msg == "Extra data" and text[error.pos] in "[{":
+            raise FormatError(
+                path,
+                "a second value begins here, as in JSON Lines: write one list of all, as pandas does by "
+                "to_json(path, 'records')",
+                error.lineno,
+            ) from None
+        if text.lstrip().startswith("{{"):
+            said = 'is a list of Mathematica: Export["points.csv", x] writes its points'
+            raise FormatError(path, said) from None
         raise FormatError(
             path,
-            f"begins as JSON does and is none: {error.msg.lower()} in column {error.colno}",
+            f"begins as JSON does and is none: {error.msg.lower()} in column {error.colno}; rows of "
+            "plain text have no brackets",
             error.lineno,
         ) from None
     except UnicodeDecodeError:
@@ -100,8 +140,21 @@ def _parsed(path: Path, data: bytes) -> Any:
         raise FormatError(path, f"is no JSON: {(str(error).splitlines() or [''])[0][:100]}") from None
 
 
+class _TooLarge(str):
+    """A literal beyond the numbers that a float can be, to be quoted."""
+
+
+def _float(literal: str) -> float | _TooLarge:
+    number = float(literal)
+    return number if math.isfinite(number) else _TooLarge(literal)
+
+
+def _int(literal: str) -> int | float | _TooLarge:
+    return int(literal) if len(literal) < _DIGITS else _float(literal)
+
+
 def _no_constant(name: str) -> float:
-    raise ValueError(f"{name} is not a number")
+    raise ValueError(f"{name} is not a number: remove the point")
 
 
 def _no_twice(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
@@ -137,15 +190,12 @@ def _points(path: Path, rows: list[Any], columns: tuple[str, ...] | None, where:
 
 
 def _number(path: Path, value: Any, where: str) -> float:
+    if isinstance(value, _TooLarge):
+        raise FormatError(path, where + too_large(value.encode()))
     if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise FormatError(path, f"{where}{json.dumps(value)[:40]} is not a number")
-    try:
-        number = float(value)
-    except OverflowError:
-        number = math.inf
-    if not math.isfinite(number):
-        raise FormatError(path, f"{where}a number is too large: it is beyond 1.8e308")
-    return number
+        instead = ": remove the point" if value is None else ""
+        raise FormatError(path, f"{where}{json.dumps(value)[:40]} is not a number{instead}")
+    return float(value)
 
 
 def _box(path: Path, about: dict[str, Any], d: int) -> Box | None:

@@ -67,7 +67,10 @@ def _read_archive(file: PointFile, archive: zipfile.ZipFile, entries: int) -> Fi
     if "[Content_Types].xml" in names:
         raise FormatError(path, "is an Office document, not points: save its sheet as .csv")
     if len(set(names)) < len(names) or not all(name.endswith(".npy") for name in names):
-        raise FormatError(path, f"not an .npz of arrays: it holds {', '.join(map(repr, names[:4]))[:80]}")
+        held = ", ".join(map(repr, names[:4]))[:80]
+        raise FormatError(
+            path, f"not an .npz of arrays: it holds {held}: unpack it, and name the points' file"
+        )
     chosen = _choose(file, [*members])
     told = [] if options.array is not None else [n for n in (LOW, SIDES, TOROIDAL) if n in members]
     size = sum(members[name].file_size for name in (*chosen, *told))

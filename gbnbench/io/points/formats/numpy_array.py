@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.core.errors import FormatError
-from gbnbench.io.points.columns import choose
+from gbnbench.io.points.columns import advice, choose
 from gbnbench.io.points.point_sets import Coordinates
 
 UNSAFE = "a pickle, which can run any code when it is read: refused as unsafe"
@@ -137,9 +137,12 @@ def as_sets(
             "give the box, such as --period 512,512",
         )
     if array.dtype.kind not in "fiu":
-        raise FormatError(path, f"{where}coordinates must be floats; got type {array.dtype}")
+        parts = ": save numpy.column_stack([z.real, z.imag])" if array.dtype.kind == "c" else ""
+        raise FormatError(path, f"{where}coordinates must be floats; got type {array.dtype}{parts}")
     if array.ndim not in (2, 3) or min(array.shape) < 1:
-        raise FormatError(path, f"{where}the shape must be (n, d) or (realizations, n, d); got {array.shape}")
+        line = ": of points on a line save x[:, None]" if array.ndim == 1 else ""
+        said = f"the shape must be (n, d) or (realizations, n, d); got {array.shape}{line}"
+        raise FormatError(path, where + said)
     if columns is not None:
         array = array[..., choose(path, columns, (), array.shape[-1])]
     points = array.astype(np.float64, order="C", copy=False)
@@ -152,16 +155,18 @@ def as_sets(
 
 def _of_fields(path: Path, array: NDArray[Any], where: str, columns: tuple[str, ...] | None) -> NDArray[Any]:
     names = array.dtype.names or ()
+    lists = [name for name in names if array[name].ndim == 2]
+    alone = (
+        f"field {lists[0]!r} is an array: save it alone, numpy.save(FILE, x[{lists[0]!r}])" if lists else ""
+    )
     if columns is None:
-        told = ",".join(names[:2])
-        raise FormatError(
-            path,
-            f"{where}a structured array, with fields {', '.join(names[:8])}: say which are coordinates, "
-            f"such as --columns {told}",
-        )
+        said = f"{where}a structured array, with fields {', '.join(names[:8])}"
+        raise FormatError(path, f"{said}: {alone or f'say which are coordinates; {advice(names)}'}")
     fields = [array[names[at]] for at in choose(path, columns, names, len(names))]
     if any(field.dtype.kind not in "fiu" or field.shape != array.shape for field in fields):
-        raise FormatError(path, f"{where}fields {', '.join(columns)} must each hold a number a point")
+        raise FormatError(
+            path, f"{where}fields {', '.join(columns)} must each hold a number a point{alone and '; '}{alone}"
+        )
     return np.stack(fields, axis=-1)
 
 

@@ -7,6 +7,7 @@ import numpy as np
 from gbnbench.core.errors import FormatError
 from gbnbench.io.points.columns import choose
 from gbnbench.io.points.file_format import NUMERIC
+from gbnbench.io.points.formats.float_layouts import LAYOUTS, better_layout
 from gbnbench.io.points.formats.foreign import JPEG, SIGNATURES
 from gbnbench.io.points.point_file import PointFile
 from gbnbench.io.points.point_sets import Coordinates, FileContent
@@ -76,6 +77,14 @@ def read_raw(file: PointFile) -> FileContent:
         )
     if len(data) > d * dtype.itemsize and not any(data):
         raise FormatError(file.path, "all bytes are zero: the file was never written")
+    told = file.options.period is not None or file.options.bounds is not None or file.options.wrap
+    other = None if told or dtype.kind != "f" else better_layout(data, dtype)
+    if other is not None and len(data) % (d * np.dtype(LAYOUTS[other]).itemsize) == 0:
+        raise FormatError(
+            file.path,
+            f"its numbers are points of the unit torus as {other}, not as {dtype.name}: "
+            f"--raw '{other},{d}' reads it",
+        )
     points = np.frombuffer(data, dtype).reshape(-1, d)
     if file.options.columns is not None:
         points = points[:, choose(file.path, file.options.columns, (), d)]

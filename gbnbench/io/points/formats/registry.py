@@ -11,7 +11,7 @@ from gbnbench.core.errors import FormatError
 from gbnbench.io.points.file_format import LEGIBLE
 from gbnbench.io.points.formats.edat import EDAT
 from gbnbench.io.points.formats.eps import EPS
-from gbnbench.io.points.formats.foreign import foreign
+from gbnbench.io.points.formats.foreign import foreign, foreign_text
 from gbnbench.io.points.formats.format import Format
 from gbnbench.io.points.formats.json_lists import JSON
 from gbnbench.io.points.formats.lammps import LAMMPS
@@ -74,6 +74,8 @@ def format_of(file: PointFile) -> Format:
     if file.suffix in (".npy", ".npz") and head.translate(None, LEGIBLE):
         raise FormatError(path, f"is not a {file.suffix} file: it starts with {head[:6]!r}")
     if TEXT.recognises(file):
+        if (said := foreign_text(file)) is not None:
+            raise FormatError(path, said)
         return TEXT
     raise FormatError(
         path,

@@ -8,11 +8,10 @@ import numpy as np
 
 from gbnbench.core.errors import FormatError
 from gbnbench.io.points.file_format import NUMERIC
+from gbnbench.io.points.formats.float_layouts import better_layout
 from gbnbench.io.points.formats.format import Format
 from gbnbench.io.points.point_file import PointFile
 from gbnbench.io.points.point_sets import Coordinates, FileContent
-
-TINY = 1e-9
 
 
 def _recognises(file: PointFile) -> bool:
@@ -28,26 +27,22 @@ def _read(file: PointFile) -> FileContent:
         raise FormatError(path, "all bytes are zero: the file was never written")
     pairs = np.frombuffer(data, "<f4").reshape(-1, 2)
     if file.options.period is None and file.options.bounds is None and not file.options.wrap:
-        _refuse_swapped(path, data, pairs)
+        _refuse_swapped(path, data)
     with np.errstate(invalid="ignore"):  # signalling nan
         return FileContent([Coordinates(pairs.astype(np.float64))])
 
 
-def _refuse_swapped(path: Path, data: bytes, pairs: np.ndarray) -> None:
-    """Name the byte order where only the other one gives points of the unit torus."""
-    swapped = np.frombuffer(data, ">f4")
-    if _plausible(swapped) and not _plausible(pairs):
+def _refuse_swapped(path: Path, data: bytes) -> None:
+    """Name the type where only another one gives points of the unit torus."""
+    other = better_layout(data, np.dtype("<f4"))
+    if other == ">float32":
         raise FormatError(
             path,
             "its floats are big-endian, the highest byte first, and an .rps has the lowest first: "
             "--raw '>float32,2' reads it",
         )
-
-
-def _plausible(values: np.ndarray) -> bool:
-    """Whether all lie in [0, 1], and none is as tiny as a float in the wrong order often is."""
-    with np.errstate(invalid="ignore"):  # signalling nan
-        return bool(((values == 0) | ((values > TINY) & (values <= 1))).all())
+    if other is not None and len(data) % 16 == 0:
+        raise FormatError(path, f"its floats are of 64 bits, and an .rps has 32: --raw '{other},2' reads it")
 
 
 RPS = Format("PSA's .rps", (".rps",), _recognises, _read)

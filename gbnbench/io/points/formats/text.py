@@ -11,12 +11,14 @@ import numpy as np
 from gbnbench.core.errors import FormatError
 from gbnbench.io.points.columns import SET_NAMES
 from gbnbench.io.points.file_format import LEGIBLE
+from gbnbench.io.points.formats.axes import XYZ, refuse_plane
 from gbnbench.io.points.formats.format import Format
 from gbnbench.io.points.formats.text_writing import WRITERS
 from gbnbench.io.points.number_parser import Lexed, lex
+from gbnbench.io.points.options import ReadingOptions
 from gbnbench.io.points.point_file import PointFile
 from gbnbench.io.points.point_sets import Coordinates, FileContent, IntArray
-from gbnbench.io.points.text_columns import plain_rows
+from gbnbench.io.points.text_columns import Rows, plain_rows
 from gbnbench.io.points.text_header import header_form
 from gbnbench.io.points.text_projection import STRUCK
 
@@ -57,35 +59,29 @@ def read_text(file: PointFile) -> FileContent:
     text = lex(path, table.data, names, table.cell)
     if len(text.line) == 0:
         raise FormatError(path, "the file holds no points")
-    begin = np.concatenate([[0], np.cumsum(text.width)])
     _refuse_hidden(path, text)
-    form = 0 if names else header_form(path, text, unit_torus)
-    if form:
-        spans = _counted(path, text, begin, form)
-    else:
-        _same_width(path, text, names)
-        if any(name in SET_NAMES for name in names):
-            return FileContent(_by_column(path, text, names))
-        spans = _parted(path, text, marked=not table.headed)
-    # a matrix of numbers alone may be transposed; a count, a name or the user says what its rows are
-    bare = not form and not names and options.columns is None
-    sets = [_coordinates(text, begin, span, bare=bare) for span in spans]
-    if bare:
-        _refuse_row_numbers(path, sets[0])
+    sets = _sets(path, text, table, options)
+    if tuple(name for name in names if name not in SET_NAMES) == XYZ:
+        whole = np.concatenate([one.points for one in sets])
+        refuse_plane(path, whole, options.columns, int(text.line[0]))
     return FileContent(sets)
 
 
-def _refuse_row_numbers(path: Path, one: Coordinates) -> None:
-    """Refuse a first column that counts the rows: it would become a coordinate."""
-    n, d = one.points.shape
-    first = one.points[:, 0]
-    if n > 2 and d > 1 and first[0] in (0, 1) and np.array_equal(first, first[0] + np.arange(n)):
-        wanted = ",".join(str(k) for k in range(2, d + 1))
-        raise FormatError(
-            path,
-            f"the first column numbers the rows: take the others by --columns {wanted}, or name all",
-            None if one.lines is None else int(one.lines[0]),
-        )
+def _sets(path: Path, text: Lexed, table: Rows, options: ReadingOptions) -> list[Coordinates]:
+    """Part the numbers into sets, by what frames them."""
+    begin = np.concatenate([[0], np.cumsum(text.width)])
+    unit_torus = options.period is None and options.bounds is None and not options.wrap
+    form = 0 if table.names else header_form(path, text, unit_torus)
+    if form:
+        spans = _counted(path, text, begin, form)
+    else:
+        _same_width(path, text, table.names)
+        if any(name in SET_NAMES for name in table.names):
+            return _by_column(path, text, table.names)
+        spans = _parted(path, text, marked=not table.headed)
+    # a matrix of numbers alone may be transposed; a count, a name or the user says what its rows are
+    bare = not form and not table.names and options.columns is None
+    return [_coordinates(text, begin, span, bare=bare) for span in spans]
 
 
 def _refuse_hidden(path: Path, text: Lexed) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from gbnbench.core.torus import FloatArray
-from gbnbench.io.points.point_sets import PointSets
+from gbnbench.io.points.point_sets import PointSets, seems_transposed
 
 
 def _rows(points: FloatArray, separator: str, prefix: str = "") -> str:
@@ -20,8 +20,12 @@ def _txt(x: PointSets) -> bytes:
 
 
 def _dat(x: PointSets) -> bytes:
-    """UTK's rows, sets parted by a line #."""
-    return "#\n".join(_rows(s, "\t") for s in x.sets).encode()
+    """UTK's rows, sets parted by a line #; of few points of many dimensions it names the columns."""
+    rows = [_rows(s, "\t") for s in x.sets]
+    if not any(map(seems_transposed, x.sets)):
+        return "#\n".join(rows).encode()
+    names = "# " + "\t".join(f"x{a}" for a in range(x.sets[0].shape[1])) + "\n"
+    return "".join(names + part for part in rows).encode()
 
 
 def _separated(separator: str) -> Callable[[PointSets], bytes]:
