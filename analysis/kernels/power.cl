@@ -32,16 +32,13 @@ static SUM power_of(__global const SUM *at, const ulong slot_size, const uint sp
     return (re * re + im * im) / norm;
 }
 
-__kernel void cube_power(__global const SUM *amplitude, const uint half_rows, const uint first_row,
-                         const uint rows, const uint columns, const uint stride, const uint each,
-                         const uint splits, const uint sets, __global const SUM *norm,
-                         __global const SUM *gain, const uint first_set, __global SUM *out,
-                         const ulong start, const ulong set_size)
+/* The columns first .. end of a row, of all sets. */
+INLINE void write_power(__global const SUM *amplitude, const uint half_rows, const uint first_row,
+                        const uint rows, const uint columns, const uint stride, const uint splits,
+                        const uint sets, __global const SUM *norm, __global const SUM *gain,
+                        const uint first_set, __global SUM *out, const ulong start, const ulong set_size,
+                        const uint i, const uint first, const uint end)
 {
-    const uint i = get_global_id(1);
-    const uint first = get_global_id(0) * each;
-    const uint end = first + each < columns ? first + each : columns;
-    if (i >= rows) return;
     const ulong slot_size = (ulong)((rows + ROWS - 1) / ROWS) * stride * (4 * ROWS * KEPT);
     const ulong width = 2 * (ulong)columns - 1;
     const ulong last = (2 * (ulong)half_rows - 1) * width - 1;
@@ -65,6 +62,20 @@ __kernel void cube_power(__global const SUM *amplitude, const uint half_rows, co
             if (last - minus >= start) to[last - minus - start] = here;
         }
     }
+}
+
+__kernel void cube_power(__global const SUM *amplitude, const uint half_rows, const uint first_row,
+                         const uint rows, const uint columns, const uint stride, const uint each,
+                         const uint splits, const uint sets, __global const SUM *norm,
+                         __global const SUM *gain, const uint first_set, __global SUM *out,
+                         const ulong start, const ulong set_size)
+{
+    const uint i = get_global_id(1);
+    const uint first = get_global_id(0) * each;
+    const uint end = first + each < columns ? first + each : columns;
+    if (i < rows)
+        write_power(amplitude, half_rows, first_row, rows, columns, stride, splits, sets, norm, gain, first_set,
+                    out, start, set_size, i, first, end);
 }
 
 /* Power of a block at (fa, fb) and (fa, -fb), side by side, for the columns within the bounds of a row tile.

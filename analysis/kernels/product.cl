@@ -67,30 +67,20 @@ static void add_up(const SUM cc, const SUM ss, const SUM sc, const SUM cs, __glo
     put(at + 3, sc - cs, started);
 }
 
-__kernel void product(__global const REAL *restrict leading, const ulong leading_size,
-                      __global const REAL *restrict trailing, const ulong trailing_size, const uint length,
-                      const uint from, const uint to, __global const uint *bounds, const uint columns,
-                      const uint each, __global SUM *restrict amplitude, const uint again)
+/* The columns first .. end of a row tile, at the points from .. to of a slot. */
+INLINE void multiply(__global const REAL *restrict leading, const ulong leading_size,
+                     __global const REAL *restrict trailing, const ulong trailing_size, const uint length,
+                     const uint from, const uint to, const uint columns, __global SUM *restrict amplitude,
+                     const uint again, const uint tiles, const uint tile, const ulong slot, const uint first,
+                     const uint end)
 {
-#if COLUMNS == 1 /* one work-item after another takes the same columns, which then stay in cache */
-    const uint tile = get_global_id(0), tiles = get_global_size(0);
-    uint j = get_global_id(1) * each;
-#else /* a work-group's columns lie side by side */
-    const uint tile = get_global_id(1), tiles = get_global_size(1);
-    uint j = get_global_id(0) * each;
-#endif
-    uint end = j + each;
-    j = j < bounds[2 * tile] ? bounds[2 * tile] : j;
-    end = end > bounds[2 * tile + 1] ? bounds[2 * tile + 1] : end;
-    if (j >= end) return;
-    const uint first = j;
-    __global const REAL *row_slot = leading + get_global_id(2) * leading_size;
-    __global const REAL *column_slot = trailing + get_global_id(2) * trailing_size;
-    __global SUM *out = amplitude + ((ulong)get_global_id(2) * tiles + tile) * columns * (4 * ROWS * KEPT);
+    __global const REAL *row_slot = leading + slot * leading_size;
+    __global const REAL *column_slot = trailing + slot * trailing_size;
+    __global SUM *out = amplitude + ((ulong)slot * tiles + tile) * columns * (4 * ROWS * KEPT);
     for (uint begin = from; begin < to; begin += SUM_POINTS * LANES) {
         const uint steps = (to - begin < SUM_POINTS * LANES ? to - begin : SUM_POINTS * LANES) / LANES;
         const uint started = again || begin > 0;
-        for (j = first; j < end; j++) {
+        for (uint j = first; j < end; j++) {
             __global const REAL *row = row_slot + ((ulong)tile * length + begin) * (2 * ROWS);
             __global const REAL *column = column_slot
                 + ((ulong)(j / COLUMNS) * length + begin) * (PARTS * COLUMNS) + j % COLUMNS * (PARTS * LANES);
@@ -110,4 +100,24 @@ __kernel void product(__global const REAL *restrict leading, const ulong leading
             EACH_ROW(ADD)
         }
     }
+}
+
+__kernel void product(__global const REAL *restrict leading, const ulong leading_size,
+                      __global const REAL *restrict trailing, const ulong trailing_size, const uint length,
+                      const uint from, const uint to, __global const uint *bounds, const uint columns,
+                      const uint each, __global SUM *restrict amplitude, const uint again)
+{
+#if COLUMNS == 1 /* one work-item after another takes the same columns, which then stay in cache */
+    const uint tile = get_global_id(0), tiles = get_global_size(0);
+    uint j = get_global_id(1) * each;
+#else /* a work-group's columns lie side by side */
+    const uint tile = get_global_id(1), tiles = get_global_size(1);
+    uint j = get_global_id(0) * each;
+#endif
+    uint end = j + each;
+    j = j < bounds[2 * tile] ? bounds[2 * tile] : j;
+    end = end > bounds[2 * tile + 1] ? bounds[2 * tile + 1] : end;
+    if (j < end)
+        multiply(leading, leading_size, trailing, trailing_size, length, from, to, columns, amplitude, again,
+                 tiles, tile, get_global_id(2), j, end);
 }

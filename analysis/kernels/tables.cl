@@ -13,16 +13,13 @@
  */
 #define FIELDS 8
 
-__kernel void tables(__global const TURN *x, __global const REAL *weight, const uint stride, const uint dim,
-                     const uint weight_stride, __global const TURN *multiple,
-                     __global const uint *code, __global const uint *groups, const uint first_group,
-                     __global REAL *leading_table, const ulong leading_size, __global REAL *trailing_table,
-                     const ulong trailing_size, const uint begin, const uint length, const uint splits)
+/* The entries of one group at LANES points from the k-th of a slot on. */
+INLINE void tabulate(__global const TURN *x, __global const REAL *weight, const uint stride, const uint dim,
+                     const uint weight_stride, __global const TURN *multiple, __global const uint *code,
+                     __global const uint *groups, __global REAL *leading_table, const ulong leading_size,
+                     __global REAL *trailing_table, const ulong trailing_size, const uint begin,
+                     const uint length, const uint splits, const uint k, const uint which, const uint slot)
 {
-    const uint k = get_global_id(0) * LANES;
-    if (k >= length) return;
-    const uint which = first_group + get_global_id(1);
-    const uint slot = get_global_id(2);
     const uint set = slot / splits;
     const uint point = begin + slot % splits * length + k;
     __global const uint *group = groups + which * FIELDS;
@@ -78,4 +75,17 @@ __kernel void tables(__global const TURN *x, __global const REAL *weight, const 
         }
 #endif
     }
+}
+
+__kernel void tables(__global const TURN *x, __global const REAL *weight, const uint stride, const uint dim,
+                     const uint weight_stride, __global const TURN *multiple,
+                     __global const uint *code, __global const uint *groups, const uint first_group,
+                     __global REAL *leading_table, const ulong leading_size, __global REAL *trailing_table,
+                     const ulong trailing_size, const uint begin, const uint length, const uint splits)
+{
+    const uint k = get_global_id(0) * LANES;
+    if (k >= length) return;
+    tabulate(x, weight, stride, dim, weight_stride, multiple, code, groups, leading_table, leading_size,
+             trailing_table, trailing_size, begin, length, splits, k, first_group + get_global_id(1),
+             get_global_id(2));
 }

@@ -53,24 +53,24 @@ def choose(
         If the device lacks the precision.
     """
     check_precision(precision)
+    check_floor(floor)
     device = runtime().device if devices_present() else None
-    if floor is not None:
-        return planned(request, precision, floor, method).chosen.evaluator
-    if method is not None:
-        return _asked_for(request, precision, method, EVALUATORS, device)
-    return _cheapest(request, precision, EVALUATORS, device)
+    if floor is None and method is None:
+        return _cheapest(request, precision, EVALUATORS, device)
+    return _weighed(request, precision, floor, method, EVALUATORS, device)
 
 
 @lru_cache(maxsize=256)
-def _asked_for(
+def _weighed(
     request: SpectrumRequest,
     precision: str,
-    method: str,
+    floor: float | None,
+    method: str | None,
     _kinds: tuple[type[Evaluator], ...],
     _device: Device | None,
 ) -> Evaluator:
-    """Give the evaluator of that word; with other kinds, or on another device, it may be another one."""
-    return planned(request, precision, None, method).chosen.evaluator
+    """Give the evaluator of a plan; with other kinds, or on another device, it may be another one."""
+    return planned(request, precision, floor, method).chosen.evaluator
 
 
 @lru_cache(maxsize=256)
@@ -105,10 +105,7 @@ def planned(
     SpectrumPlan
         The evaluator that ``choose`` gives, with the reason, and the others with what speaks against each.
     """
-    if floor is not None and not (
-        isinstance(floor, (int, float, np.number)) and not isinstance(floor, bool) and 0 < floor < math.inf
-    ):
-        raise InputError(f"floor must be a positive power, such as 1e-12; got {floor!r}")
+    check_floor(floor)
     check_precision(precision)
     only = None if floor is not None and precision == "double" else precision
     possible = candidates(request, floor, method)
@@ -145,3 +142,11 @@ def planned(
     else:
         why = "it is exact, and no floor was given that would allow less"
     return SpectrumPlan(request, chosen, why + chosen.evaluator.remark, tuple(others))
+
+
+def check_floor(floor: object) -> None:
+    """Refuse a floor that is neither None nor a positive power with an InputError."""
+    if floor is not None and not (
+        isinstance(floor, (int, float, np.number)) and not isinstance(floor, bool) and 0 < floor < math.inf
+    ):
+        raise InputError(f"floor must be a positive power, such as 1e-12; got {floor!r}")

@@ -111,18 +111,21 @@ def coordinates(x: FloatArray, precision: str, weights: FloatArray | None = None
         share = math.sqrt(n)
     else:
         share = float((np.abs(weights).sum(axis=1) / np.sqrt((weights**2).sum(axis=1))).max())
-    inexact = np.nonzero(x < EXACT_FROM) if precision == "double" else np.nonzero(np.ones(x.shape, bool))
-    scaled = x[inexact] * 2.0 ** BITS[precision]
-    away = np.abs(scaled - np.rint(scaled)) * 2.0 ** -BITS[precision]
-    if not away.any():
+    flat = x.reshape(-1)
+    inexact = (flat < EXACT_FROM).nonzero()[0] if precision == "double" else np.arange(flat.size)
+    scaled = flat[inexact] * 2.0 ** BITS[precision]
+    scaled -= np.rint(scaled)
+    if not scaled.any():
         return Coordinates(0.0, 0.0, share)
+    away = np.abs(scaled) * 2.0 ** -BITS[precision]
+    of_set, of_point, _ = np.unravel_index(inexact, x.shape)
     norm: FloatArray | float = float(n)
     if weights is not None:
         dealt = np.broadcast_to(weights, (len(x), n))
-        away *= np.abs(dealt[inexact[0], inexact[1]])
+        away *= np.abs(dealt[of_set, of_point])
         norm = (dealt**2).sum(axis=1)
-    coherent = np.bincount(inexact[0], away, len(x)) / np.sqrt(norm)
-    scattered = np.sqrt(np.bincount(inexact[0], away**2, len(x)) / norm)
+    coherent = np.bincount(of_set, away, len(x)) / np.sqrt(norm)
+    scattered = np.sqrt(np.bincount(of_set, away**2, len(x)) / norm)
     return Coordinates(float(coherent.max()), float(scattered.max()), share)
 
 

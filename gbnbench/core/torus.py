@@ -58,8 +58,8 @@ def check_points(x: ArrayLike) -> FloatArray:
         raise InputError(
             f"x must be (n, d) or (realizations, n, d) with no empty axis; got shape {points.shape}"
         )
-    inside = (points >= 0) & (points < 1)
-    if not inside.all():
+    if not (points.min() >= 0 and points.max() < 1):  # nan is neither
+        inside = (points >= 0) & (points < 1)
         where = tuple(int(i) for i in np.argwhere(~inside)[0])
         raise InputError(
             f"points must lie in [0, 1); got {float(points[where])!r} at index {where}. "

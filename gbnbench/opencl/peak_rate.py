@@ -83,7 +83,7 @@ def launch_seconds() -> float:
     DeviceError
         If there is no device.
     """
-    return _remembered("launch", _launch)
+    return _remembered("typed-launch", _launch)
 
 
 def _launch() -> float:

@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cache
 from importlib import resources
 from threading import Lock
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gbnbench.opencl.device import import_pyopencl
 
 if TYPE_CHECKING:
     from gbnbench.opencl.runtime import Runtime
@@ -19,8 +24,9 @@ class Program:
     """A built program, which holds one kernel object for each entry point."""
 
     def __init__(self, owner: Runtime, built: Any) -> None:
-        self.owner = owner
+        self.owner, self._built = owner, built
         self._kernels = {kernel.function_name: kernel for kernel in built.all_kernels()}
+        self._typed: set[str] = set()
 
     def run(self, name: str, global_size: Sequence[int], local_size: Sequence[int], *args: Any) -> None:
         """Enqueue a kernel.
@@ -32,10 +38,69 @@ class Program:
         global_size, local_size : sequences of int
             Work-items. The local size is always given, since without it PoCL uses one core.
         *args
-            Buffers and numpy scalars of the kernel's own types.
+            Buffers and numpy scalars of the kernel's own types, the same ones at every launch.
         """
         with LAUNCH:
-            self._kernels[name](self.owner.queue, tuple(global_size), tuple(local_size), *args)
+            kernel = self._kernels[name]
+            if name not in self._typed:
+                kernel.set_arg_types(_types(args))
+                self._typed.add(name)
+            kernel(self.owner.queue, tuple(global_size), tuple(local_size), *args)
+
+    def prepared(
+        self, name: str, global_size: Sequence[int], local_size: Sequence[int], *args: Any
+    ) -> Launch:
+        """Make a launch whose arguments stay set, for one thread.
+
+        Parameters
+        ----------
+        name, global_size, local_size
+            As in ``run``.
+        *args
+            As in ``run``; None for those that each call gives, which must come first.
+
+        Returns
+        -------
+        Launch
+        """
+        kernel = import_pyopencl().Kernel(self._built, name)
+        kernel.set_arg_types(_types(args))
+        kernel.set_args(*args)
+        return Launch(self.owner, kernel, tuple(global_size), tuple(local_size), args)
+
+
+@dataclass(frozen=True)
+class Launch:
+    """A kernel object of its own whose arguments are set, but for the first ones, which each call gives.
+
+    Attributes
+    ----------
+    owner : Runtime
+        The device.
+    kernel
+        The pyopencl object.
+    global_size, local_size : tuple of int
+        Work-items.
+    held : tuple
+        The arguments, so that their buffers live as long as the launch.
+    """
+
+    owner: Runtime
+    kernel: Any
+    global_size: tuple[int, ...]
+    local_size: tuple[int, ...]
+    held: tuple[Any, ...]
+
+    def __call__(self, *buffers: Any) -> None:
+        """Enqueue the kernel with these buffers as its first arguments."""
+        for index, buffer in enumerate(buffers):
+            self.kernel.set_arg(index, buffer)
+        self.owner.enqueue(self.kernel, self.global_size, self.local_size)
+
+
+def _types(args: Sequence[Any]) -> list[Any]:
+    """Types of numbers, None for buffers: a number of no known type is tried as a buffer first, for 8 us."""
+    return [arg.dtype if isinstance(arg, np.generic) else None for arg in args]
 
 
 @cache

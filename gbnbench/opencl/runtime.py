@@ -118,6 +118,18 @@ class Runtime:
             self._programs[key] = Program(self, built)
         return self._programs[key]
 
+    def enqueue(self, kernel: Any, global_size: tuple[int, ...], local_size: tuple[int, ...]) -> None:
+        """Enqueue a kernel whose arguments are set.
+
+        Parameters
+        ----------
+        kernel : pyopencl.Kernel
+            The kernel.
+        global_size, local_size : tuple of int
+            Work-items, as in ``Program.run``.
+        """
+        self._cl.enqueue_nd_range_kernel(self.queue, kernel, global_size, local_size)
+
     def upload(self, array: NDArray[Any]) -> Any:
         """Copy an array to a new device buffer."""
         flags = self._cl.mem_flags.READ_WRITE | self._cl.mem_flags.COPY_HOST_PTR

@@ -8,6 +8,7 @@ import re
 import numpy as np
 import pytest
 
+from gbnbench.analysis.spectrum.evaluators import kept_memory
 from gbnbench.core import cache_folder
 from gbnbench.core.errors import DeviceError
 from gbnbench.doctor import examination, kernel_checks, numpy_references, trust
@@ -114,13 +115,17 @@ NO_RESULTS = {"probe", "fma_chains"}  # they measure the device: its vectors' wi
 
 def test_the_doctor_runs_every_kernel_in_the_tree(monkeypatch):
     run = set()
-    launch = program.Program.run
 
-    def noted(self, name, *arguments):
-        run.add(name)
-        launch(self, name, *arguments)
+    def noted(method):
+        def launch(self, name, *arguments):
+            run.add(name)
+            return method(self, name, *arguments)
 
-    monkeypatch.setattr(program.Program, "run", noted)
+        return launch
+
+    for method in ("run", "prepared"):
+        monkeypatch.setattr(program.Program, method, noted(getattr(program.Program, method)))
+    kept_memory.forget()
     assert examination.examine(quick=True).trusted
     files = [*ROOT.glob("*/kernels/*.cl"), *ROOT.glob("gbnbench/opencl/kernels/*.cl")]
     assert {name for path in files for name in KERNELS.findall(path.read_text())} - NO_RESULTS <= run

@@ -206,3 +206,21 @@ def test_a_fork_is_refused_in_words_instead_of_hanging():
 def test_a_selector_that_is_no_text_is_refused_in_words(selector):
     with pytest.raises(DeviceError, match="device must be a text"):
         choose(selector)
+
+
+def test_numbers_and_buffers_change_from_launch_to_launch():
+    rt = runtime()
+    built = rt.program("gbnbench.opencl", ("/vector.cl", "/fma.cl"), {"DOUBLE": 1, "LANES": 1, "CHAINS": 10})
+    factors, out = rt.upload(np.array([1.0, 0.5, 1.0])), rt.empty(8 * rt.group)
+
+    def total():
+        return rt.download(out, np.empty(1))[0] - sum(range(10)) / 16 - 10
+
+    for steps in (1, 3):
+        built.run("fma_chains", (rt.group,), (rt.group,), factors, out, np.uint32(steps))
+        assert total() == 5.0 * steps
+    prepared = built.prepared("fma_chains", (rt.group,), (rt.group,), None, out, np.uint32(2))
+    for rise in (0.5, 0.25):
+        prepared(rt.upload(np.array([1.0, rise, 1.0])))
+        built.run("fma_chains", (rt.group,), (rt.group,), factors, rt.empty(8 * rt.group), np.uint32(7))
+        assert total() == 20.0 * rise  # the other launch set nothing of this one

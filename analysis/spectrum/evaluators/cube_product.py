@@ -2,35 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
-import numpy as np
-
 from gbnbench.analysis.precision import Precision, padded
-from gbnbench.analysis.spectrum.digits import (
-    Division,
-    Harmonics,
-    cheapest_division,
-    each_axis,
-    half_size,
-    size,
-)
+from gbnbench.analysis.spectrum.digits import Harmonics, cheapest_division, each_axis, half_size
 from gbnbench.analysis.spectrum.error_model import Errors, coordinates, rounded_at_worst
-from gbnbench.analysis.spectrum.evaluators.cube_writer import CubeWriter
 from gbnbench.analysis.spectrum.evaluators.device_evaluator import DeviceEvaluator
 from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
-from gbnbench.analysis.spectrum.evaluators.frequency_group import Group
-from gbnbench.analysis.spectrum.evaluators.point_slots import (
-    AMPLITUDE_BYTES,
-    TABLE_BYTES,
-    Slots,
-    choose_slots,
-    tile_rows,
-)
-from gbnbench.analysis.spectrum.evaluators.two_group_product import TwoGroupProduct, norms_of, product_errors
-from gbnbench.analysis.spectrum.evaluators.work_model import ENTRY, TILE, WRITTEN, device_cost
+from gbnbench.analysis.spectrum.evaluators.kept_memory import kept
+from gbnbench.analysis.spectrum.evaluators.point_slots import TABLE_BYTES, Slots, choose_slots, tile_rows
+from gbnbench.analysis.spectrum.evaluators.prepared_cube import PreparedCube
+from gbnbench.analysis.spectrum.evaluators.two_group_product import product_errors
+from gbnbench.analysis.spectrum.evaluators.work_model import ENTRY, SET_UP, TILE, WRITTEN, device_cost
 from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest
 from gbnbench.core.torus import FloatArray
 
@@ -44,7 +28,10 @@ class CubeProduct(DeviceEvaluator):
     serves: ClassVar[tuple[Frequencies, ...]] = ("cube", "half cube")
 
     def work(self, request: SpectrumRequest) -> float:
-        """Count the pairs of frequencies, the tables and the powers that are written."""
+        """Count the pairs of frequencies, the tables, the powers that are written, and the set-up."""
+        return self._product_work(request) + SET_UP
+
+    def _product_work(self, request: SpectrumRequest) -> float:
         p, n = self.on_device, request.n
         divided = cheapest_division(request.d, request.largest, tile_rows(p))
         a, b = half_size(divided.leading), half_size(divided.trailing)
@@ -56,7 +43,7 @@ class CubeProduct(DeviceEvaluator):
         slots = product_slots(self.on_device, request)
         launches = 3.0 * slots.launches(request.n) * -(-request.realizations // slots.sets)
         held = 3 * 8 * request.frequencies + 2 * TABLE_BYTES
-        return device_cost(self.on_device, request, self.work(request), launches, held)
+        return device_cost(self.on_device, request, self._product_work(request), launches, held)
 
     def expected_errors(self, request: SpectrumRequest) -> Errors:
         """State the product's errors, coordinates being exact in double and rounded at worst in float."""
@@ -132,49 +119,10 @@ def cube_powers(
         Errors of the square root of the power of any one set.
     """
     sets, n, d = x.shape
-    divided = cheapest_division(d, fmax, tile_rows(p))
-    at, rms, bound = coordinates(x, p.name, weights), 0.0, 0.0
-    writer: CubeWriter | None = None
-    for first_row, rows in row_blocks(p, divided):
-        product = TwoGroupProduct(p, n, d, sets, rows, Group(divided.trailing))
-        if writer is None:
-            writer = CubeWriter(p, divided, fmax, norms_of(weights, sets, n), d, half=half, mean=mean)
-        for first, count in product.batches(x, weights):
-            writer.add(
-                product.program, product.amplitude, product.slots.splits, first, count, first_row, rows.count
-            )
-        errors = product_errors(p, n, product.slots, max(each_axis(d, fmax)), at)
-        rms, bound = max(rms, errors.rms), max(bound, errors.bound)
-    assert writer is not None  # noqa: S101 - there is a row
-    return writer.result(), Errors(rms, bound)
-
-
-def row_blocks(p: Precision, divided: Division) -> Iterator[tuple[int, Group]]:
-    """Cut the leading frequencies in runs whose amplitudes fit in ``AMPLITUDE_BYTES``.
-
-    Parameters
-    ----------
-    p : Precision
-        Precision on the device.
-    divided : Division
-        The two groups of axes.
-
-    Yields
-    ------
-    first : int
-        Position of the run's first frequency.
-    group : Group
-        The frequencies of the run; the whole group where one run holds it.
-    """
-    total, columns = half_size(divided.leading), half_size(divided.trailing)
-    most = max(
-        tile_rows(p),
-        AMPLITUDE_BYTES // (8 * np.dtype(p.sum).itemsize * columns) // tile_rows(p) * tile_rows(p),
-    )
-    if total <= most:
-        yield 0, Group(divided.leading)
-        return
-    centre = size(divided.leading) // 2
-    for first in range(0, total, most):
-        order = np.arange(centre + first, centre + min(first + most, total), dtype=np.uint64)
-        yield first, Group(divided.leading, order)
+    cube = kept(PreparedCube, p, n, d, sets, fmax, half, mean)
+    used = cube.fill(x, weights)
+    at, largest = coordinates(x, p.name, weights), max(each_axis(d, fmax))
+    errors = Errors(0.0, 0.0)
+    for slots in used:
+        errors = errors.or_larger(product_errors(p, n, slots, largest, at))
+    return cube.writer.result(), errors

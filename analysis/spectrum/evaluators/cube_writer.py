@@ -26,14 +26,21 @@ class CubeWriter:
         The two groups of axes.
     fmax : int or tuple of d ints
         Largest harmonic on each axis.
-    norms : (sets,) float64
-        Numbers by which the squared amplitudes of each set are divided.
-    d : int
-        Dimension.
+    sets, d : int
+        Number of sets, and dimension.
     half, mean : bool
         As in ``cube_powers``.
     gains : (rows,) float64, optional
         Numbers by which the squared amplitudes at each leading frequency are divided besides; 1 if not given.
+
+    Attributes
+    ----------
+    out, gains : buffer
+        The cube, and the gains.
+    start, set_size : int
+        Index of the whole cube at which it begins, and numbers from a set's to the next set's, 0 for a mean.
+    nbytes : int
+        Bytes of the cube.
     """
 
     def __init__(
@@ -41,25 +48,34 @@ class CubeWriter:
         p: Precision,
         divided: Division,
         fmax: Harmonics,
-        norms: FloatArray,
+        sets: int,
         d: int,
         half: bool,
         mean: bool,
         gains: FloatArray | None = None,
     ) -> None:
         self._p, self._harmonics, self._half, self._mean = p, each_axis(d, fmax), half, mean
-        self._sets = len(norms)
+        self._sets = sets
         self._rows, self._columns = half_size(divided.leading), half_size(divided.trailing)
         shape = covered(divided, d)
-        self._start = shape[0] // 2 * math.prod(shape[1:]) if half else 0
-        self._count = math.prod(shape) - self._start
+        self.start = shape[0] // 2 * math.prod(shape[1:]) if half else 0
+        self._count = math.prod(shape) - self.start
         self._shape = (shape[0] - shape[0] // 2, *shape[1:]) if half else shape
-        self._out = p.runtime.empty(self._count * (1 if mean else self._sets) * np.dtype(p.sum).itemsize)
-        self._norms = p.runtime.upload(norms.astype(p.sum))
-        self._gains = p.runtime.upload((np.ones(self._rows) if gains is None else gains).astype(p.sum))
+        self.nbytes = self._count * (1 if mean else self._sets) * np.dtype(p.sum).itemsize
+        self.set_size = 0 if mean else self._count
+        self.out = p.runtime.empty(self.nbytes)
+        self.gains = p.runtime.upload((np.ones(self._rows) if gains is None else gains).astype(p.sum))
 
     def add(
-        self, program: Program, amplitude: Any, splits: int, first: int, count: int, first_row: int, rows: int
+        self,
+        program: Program,
+        amplitude: Any,
+        splits: int,
+        norms: Any,
+        first: int,
+        count: int,
+        first_row: int,
+        rows: int,
     ) -> None:
         """Turn the amplitudes of a batch into power, which is added up over sets or written set by set.
 
@@ -71,6 +87,8 @@ class CubeWriter:
             Amplitudes of the batch.
         splits : int
             Slots of a set, whose amplitudes are added up.
+        norms : buffer
+            Numbers by which the squared amplitudes of each set are divided.
         first, count : int
             First set of the batch, and how many sets it has.
         first_row, rows : int
@@ -90,18 +108,18 @@ class CubeWriter:
             np.uint32(each),
             np.uint32(splits),
             np.uint32(count),
-            self._norms,
-            self._gains,
+            norms,
+            self.gains,
             np.uint32(first),
-            self._out,
-            np.uint64(self._start),
-            np.uint64(0 if self._mean else self._count),
+            self.out,
+            np.uint64(self.start),
+            np.uint64(self.set_size),
         )
 
     def result(self) -> FloatArray:
         """Download the cube, and cut off the frequencies beyond its edge that the groups cover."""
         sets = 1 if self._mean else self._sets
-        power = self._p.runtime.download(self._out, np.empty((sets, *self._shape), self._p.sum))
+        power = self._p.runtime.download(self.out, np.empty((sets, *self._shape), self._p.sum))
         inner = tuple(
             slice(0, f + 1) if self._half and a == 0 else slice(have // 2 - f, have // 2 + f + 1)
             for a, (f, have) in enumerate(zip(self._harmonics, self._shape, strict=True))

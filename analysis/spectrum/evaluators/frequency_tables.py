@@ -121,6 +121,11 @@ class FrequencyTables:
         )
         return entries
 
+    @property
+    def layout(self) -> tuple[Any, Any, Any]:
+        """What kernels need of both groups: multiples of the entries, pairs of entries, sizes."""
+        return self._multiple, self._code, self._groups
+
     def program(self, compensated: bool = False, folded: bool = False) -> Program:
         """Build the kernels of tables, product and power for these groups.
 
@@ -135,8 +140,9 @@ class FrequencyTables:
         -------
         Program
         """
+        small = () if folded or self.width > 1 else ("small_cube.cl",)
         return self.p.program(
-            *("tables.cl", "product.cl", "power.cl"),
+            *("tables.cl", "product.cl", "power.cl", *small),
             ROWS=self.rows,
             COLUMNS=self.width,
             ENTRIES=self.entries,
@@ -195,9 +201,7 @@ class FrequencyTables:
             np.uint32(points.stride),
             np.uint32(self.d),
             np.uint32(points.weight_stride),
-            self._multiple,
-            self._code,
-            self._groups,
+            *self.layout,
             np.uint32(groups[0]),
             tables[0],
             np.uint64(sizes[0]),

@@ -8,6 +8,8 @@ This takes one multiply-add for each frequency and point, half of what a complex
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cached_property, lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,6 +48,12 @@ class TwoGroupProduct:
         Amplitudes of one batch; layout in product.cl.
     slots : Slots
         Slots of a batch.
+    stride : int
+        Numbers from one coordinate of a set to the next.
+    tables, sizes : (buffer, buffer), (int, int)
+        Leading and trailing table of a batch, and numbers from one slot's to the next slot's.
+    nbytes : int
+        Bytes of the tables and amplitudes of a batch.
     """
 
     def __init__(
@@ -67,11 +75,17 @@ class TwoGroupProduct:
         compensated = self.slots.sums(n, p.lanes) > COMPENSATED_FROM
         self._bounds = self.frequencies.all_columns if bounds is None else p.runtime.upload(bounds)
         self.program = self.frequencies.program(compensated)
-        self._sizes = self.frequencies.table_sizes(self.slots.length)
+        self.sizes = self.frequencies.table_sizes(self.slots.length)
         real, total = np.dtype(p.real).itemsize, np.dtype(p.sum).itemsize
-        self._tables = tuple(p.runtime.empty(size * self.slots.count * real) for size in self._sizes)
-        kept = 8 if compensated else 4
-        self.amplitude = p.runtime.empty(self.slots.count * rows * columns * kept * total)
+        of_tables = [size * self.slots.count * real for size in self.sizes]
+        of_amplitudes = self.slots.count * rows * columns * (8 if compensated else 4) * total
+        self.nbytes = sum(of_tables) + of_amplitudes
+        self.tables = p.runtime.empty(of_tables[0]), p.runtime.empty(of_tables[1])
+        if self.frequencies.a.count < rows:
+            # The last tile's rows beyond the last frequency are multiplied too: as numbers, not as whatever
+            # the memory held, since denormals take a processor a hundred cycles each.
+            p.runtime.clear(self.tables[0], of_tables[0])
+        self.amplitude = p.runtime.empty(of_amplitudes)
 
     def batches(self, x: FloatArray, weights: FloatArray | None = None) -> Iterator[tuple[int, int]]:
         """Evaluate the amplitudes of one batch of sets after another, and leave each on the device.
@@ -88,22 +102,49 @@ class TwoGroupProduct:
         first, count : int
             First set and number of sets whose amplitudes ``amplitude`` holds until the next batch.
         """
-        p, slots = self.p, self.slots
-        weight = np.zeros((1 if weights is None else len(weights), self.stride), p.real)
-        weight[:, : self.n] = 1 if weights is None else weights
-        shared = p.runtime.upload(weight[:1])
+        slots = self.slots
         for first in range(0, len(x), slots.sets):
             batch = slice(first, first + slots.sets)
-            own = shared if len(weight) == 1 else p.runtime.upload(weight[batch])
-            turns = p.runtime.upload(p.turns(x[batch], self.stride))
-            points = DevicePoints(turns, own, self.stride, 0 if own is shared else self.stride)
+            shared = weights is None or len(weights) == 1
+            points = self.upload(x[batch], weights if weights is None or shared else weights[batch])
             count = len(x[batch])
             for begin in range(0, self.stride, slots.span):
                 self.frequencies.tabulate(
-                    *(self.program, (0, 2), points, self._tables, slots), self._sizes, count, begin
+                    *(self.program, (0, 2), points, self.tables, slots), self.sizes, count, begin
                 )
                 self.multiply(count, again=begin > 0)
             yield first, count
+
+    def upload(self, x: FloatArray, weights: FloatArray | None) -> DevicePoints:
+        """Upload a batch of sets.
+
+        Parameters
+        ----------
+        x : (sets, n, d) float64
+            Points.
+        weights : (sets or 1, n) float64 or None
+            Their weights.
+
+        Returns
+        -------
+        DevicePoints
+        """
+        turns = self.p.runtime.upload(self.p.turns(x, self.stride))
+        if weights is None:
+            return DevicePoints(turns, self._ones, self.stride, 0)
+        own = self._upload_weights(weights)
+        return DevicePoints(turns, own, self.stride, 0 if len(weights) == 1 else self.stride)
+
+    @cached_property
+    def _ones(self) -> Any:
+        """The weights of points without weights."""
+        return self._upload_weights(np.ones((1, self.n)))
+
+    def _upload_weights(self, weights: FloatArray) -> Any:
+        """Upload weights, which are 0 beyond the last point: (k, n) float64."""
+        padded_weights = np.zeros((len(weights), self.stride), self.p.real)
+        padded_weights[:, : self.n] = weights
+        return self.p.runtime.upload(padded_weights)
 
     def multiply(self, sets: int, again: bool = False) -> None:
         """Multiply the tables of a batch.
@@ -119,8 +160,8 @@ class TwoGroupProduct:
             *(
                 self.frequencies,
                 self.program,
-                self._tables,
-                self._sizes,
+                self.tables,
+                self.sizes,
                 self.slots.length,
                 sets * self.slots.splits,
             ),
@@ -130,6 +171,7 @@ class TwoGroupProduct:
         )
 
 
+@lru_cache(maxsize=256)
 def product_errors(p: Precision, n: int, slots: Slots, fmax: int, at: Coordinates) -> Errors:
     """State the errors of sqrt(power), for terms of four cosines and three complex products.
 

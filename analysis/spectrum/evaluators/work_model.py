@@ -16,12 +16,19 @@ from gbnbench.opencl.peak_rate import launch_seconds, peak
 # Multiply-adds for a pair of frequencies and a point (four, and the waste of a tile), for an entry of a
 # table, for a cosine and sine, for a power that is written, and for a pair that is reduced to its shell.
 TILE, ENTRY, COSINE, WRITTEN, SHELL = 5.0, 40.0, 200.0, 20.0, 550.0
-CALL_SECONDS = 4e-4  # for every request
+SET_UP = 1.4e6  # multiply-adds that take as long as all else of a call
+SET_UP_SECONDS = 4.2e-11  # of a core, for each multiply-add of a set-up
+CALL_SECONDS = 1e-4  # for every request, where there are no launches
 NUMPY_RATE = 4e9  # multiply-adds that numpy does in a second on one core
 
 
 def device_cost(
-    p: Precision, request: SpectrumRequest, work: float, launches: float, held: float
+    p: Precision,
+    request: SpectrumRequest,
+    work: float,
+    launches: float,
+    held: float,
+    set_up: float = SET_UP,
 ) -> EvaluationCost:
     """Turn work into time by the device's measured multiply-add peak.
 
@@ -32,11 +39,13 @@ def device_cost(
     request : SpectrumRequest
         What is evaluated.
     work : float
-        Multiply-adds.
+        Multiply-adds, without the set-up.
     launches : float
         Number of kernel launches.
     held : float
         Bytes besides the points'.
+    set_up : float
+        Multiply-adds that take as long in double as the set-up does, in any precision.
 
     Returns
     -------
@@ -45,5 +54,5 @@ def device_cost(
     points = request.realizations * request.n * request.d * 2 * np.dtype(p.real).itemsize
     device = p.runtime.device
     cores = device.compute_units if device.is_cpu else 1
-    seconds = CALL_SECONDS + launches * launch_seconds() + 2 * work / peak(p.name) / cores
+    seconds = SET_UP_SECONDS * set_up + launches * launch_seconds() + 2 * work / peak(p.name) / cores
     return EvaluationCost(2 * work, int(held + points), seconds)

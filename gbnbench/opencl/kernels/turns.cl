@@ -15,7 +15,7 @@
  * and the low half are put behind the exponents of 2^84 and 2^52, which leaves one rounding, that of their
  * sum. */
 #if DOUBLE && LANES > 1
-static REALV real_of_turn(STURNV t)
+INLINE REALV real_of_turn(STURNV t)
 {
     const TURNV high = (AS_TURNV(t) >> (TURN)32) ^ (TURN)0x4530000080000000;
     const TURNV low = (AS_TURNV(t) & (TURN)0xffffffff) | (TURN)0x4330000000000000;
@@ -25,7 +25,7 @@ static REALV real_of_turn(STURNV t)
 #define real_of_turn TO_REALV
 #endif
 
-static void cos_sin_of_turn(TURNV phase, REALV *cosine, REALV *sine)
+INLINE void cos_sin_of_turn(TURNV phase, REALV *cosine, REALV *sine)
 {
     const TURN eighth = (TURN)1 << (TURN_BITS - 3);
     TURNV quarter = (phase + eighth) >> (TURN_BITS - 2);

@@ -30,7 +30,7 @@ from gbnbench.core.torus import FloatArray
 
 # Multiply-adds of carrying a frequency from a point to a node, and of folding it at a node.
 SPREAD, CARRIED = 7.0, 60.0
-SET_UP = 2e7  # multiply-adds that take as long as its additional launches and its sort
+SET_UP = 1.1e7  # multiply-adds that take as long as its additional launches and its sort
 
 
 @dataclass(frozen=True)
@@ -89,7 +89,7 @@ class GriddedProduct(DeviceEvaluator):
         """Estimate the product's cost on the device, the grid of a set and its folded copy included."""
         p = self.on_device
         held = 3 * 8 * (2 * request.fmax + 1) ** request.d + 2 * TABLE_BYTES + 2 * grid_bytes(p, request)
-        return device_cost(p, request, self._product_work(request), 8.0, held)
+        return device_cost(p, request, self._product_work(request), 8.0, held, SET_UP)
 
     def expected_errors(self, request: SpectrumRequest) -> Errors:
         """State the product's errors for points that are spread over the torus."""

@@ -45,7 +45,8 @@ def gridded_powers(
     norms, axes = norms_of(weights, sets, n), whole_axes(d, fmax)
     gains = window_transform(p, fmax) ** 2
     divided = Division(axes[:1], axes[1:], 0, 0)
-    writer = CubeWriter(p, divided, fmax, norms, d, half=half, mean=mean, gains=gains)
+    writer = CubeWriter(p, divided, fmax, sets, d, half=half, mean=mean, gains=gains)
+    over = p.runtime.upload(norms.astype(p.sum))
     crowd = 0
     for first in range(0, sets, grid.sets):
         some = slice(first, first + grid.sets)
@@ -55,7 +56,7 @@ def gridded_powers(
             held, weights if weights is None or len(weights) == 1 else weights[some], crowd > KEPT_FROM
         )
         grid.multiply(len(held.x))
-        writer.add(grid.program, grid.amplitude, 1, first, len(held.x), 0, fmax + 1)
+        writer.add(grid.program, grid.amplitude, 1, over, first, len(held.x), 0, fmax + 1)
     power = writer.result()
     errors = gridded_errors(p, fmax, crowd, coordinates(x, p.name, weights))
     at = (2 * fmax + 1) ** (d - 1) // 2

@@ -21,6 +21,37 @@ RUN_SHARE = 0.25  # nodes that are added up for the runs, over those that points
 
 
 @dataclass(frozen=True)
+class BinnedPoints:
+    """Point sets with the bins of their points, which are a window's cells wide.
+
+    Attributes
+    ----------
+    x : (sets, n, d) float64
+        The points.
+    turns : (sets, d, n) uint64 or uint32
+        Fixed-point coordinates.
+    bin_of : (sets, n) int64
+        Bins of points: 0 .. grid.bins**d - 1, the last axis fastest.
+    counts : (sets, grid.bins**d) int64
+        Points of each bin.
+    """
+
+    x: FloatArray
+    turns: NDArray[Any]
+    bin_of: NDArray[np.int64]
+    counts: NDArray[np.int64]
+
+    @property
+    def crowd(self) -> int:
+        """Points in the fullest bin of any set."""
+        return int(self.counts.max())
+
+    def __getitem__(self, sets: slice) -> BinnedPoints:
+        """Give some of the sets."""
+        return BinnedPoints(self.x[sets], self.turns[sets], self.bin_of[sets], self.counts[sets])
+
+
+@dataclass(frozen=True)
 class Bands:
     """A batch of point sets, each in bands of its grid.
 
@@ -53,8 +84,8 @@ class Bands:
         return int(self.starts.shape[1]) - 1
 
 
-def dealt_to_bands(p: Precision, grid: RealGrid, x: FloatArray) -> Bands:
-    """Deal the points of each set out to as many bands as keep all cores busy, or fit in the cache.
+def binned(p: Precision, grid: RealGrid, x: FloatArray) -> BinnedPoints:
+    """Find the bins of points, and count the points of each.
 
     Parameters
     ----------
@@ -67,13 +98,31 @@ def dealt_to_bands(p: Precision, grid: RealGrid, x: FloatArray) -> Bands:
 
     Returns
     -------
+    BinnedPoints
+    """
+    turns = p.turns(x, x.shape[1])
+    bin_of = bins(turns, grid)
+    return BinnedPoints(x, turns, bin_of, bin_counts(bin_of, grid))
+
+
+def dealt_to_bands(p: Precision, grid: RealGrid, points: BinnedPoints) -> Bands:
+    """Deal the points of each set out to as many bands as keep all cores busy, or fit in the cache.
+
+    Parameters
+    ----------
+    p : Precision
+        Precision on the device.
+    grid : RealGrid
+        The grid.
+    points : BinnedPoints
+        Point sets, with their bins on this grid.
+
+    Returns
+    -------
     Bands
     """
-    sets, n, _ = x.shape
-    turns = p.turns(x, n)
-    bin_of = bins(turns, grid)
-    counts = bin_counts(bin_of, grid)
-    crowd = int(counts.max())
+    turns, bin_of, counts, crowd = points.turns, points.bin_of, points.counts, points.crowd
+    sets, n = bin_of.shape
     runs = run_count(grid, n, crowd)
     bands, rows = _division(p.runtime.device.compute_units, grid, sets, n)
     starts = np.full((sets, bands + 1), n, np.uint32)
@@ -102,10 +151,10 @@ def bins(turns: NDArray[Any], grid: RealGrid) -> NDArray[np.int64]:
     (sets, n) int64
         0 .. grid.bins**d - 1, the last axis fastest.
     """
-    found = cells(turns[:, 0], grid.nodes) // grid.width
+    along = cells(turns, grid.nodes) // grid.width
+    found = along[:, 0]
     for a in range(1, turns.shape[1]):
-        found *= grid.bins
-        found += cells(turns[:, a], grid.nodes) // grid.width
+        found = found * grid.bins + along[:, a]
     return found
 
 
@@ -186,5 +235,11 @@ def cells(turns: NDArray[Any], nodes: int) -> NDArray[np.int64]:
     half, size = np.uint64(32), np.uint64(nodes)
     if turns.dtype == np.uint32:
         return (turns.astype(np.uint64) * size >> half).astype(np.int64)
-    low = (turns & np.uint64(0xFFFFFFFF)) * size >> half
-    return ((turns >> half) * size + low >> half).astype(np.int64)
+    low = turns & np.uint64(0xFFFFFFFF)
+    low *= size
+    low >>= half
+    high = turns >> half
+    high *= size
+    high += low
+    high >>= half
+    return high.view(np.int64)  # below 2^32

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 from gbnbench.analysis.precision import Precision
 from gbnbench.analysis.spectrum.error_model import UNIT, Coordinates, Errors
@@ -44,8 +45,7 @@ def fft_errors(p: Precision, grid: RealGrid, n: int, crowd: int, runs: int, at: 
         bound is not proven, since no useful one is known for the FFT: its constants are three times what was
         met on lattices, lines, clusters and coincident points.
     """
-    transform, unit = transform_of_window(grid), UNIT[p.name]
-    magnified = float(transform[0] / transform.min()) ** grid.d
+    unit, magnified = UNIT[p.name], magnification(grid)
     rounded = 2 * math.pi * grid.fmax
     usual = min(crowd, usual_crowd(grid, n))
     typical = unit * math.hypot(TYPICAL[p.name], TYPICAL_CROWD * (usual / runs + crowd - usual))
@@ -56,6 +56,14 @@ def fft_errors(p: Precision, grid: RealGrid, n: int, crowd: int, runs: int, at: 
     return Errors(typical, min(at.share * relative + rounded * at.coherent, 1.001 * at.share))
 
 
+@lru_cache(maxsize=64)
+def magnification(grid: RealGrid) -> float:
+    """Give the ratio of the window's gain at zero frequency to that at the corner of the cube."""
+    transform = transform_of_window(grid)
+    return float(transform[0] / transform.min()) ** grid.d
+
+
+@lru_cache(maxsize=64)
 def usual_crowd(grid: RealGrid, n: int) -> int:
     """Count the points in the fullest bin of scattered points.
 

@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import ClassVar
 
 from gbnbench.analysis.spectrum.error_model import UNIT, Errors, rms_for, rounded_at_worst
 from gbnbench.analysis.spectrum.evaluators.cube_product import CubeProduct
 from gbnbench.analysis.spectrum.evaluators.device_evaluator import DeviceEvaluator
 from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.bands import CACHE_BYTES, bin_counts, bins, run_count
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.bands import (
+    CACHE_BYTES,
+    BinnedPoints,
+    binned,
+    run_count,
+)
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.errors import WINDOW_TYPICAL, fft_errors, usual_crowd
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import AXES, real_grid
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.powers import fft_powers, sets_together
@@ -23,19 +28,27 @@ from gbnbench.core.memory import memory_limit
 from gbnbench.core.torus import FloatArray
 
 # Multiply-adds of the product that take as long as a point on each axis, a node that it reaches, in the cache
-# and beyond it, a node and level of the transform, a power, and a call. Fitted to the CPU times of twelve
-# cubes on one Intel core, n = 256 to 4,096 and F = 8 to 4,096 in 1D to 3D.
-POINT, REACHED, FAR_REACHED, LEVEL, WRITTEN, SET_UP = 1700.0, 7.0, 14.0, 4.2, 30.0, 4e6
+# and beyond it, a node and level of the transform, a power, and a call. Fitted to the CPU times of 38 cubes
+# on one Intel core, n = 16 to 16,384 and F = 4 to 4,096 in 1D to 3D: 8 in 10 are within 15%.
+POINT, REACHED, FAR_REACHED, LEVEL, WRITTEN, SET_UP = 610.0, 7.6, 10.9, 4.9, 78.0, 3.5e6
 LARGEST_TYPICAL = 9.0  # typical error in units of rounding, beyond which crowded points go to the product
 
 
 @dataclass(frozen=True)
 class GriddedFFT(DeviceEvaluator):
-    """The gridded FFT beside an OpenCL device that is a CPU, for cubes in up to three dimensions."""
+    """The gridded FFT beside an OpenCL device that is a CPU, for cubes in up to three dimensions.
+
+    Attributes
+    ----------
+    points : BinnedPoints or None
+        The points that ``for_points`` binned, which need not be binned again.
+    """
 
     method: ClassVar[str] = "fft"
     title: ClassVar[str] = "gridded FFT"
     serves: ClassVar[tuple[Frequencies, ...]] = ("cube", "half cube")
+
+    points: BinnedPoints | None = field(default=None, compare=False, repr=False)
 
     @classmethod
     def offer(
@@ -63,6 +76,9 @@ class GriddedFFT(DeviceEvaluator):
 
     def work(self, request: SpectrumRequest) -> float:
         """Count the points carried to the grid, its transform, the powers written, and the set-up."""
+        return self._arithmetic(request) + SET_UP
+
+    def _arithmetic(self, request: SpectrumRequest) -> float:
         grid = real_grid(request.d, request.fmax, self.precision)
         nodes = grid.nodes**request.d
         # In the plane bands of a grid stay in the cache.
@@ -71,11 +87,12 @@ class GriddedFFT(DeviceEvaluator):
         points = request.n * (POINT * request.d + reached * grid.width**request.d)
         outputs = (2 * request.fmax + 1) ** request.d
         each = points + LEVEL * nodes * math.log2(nodes) + WRITTEN * outputs
-        return float(request.realizations * each + SET_UP)
+        return float(request.realizations * each)
 
     def cost(self, request: SpectrumRequest) -> EvaluationCost:
         """Estimate the cost on the device, the grids of a batch and their transforms included."""
-        return device_cost(self.on_device, request, self.work(request), 2.0, self._held(request))
+        held = self._held(request)
+        return device_cost(self.on_device, request, self._arithmetic(request), 2.0, held, SET_UP)
 
     def _held(self, request: SpectrumRequest) -> float:
         """Count the bytes of the grids of a batch, their transforms and the cube."""
@@ -95,14 +112,16 @@ class GriddedFFT(DeviceEvaluator):
         """Give the product's place to crowded points, as ``Evaluator.for_points`` describes it."""
         p, (_, n, d) = self.on_device, x.shape
         grid = real_grid(d, fmax, self.precision)
-        crowd = int(bin_counts(bins(p.turns(x, n), grid), grid).max())
-        errors = fft_errors(p, grid, n, crowd, run_count(grid, n, crowd), rounded_at_worst(n, d, p.name))
+        points = binned(p, grid, x)
+        runs = run_count(grid, n, points.crowd)
+        errors = fft_errors(p, grid, n, points.crowd, runs, rounded_at_worst(n, d, p.name))
         usual = math.hypot(LARGEST_TYPICAL * UNIT[p.name], WINDOW_TYPICAL[p.name])
         allowed = usual if floor is None else max(usual, rms_for(floor))
-        return CubeProduct(self.precision) if errors.rms > allowed else self
+        return CubeProduct(self.precision) if errors.rms > allowed else replace(self, points=points)
 
     def cube(
         self, x: FloatArray, fmax: int, weights: FloatArray | None, *, half: bool, mean: bool
     ) -> tuple[FloatArray, Errors]:
         """Evaluate the power of a cube, as ``Evaluator.cube`` describes it."""
-        return fft_powers(self.on_device, x, fmax, weights, half, mean)
+        known = self.points if self.points is not None and self.points.x is x else None
+        return fft_powers(self.on_device, x, fmax, weights, half, mean, known)

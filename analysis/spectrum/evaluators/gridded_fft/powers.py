@@ -14,7 +14,12 @@ from numpy.typing import NDArray
 
 from gbnbench.analysis.precision import Precision
 from gbnbench.analysis.spectrum.error_model import Errors, coordinates
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.bands import Bands, dealt_to_bands
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.bands import (
+    Bands,
+    BinnedPoints,
+    binned,
+    dealt_to_bands,
+)
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.errors import fft_errors
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import RealGrid, real_grid, transform_of_window
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.transform import harmonics
@@ -32,10 +37,12 @@ def fft_powers(
     weights: FloatArray | None = None,
     half: bool = False,
     mean: bool = True,
+    points: BinnedPoints | None = None,
 ) -> tuple[FloatArray, Errors]:
     """Evaluate the power at all frequencies with |f_a| <= fmax.
 
     Parameters and returns are those of ``cube_product.cube_powers``; the device is a CPU, and d at most 3.
+    ``points`` are the same points with their bins, where those are known.
     """
     sets, n, d = x.shape
     grid, base, rt = real_grid(d, fmax, p.name), 2 * fmax + 1, p.runtime
@@ -46,14 +53,15 @@ def fft_powers(
     out, over = rt.shared(power), rt.upload((1 / norms).astype(p.sum))
     at, errors = coordinates(x, p.name, weights), Errors(0.0, 0.0)
     for first in range(0, sets, together):
-        some = x[first : first + together]
+        end = min(first + together, sets)
+        some = binned(p, grid, x[first:end]) if points is None else points[first:end]
         bands = dealt_to_bands(p, grid, some)
         errors = errors.or_larger(fft_errors(p, grid, n, bands.crowd, bands.runs, at))
-        weight = None if weights is None or len(weights) == 1 else weights[first : first + together]
+        weight = None if weights is None or len(weights) == 1 else weights[first:end]
         spread(p, grid, work, bands, weights if weight is None else weight)
         rt.finish()
-        transformed = work.harmonics[: len(some)]
-        harmonics(grid, work.nodes[: len(some)], transformed, rt.device.compute_units)
+        transformed = work.harmonics[: end - first]
+        harmonics(grid, work.nodes[: end - first], transformed, rt.device.compute_units)
         work.power.run(
             "grid_power",
             {1: (1, 1), 2: (base, 1), 3: (base, base)}[d],
@@ -64,7 +72,7 @@ def fft_powers(
             np.uint32(grid.nodes),
             np.uint32(base),
             np.int32(fmax),
-            np.uint32(len(some)),
+            np.uint32(end - first),
             over,
             np.uint32(first),
             work.gains,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -13,9 +12,8 @@ from numpy.typing import NDArray
 from gbnbench.analysis.precision import Precision
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import RealGrid, transform_of_window, window_terms
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.transform import shape_of_harmonics
+from gbnbench.analysis.spectrum.evaluators.kept_memory import kept
 from gbnbench.opencl import Program
-
-KEPT_BYTES = 64 << 20  # of grids that are kept after a call
 
 
 @dataclass(frozen=True)
@@ -47,17 +45,19 @@ class Workspace:
     spread: Program
     power: Program
 
+    @property
+    def nbytes(self) -> int:
+        """Bytes of the grids and of their transforms."""
+        return self.nodes.nbytes + self.harmonics.nbytes
+
     @cached_property
     def parts(self) -> Any:
         """Memory as large as the grids', where each of several runs is summed."""
         return self.spread.owner.empty(self.nodes.nbytes)
 
 
-_kept = threading.local()
-
-
 def workspace(p: Precision, grid: RealGrid, sets: int) -> Workspace:
-    """Give the workspace of this thread's last such request, or make one.
+    """Give the workspace of this thread for such requests, or make one.
 
     Parameters
     ----------
@@ -72,16 +72,15 @@ def workspace(p: Precision, grid: RealGrid, sets: int) -> Workspace:
     -------
     Workspace
     """
-    key = (p, grid, sets)
-    last: tuple[Any, Workspace] | None = getattr(_kept, "last", None)
-    if last is not None and last[0] == key:
-        return last[1]
-    _kept.last = None  # so that its memory is free
+    return kept(_made, p, grid, sets)
+
+
+def _made(p: Precision, grid: RealGrid, sets: int) -> Workspace:
     rt = p.runtime
     nodes = np.empty((sets, *grid.shape), p.real)
     transforms = np.empty((sets, *shape_of_harmonics(grid)), np.result_type(p.real, np.complex64))
     terms = window_terms(p.name)
-    made = Workspace(
+    return Workspace(
         nodes=nodes,
         harmonics=transforms,
         grids=rt.shared(nodes),
@@ -91,6 +90,3 @@ def workspace(p: Precision, grid: RealGrid, sets: int) -> Workspace:
         spread=p.program("grid_spread.cl", AXES=grid.d, WIDTH=grid.width, TERMS=len(terms)),
         power=p.program("grid_power.cl", AXES=grid.d),
     )
-    if nodes.nbytes <= KEPT_BYTES:
-        _kept.last = (key, made)
-    return made

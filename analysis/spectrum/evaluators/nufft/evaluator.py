@@ -98,7 +98,7 @@ class NonuniformFFT(Evaluator):
         seconds = sets * nufft_seconds(self.library, n, d, f, self.tolerance)
         together = self._together(sets, n, d, f)
         held = together * self._held(request)
-        return EvaluationCost(seconds * NUMPY_RATE, held, CALL_SECONDS / 4 + seconds / together)
+        return EvaluationCost(seconds * NUMPY_RATE, held, CALL_SECONDS + seconds / together)
 
     def expected_errors(self, request: SpectrumRequest) -> Errors:
         """State the errors met on scattered and on coincident points."""

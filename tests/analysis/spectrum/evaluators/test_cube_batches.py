@@ -7,10 +7,11 @@ import pytest
 
 from gbnbench.analysis.precision import precision_of
 from gbnbench.analysis.spectrum.digits import cheapest_division, half_size
-from gbnbench.analysis.spectrum.evaluators import cube_product, point_slots
-from gbnbench.analysis.spectrum.evaluators.cube_product import cube_powers, row_blocks
+from gbnbench.analysis.spectrum.evaluators import kept_memory, point_slots, prepared_cube
+from gbnbench.analysis.spectrum.evaluators.cube_product import cube_powers
 from gbnbench.analysis.spectrum.evaluators.frequency_group import Group
 from gbnbench.analysis.spectrum.evaluators.point_slots import COMPENSATED_FROM
+from gbnbench.analysis.spectrum.evaluators.prepared_cube import row_blocks
 from gbnbench.analysis.spectrum.evaluators.two_group_product import TwoGroupProduct
 from tests.analysis.spectrum.evaluators.cube_truth import UNIT, check
 from tests.devices import gpu_form
@@ -72,7 +73,8 @@ def test_rows_in_blocks_change_nothing(monkeypatch, d, fmax, form):
     x = on_grid((3, 33, d), d)
     weights = np.random.default_rng(d).random((3, 33))
     whole = [cube_powers(p, x, fmax, weights, half, mean)[0] for half in (0, 1) for mean in (0, 1)]
-    monkeypatch.setattr(cube_product, "AMPLITUDE_BYTES", 1 << 10)
+    monkeypatch.setattr(prepared_cube, "AMPLITUDE_BYTES", 1 << 10)
+    kept_memory.forget()
     divided = cheapest_division(d, fmax, point_slots.tile_rows(p))
     assert len(list(row_blocks(p, divided))) > 1
     parts = [cube_powers(p, x, fmax, weights, half, mean)[0] for half in (0, 1) for mean in (0, 1)]
@@ -87,4 +89,4 @@ def test_many_small_sets_do_not_ask_for_more_than_the_room_of_amplitudes(n, sets
     divided = cheapest_division(2, 1023, point_slots.tile_rows(p))
     rows, columns = half_size(divided.leading), half_size(divided.trailing)
     slots = point_slots.choose_slots(p, n, sets, rows, columns)
-    assert slots.count * rows * columns * 4 * 8 <= cube_product.AMPLITUDE_BYTES
+    assert slots.count * rows * columns * 4 * 8 <= point_slots.AMPLITUDE_BYTES

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from gbnbench.analysis.precision import Precision, precision_of
 from gbnbench.analysis.spectrum.digits import cheapest_division
-from gbnbench.analysis.spectrum.evaluators import cube_product
+from gbnbench.analysis.spectrum.evaluators import kept_memory, prepared_cube
 from gbnbench.analysis.spectrum.evaluators.cube_product import cube_powers
 from gbnbench.analysis.spectrum.evaluators.cube_writer import covered
 from gbnbench.opencl import runtime
@@ -44,7 +44,8 @@ def test_every_place_that_the_axis_can_be_divided_at_gives_the_same_cube(monkeyp
         for at in range(d):
             for fine in range(fmax + 1):
                 found = division(whole_axes(d, fmax), at, fine)
-                monkeypatch.setattr(cube_product, "cheapest_division", lambda *_, found=found: found)
+                monkeypatch.setattr(prepared_cube, "cheapest_division", lambda *_, found=found: found)
+                kept_memory.forget()
                 for half in (False, True):
                     power, errors = cube_powers(precision_of("double"), x, fmax, half=half)
                     wanted = truth[len(truth) // (2 * fmax + 1) * fmax :] if half else truth

@@ -33,9 +33,9 @@ from tests.oracles.power import mean_power, root_distance
 def alone(monkeypatch, library):
     """Give a library that is the only one installed."""
     monkeypatch.setattr(transform_module, "LIBRARIES", (library,))
-    choice._asked_for.cache_clear()
+    choice._weighed.cache_clear()
     yield library
-    choice._asked_for.cache_clear()
+    choice._weighed.cache_clear()
 
 
 @pytest.mark.parametrize("one", LIBRARIES, ids=lambda one: one.name)
