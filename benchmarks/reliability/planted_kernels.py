@@ -47,6 +47,9 @@ PLANTS = {
         "selected.cl", "k = first; k < end", "k = first + LANES; k < end", "listed frequencies"
     ),
     "a Taylor term": Plant("/turns.cl", "1.0 / 24 ", "1.0 / 25 ", "two-group product"),
+    "a tile of a small cube": Plant(
+        "small_cube.cl", "(rows + ROWS - 1) / ROWS", "rows / ROWS", "two-group product"
+    ),
     "a quarter turn": Plant("/turns.cl", "(quarter & (TURN)2)", "(quarter & (TURN)1)", "two-group product"),
     "pairs counted once": Plant("shells.cl", "? 2 : 1", "? 1 : 1", "shells"),
     "a shell at the edge": Plant("shells.cl", "square > high", "square >= high", "shells"),
@@ -56,7 +59,7 @@ PLANTS = {
     ),
     "a negative frequency": Plant("grid_power.cl", "f + wrap : f", "f + wrap - 1 : f", "gridded FFT"),
     "a kernel of pairs": Plant("discrepancy_pairs.cl", "(t - t * t)", "(t + t * t)", "discrepancy, periodic"),
-    "a lane too many": Plant("pair_distances.cl", "end - j : LANES", "LANES : LANES", "pair distances"),
+    "a lane too many": Plant("pair_distances.cl", "l < end - j", "l < LANES", "pair distances"),
     "a smaller for a larger": Plant(
         "discrepancy_pairs.cl", "at[a] > other", "at[a] < other", "discrepancy, star"
     ),
