@@ -105,9 +105,7 @@ def nufft_power(
     np.multiply(amplitude.real, amplitude.real, out=kept)
     kept += amplitude.imag**2
     kept /= float(scaled @ scaled)
-    middle = kept[:1].reshape(
-        -1
-    )  # the frequencies with f_0 = 0, each of which stands there with its mirror image
+    middle = kept[:1].reshape(-1)  # f_0 = 0, where each frequency stands beside its mirror image
     middle[: middle.size // 2] = middle[: middle.size // 2 : -1]
     # DC is known, and its error would be coherent.
     middle[middle.size // 2] = scaled.sum() ** 2 / float(scaled @ scaled)
