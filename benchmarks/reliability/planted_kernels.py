@@ -93,7 +93,7 @@ PLANTS = {
 def _spoil(plant: Plant, folder: Path) -> None:
     """Copy the package into a folder, with the mistake in its kernel."""
     package = folder / "gbnbench"
-    skipped = shutil.ignore_patterns("__pycache__", "*.npz", "*.pdf", "*.png")
+    skipped = shutil.ignore_patterns("__pycache__", "*.npz", "*.pdf", "*.png", ".gbnbench-*.tmp")
     shutil.copytree(Path(gbnbench.__file__).parent, package, ignore=skipped)
     (kernel,) = package.rglob(f"kernels/{plant.file.lstrip('/')}")
     text = kernel.read_text(encoding="utf-8")
