@@ -20,8 +20,8 @@ from gbnbench.analysis.spectrum.error_model import Errors
 from gbnbench.analysis.spectrum.evaluators.gridded.product import griddable
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import AXES
 from gbnbench.analysis.spectrum.evaluators.nufft.evaluator import NonuniformFFT
-from gbnbench.analysis.spectrum.evaluators.nufft.library import DIMENSIONS
 from gbnbench.analysis.spectrum.evaluators.nufft.transform import installed
+from gbnbench.analysis.spectrum.evaluators.nufft.transform_library import DIMENSIONS
 from gbnbench.analysis.spectrum.evaluators.registry import Method, title_of
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.benchmarks.spectra.hard_case import Frequencies, HardCase

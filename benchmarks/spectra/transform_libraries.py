@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from gbnbench.analysis.spectrum.evaluators.nufft.ducc import DUCC0
 from gbnbench.analysis.spectrum.evaluators.nufft.finufft import FINUFFT
-from gbnbench.analysis.spectrum.evaluators.nufft.library import DIMENSIONS
 from gbnbench.analysis.spectrum.evaluators.nufft.transform import shifted
+from gbnbench.analysis.spectrum.evaluators.nufft.transform_library import DIMENSIONS
 from gbnbench.core.torus import FloatArray
 
 TOLERANCES = {

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 
-from gbnbench.analysis.spectrum.evaluators.nufft.library import Library, Upsampling
+from gbnbench.analysis.spectrum.evaluators.nufft.transform_library import Library, Upsampling
 
 CACHED = 3e5  # complex grid points beyond which an FFT leaves the cache
 WIDEST = 16  # points across the widest kernel of both libraries

@@ -11,7 +11,12 @@ from typing import Any
 
 import numpy as np
 
-from gbnbench.analysis.spectrum.evaluators.nufft.library import Library, Rounding, TransformCost, Upsampling
+from gbnbench.analysis.spectrum.evaluators.nufft.transform_library import (
+    Library,
+    Rounding,
+    TransformCost,
+    Upsampling,
+)
 from gbnbench.core.torus import FloatArray
 
 # Factor of the points in the bound of rounding, by tolerance and dimension: some three times the
@@ -38,7 +43,7 @@ def transform(
 
     Where a wide grid is expected to be cheaper, it is held to one, whose rounding is not magnified.
 
-    Parameters and returns are those of ``library.Transform``.
+    Parameters and returns are those of ``transform_library.Transform``.
     """
     import ducc0
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from gbnbench.analysis.spectrum.error_model import UNIT, Errors
 from gbnbench.analysis.spectrum.evaluators.nufft.cost import cheapest_layout
-from gbnbench.analysis.spectrum.evaluators.nufft.library import DIMENSIONS, LOOSEST, Library
+from gbnbench.analysis.spectrum.evaluators.nufft.transform_library import DIMENSIONS, LOOSEST, Library
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
 

@@ -13,8 +13,8 @@ from gbnbench.analysis.spectrum.evaluators.nufft import transform
 from gbnbench.analysis.spectrum.evaluators.nufft.cost import nufft_bytes, nufft_seconds
 from gbnbench.analysis.spectrum.evaluators.nufft.errors import nufft_errors, nufft_tolerance
 from gbnbench.analysis.spectrum.evaluators.nufft.finufft import FINUFFT
-from gbnbench.analysis.spectrum.evaluators.nufft.library import DIMENSIONS, Library
 from gbnbench.analysis.spectrum.evaluators.nufft.transform import nufft_power
+from gbnbench.analysis.spectrum.evaluators.nufft.transform_library import DIMENSIONS, Library
 from gbnbench.analysis.spectrum.evaluators.protocol import Evaluator
 from gbnbench.analysis.spectrum.evaluators.set_by_set import set_by_set
 from gbnbench.analysis.spectrum.evaluators.work_model import CALL_SECONDS, NUMPY_RATE
@@ -37,7 +37,7 @@ class NonuniformFFT(Evaluator):
         Precision of its arithmetic.
     tolerance : float
         Relative error of the transform.
-    library : Library
+    transformer : Library
         The library that transforms.
     """
 
@@ -46,7 +46,7 @@ class NonuniformFFT(Evaluator):
     serves: ClassVar[tuple[Frequencies, ...]] = ("cube", "half cube")
     approximate: ClassVar[bool] = True
 
-    library: Library = FINUFFT
+    transformer: Library = FINUFFT
 
     @classmethod
     def offer(
@@ -85,7 +85,7 @@ class NonuniformFFT(Evaluator):
     @property
     def device(self) -> str:
         """Where it runs."""
-        return f"{self.library.name} on the CPU"
+        return f"{self.transformer.name} on the CPU"
 
     @property
     def label(self) -> str:
@@ -95,14 +95,14 @@ class NonuniformFFT(Evaluator):
     def cost(self, request: SpectrumRequest) -> EvaluationCost:
         """Estimate the transforms' cost: each on one core, and as many at a time as the cores take."""
         n, d, f, sets = request.n, request.d, request.fmax, request.realizations
-        seconds = sets * nufft_seconds(self.library, n, d, f, self.tolerance)
+        seconds = sets * nufft_seconds(self.transformer, n, d, f, self.tolerance)
         together = self._together(sets, n, d, f)
         held = together * self._held(request)
         return EvaluationCost(seconds * NUMPY_RATE, held, CALL_SECONDS + seconds / together)
 
     def expected_errors(self, request: SpectrumRequest) -> Errors:
         """State the errors met on scattered and on coincident points."""
-        return nufft_errors(self.library, request.n, request.d, request.fmax, self.tolerance)
+        return nufft_errors(self.transformer, request.n, request.d, request.fmax, self.tolerance)
 
     def cube(
         self, x: FloatArray, fmax: int, weights: FloatArray | None, *, half: bool, mean: bool
@@ -116,21 +116,21 @@ class NonuniformFFT(Evaluator):
 
         def one_set(one: FloatArray, w: FloatArray | None) -> tuple[FloatArray, Errors]:
             threads = 1 if together > 1 else None
-            power = nufft_power(self.library, one, fmax, self.tolerance, w, threads, half=half)
-            return power, nufft_errors(self.library, n, d, fmax, self.tolerance, w)
+            power = nufft_power(self.transformer, one, fmax, self.tolerance, w, threads, half=half)
+            return power, nufft_errors(self.transformer, n, d, fmax, self.tolerance, w)
 
         return set_by_set(x, weights, one_set, mean=mean, together=together)
 
     def _together(self, sets: int, n: int, d: int, fmax: int) -> int:
         """Count the sets that are transformed at the same time."""
-        if nufft_seconds(self.library, n, d, fmax, self.tolerance) < WORTH_A_THREAD:
+        if nufft_seconds(self.transformer, n, d, fmax, self.tolerance) < WORTH_A_THREAD:
             return 1
-        room = MEMORY_SHARE * memory_limit() / nufft_bytes(self.library, n, d, fmax, self.tolerance)
+        room = MEMORY_SHARE * memory_limit() / nufft_bytes(self.transformer, n, d, fmax, self.tolerance)
         return max(1, min(sets, os.cpu_count() or 1, int(room)))
 
     def _held(self, request: SpectrumRequest) -> int:
         """Count the bytes of one transform."""
-        return nufft_bytes(self.library, request.n, request.d, request.fmax, self.tolerance)
+        return nufft_bytes(self.transformer, request.n, request.d, request.fmax, self.tolerance)
 
 
 def _tolerance(library: Library, request: SpectrumRequest, floor: float | None) -> float:

@@ -11,7 +11,12 @@ from typing import Any
 
 import numpy as np
 
-from gbnbench.analysis.spectrum.evaluators.nufft.library import Library, Rounding, TransformCost, Upsampling
+from gbnbench.analysis.spectrum.evaluators.nufft.transform_library import (
+    Library,
+    Rounding,
+    TransformCost,
+    Upsampling,
+)
 from gbnbench.core.torus import FloatArray
 
 # Small FFTs with wide kernels, or large with narrow. The first magnifies rounding at the corners of a grid.
@@ -23,8 +28,8 @@ def transform(
 ) -> Any:
     """Transform points by FINUFFT, whose own choice of upsampling hardly depends on the sizes.
 
-    Parameters and returns are those of ``library.Transform``. FINUFFT is given 2 pi (x - rint(x)), where the
-    difference is exact; 2 pi x would round twice as coarsely.
+    Parameters and returns are those of ``transform_library.Transform``. FINUFFT is given 2 pi (x - rint(x)),
+    where the difference is exact; 2 pi x would round twice as coarsely.
     """
     import finufft
 

@@ -14,7 +14,7 @@ import numpy as np
 from gbnbench.analysis.spectrum.evaluators.nufft.cost import cheapest_layout
 from gbnbench.analysis.spectrum.evaluators.nufft.ducc import DUCC0
 from gbnbench.analysis.spectrum.evaluators.nufft.finufft import FINUFFT
-from gbnbench.analysis.spectrum.evaluators.nufft.library import Library
+from gbnbench.analysis.spectrum.evaluators.nufft.transform_library import Library
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray, fixed_point
 

@@ -16,8 +16,8 @@ from gbnbench.analysis.spectrum.evaluators.nufft.cost import cheapest_layout, nu
 from gbnbench.analysis.spectrum.evaluators.nufft.ducc import DUCC0
 from gbnbench.analysis.spectrum.evaluators.nufft.errors import nufft_errors, nufft_tolerance
 from gbnbench.analysis.spectrum.evaluators.nufft.finufft import FINUFFT
-from gbnbench.analysis.spectrum.evaluators.nufft.library import LOOSEST
 from gbnbench.analysis.spectrum.evaluators.nufft.transform import LIBRARIES, nufft_power, shifted
+from gbnbench.analysis.spectrum.evaluators.nufft.transform_library import LOOSEST
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.core.errors import InputError
 from tests.analysis.spectrum.evaluators.nufft_truth import (

@@ -69,15 +69,15 @@ def test_half_the_modes_are_taken_unless_points_far_outnumber_them():
 @pytest.mark.skipif(not all(one.available for one in LIBRARIES), reason="a library is not installed")
 def test_ducc0_is_preferred_and_finufft_serves_what_it_cannot_reach(monkeypatch):
     request = plan(500, 3, 9).request
-    assert NonuniformFFT.offer(request, "double", floor=1e-9).library is DUCC0
-    assert NonuniformFFT.offer(request, "double").library is DUCC0
+    assert NonuniformFFT.offer(request, "double", floor=1e-9).transformer is DUCC0
+    assert NonuniformFFT.offer(request, "double").transformer is DUCC0
     deep = NonuniformFFT.offer(request, "double", floor=(200 * 4.3e-15) ** 2)
-    assert deep.library is FINUFFT
+    assert deep.transformer is FINUFFT
     assert deep.tolerance < DUCC0.tightest[2]
     out_of_reach = NonuniformFFT.offer(request, "double", floor=1e-28)
-    assert (out_of_reach.library, out_of_reach.tolerance) == (DUCC0, DUCC0.tightest[2])
+    assert (out_of_reach.transformer, out_of_reach.tolerance) == (DUCC0, DUCC0.tightest[2])
     monkeypatch.setattr(transform_module, "LIBRARIES", (FINUFFT,))
-    assert NonuniformFFT.offer(request, "double", floor=1e-9).library is FINUFFT
+    assert NonuniformFFT.offer(request, "double", floor=1e-9).transformer is FINUFFT
 
 
 @each_library
