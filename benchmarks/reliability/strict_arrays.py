@@ -37,7 +37,7 @@ def strict_npy(data: bytes) -> Sets:
     try:
         header = ast.literal_eval(data[start : start + length].decode("latin-1").strip())
         need(set(header) == {"descr", "fortran_order", "shape"})
-        kind = re.fullmatch(r"([<>=|]?)(f[248]|[efd])", header["descr"])
+        kind = re.fullmatch(r"([<>=|]?)(f0*[248]|[efd])", header["descr"])
         need(isinstance(header["fortran_order"], bool) and not header["fortran_order"])
     except (ValueError, SyntaxError, TypeError, AttributeError):
         raise NoPointsError from None
@@ -47,7 +47,7 @@ def strict_npy(data: bytes) -> Sets:
     need(isinstance(shape, tuple) and len(shape) in (2, 3))
     need(all(type(s) is int and s > 0 for s in shape))
     count = int(np.prod(shape))
-    code = {"f2": "e", "f4": "f", "f8": "d"}.get(kind[2], kind[2])
+    code = {"2": "e", "4": "f", "8": "d"}.get(kind[2][-1], kind[2])
     need(len(body) == count * struct.calcsize(f"={code}"))
     order = ">" if kind[1] == ">" else "<"
     values = struct.unpack(f"{order}{count}{code}", body)

@@ -127,6 +127,7 @@ BAD: list[tuple[str, str, bytes, int | None, str]] = [
     ("npy truncated", "a.npy", npy(A)[:-1], None, "truncated"),
     ("npy with a tail", "a.npy", npy(A) + b"\0", None, "33 are there"),
     ("npy header cut", "a.npy", npy(A)[:40], None, "damaged .npy header"),
+    ("npy of arrays of one float", "a.npy", npy(A).replace(b"<f8", b"1f8"), None, "damaged .npy header"),
     ("npy of ints", "a.npy", npy(np.zeros((2, 2), int)), None, "floats; got type int64"),
     ("npy of complex", "a.npy", npy(np.zeros((2, 2), complex)), None, "floats"),
     ("npy of one axis", "a.npy", npy(np.zeros(5)), None, "got (5,)"),

@@ -80,6 +80,8 @@ def read_array(path: Path, file: IO[bytes], size: int, where: str) -> NDArray[An
             path,
             f"{where}an array of Python objects is {UNSAFE}; save it as an array of floats, astype(float)",
         )
+    if dtype.subdtype is not None:
+        raise FormatError(path, f"{where}a damaged .npy header: numpy writes no array of type {dtype}")
     count = 1
     for length in shape:
         count *= int(length)
