@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from typing import ClassVar, Protocol, runtime_checkable
+from typing import ClassVar, Literal, Protocol, get_args, runtime_checkable
 
 import numpy as np
 
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray, check_points
+
+Family = Literal["direct", "lattice", "low-discrepancy", "cellular", "kernel-based", "spectral"]
+FAMILIES: tuple[Family, ...] = get_args(Family)
 
 
 @runtime_checkable
@@ -56,6 +59,30 @@ class Generator(Protocol):
             In [0, 1).
         """
         ...
+
+
+@runtime_checkable
+class ListedGenerator(Generator, Protocol):
+    """A generator with what lists say of it; those of gbnbench are all of this kind.
+
+    Attributes
+    ----------
+    family : str
+        The kind of method: points drawn one by one or cell by cell (direct), a lattice, a net or sequence of
+        low discrepancy, cells of equal size or optimal transport (cellular), energies of pairs
+        (kernel-based), or a spectrum that is aimed at (spectral).
+    dimensions : (int, int or None)
+        Least and largest d that it serves; None where there is no end.
+    toroidal : bool
+        Whether opposite sides of the unit cube meet by its design.
+    reference : str
+        The publication that it follows; empty where there is none to name.
+    """
+
+    family: ClassVar[Family]
+    dimensions: ClassVar[tuple[int, int | None]]
+    toroidal: ClassVar[bool]
+    reference: ClassVar[str]
 
 
 def realization_rng(seed: int, k: int) -> np.random.Generator:

@@ -22,13 +22,13 @@ from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.lattices.hexagonal import Hexagonal
 from gbnbench.generators.lattices.regular_grid import Grid
 from gbnbench.generators.monitor import Monitor, MonitoredGenerator, refuse_all_but_progress
-from gbnbench.generators.protocol import Generator, checked_draw, realization_rng
+from gbnbench.generators.protocol import Generator, ListedGenerator, checked_draw, realization_rng
 from gbnbench.generators.spectral_control.deep import Deep
 from gbnbench.generators.spectral_control.stealthy import Stealthy
 from gbnbench.generators.voronoi.lloyd import Lloyd
 from gbnbench.opencl import use_device
 
-GENERATORS: dict[str, type[Generator]] = {
+GENERATORS: dict[str, type[ListedGenerator]] = {
     "random": Uniform,
     "grid": Grid,
     "hexagonal": Hexagonal,

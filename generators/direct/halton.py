@@ -8,6 +8,7 @@ from typing import ClassVar
 import numpy as np
 
 from gbnbench.core.torus import FloatArray, wrap
+from gbnbench.generators.protocol import Family
 
 
 @dataclass(frozen=True)
@@ -33,6 +34,10 @@ class Halton:
 
     name: ClassVar[str] = "halton"
     summary: ClassVar[str] = "Halton sequence with randomly permuted digits (Owen 2017)"
+    family: ClassVar[Family] = "low-discrepancy"
+    dimensions: ClassVar[tuple[int, int | None]] = (1, None)
+    toroidal: ClassVar[bool] = False
+    reference: ClassVar[str] = "Owen, A randomized Halton algorithm in R, 2017"
 
     def refusal(self, n: int, d: int) -> str | None:  # noqa: ARG002 (the protocol's arguments)
         """Say that any n and d can be made: there is no refusal.

@@ -10,6 +10,7 @@ import numpy as np
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.lattices.regular_grid import grid_corners, grid_refusal
+from gbnbench.generators.protocol import Family
 
 
 @dataclass(frozen=True)
@@ -32,6 +33,10 @@ class Jittered:
 
     name: ClassVar[str] = "jittered"
     summary: ClassVar[str] = "one uniform point in each cell of a grid of m**d (Cook 1986)"
+    family: ClassVar[Family] = "direct"
+    dimensions: ClassVar[tuple[int, int | None]] = (1, None)
+    toroidal: ClassVar[bool] = True
+    reference: ClassVar[str] = "Cook, Stochastic sampling in computer graphics, 1986"
 
     def refusal(self, n: int, d: int) -> str | None:
         """Say why n is not m**d, with the nearest number that is.

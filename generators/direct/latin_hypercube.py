@@ -8,6 +8,7 @@ from typing import ClassVar
 import numpy as np
 
 from gbnbench.core.torus import FloatArray, wrap
+from gbnbench.generators.protocol import Family
 
 
 @dataclass(frozen=True)
@@ -34,6 +35,10 @@ class LatinHypercube:
     summary: ClassVar[str] = (
         "Latin hypercube: one point in each of n strata of every axis (McKay et al. 1979)"
     )
+    family: ClassVar[Family] = "low-discrepancy"
+    dimensions: ClassVar[tuple[int, int | None]] = (1, None)
+    toroidal: ClassVar[bool] = False
+    reference: ClassVar[str] = "McKay, Beckman & Conover, 1979"
 
     def refusal(self, n: int, d: int) -> str | None:  # noqa: ARG002 (the protocol's arguments)
         """Say that any n and d can be made: there is no refusal.

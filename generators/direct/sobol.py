@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray
+from gbnbench.generators.protocol import Family
 
 MOST_DIMENSIONS = 21201  # of Joe & Kuo's direction numbers in scipy
 MOST_BITS = 30  # digits of scipy's unscrambled points, each exact in a double
@@ -75,6 +76,10 @@ class Sobol:
     summary: ClassVar[str] = (
         "Sobol sequence, Owen-scrambled (Joe & Kuo 2008; Owen 1995); balanced at n = 2**m"
     )
+    family: ClassVar[Family] = "low-discrepancy"
+    dimensions: ClassVar[tuple[int, int | None]] = (1, 21201)
+    toroidal: ClassVar[bool] = False
+    reference: ClassVar[str] = "Sobol, 1967; Joe & Kuo, 2008; Owen, 1995"
 
     def refusal(self, n: int, d: int) -> str | None:
         """Say why n or d is beyond the direction numbers at hand, with the largest that is not.

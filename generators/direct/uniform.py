@@ -8,6 +8,7 @@ from typing import ClassVar
 import numpy as np
 
 from gbnbench.core.torus import FloatArray
+from gbnbench.generators.protocol import Family
 
 
 @dataclass(frozen=True)
@@ -26,6 +27,10 @@ class Uniform:
 
     name: ClassVar[str] = "random"
     summary: ClassVar[str] = "independent uniform points: white noise"
+    family: ClassVar[Family] = "direct"
+    dimensions: ClassVar[tuple[int, int | None]] = (1, None)
+    toroidal: ClassVar[bool] = True
+    reference: ClassVar[str] = ""
 
     def refusal(self, n: int, d: int) -> str | None:  # noqa: ARG002 (the protocol's arguments)
         """Say that any n and d can be made: there is no refusal.

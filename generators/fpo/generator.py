@@ -11,6 +11,7 @@ import numpy as np
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray, check_points, densest_spacing
 from gbnbench.generators.fpo.relocation import Sweeps, minimum_distance
+from gbnbench.generators.protocol import Family
 
 WINDOW = 5  # sweeps over which the gain is judged
 JAM = 1e-6  # in densest spacings: a set that gains less over the window goes nowhere
@@ -74,6 +75,10 @@ class FarthestPoint:
 
     name: ClassVar[str] = "fpo"
     summary: ClassVar[str] = "farthest-point optimisation on the torus (Schlömer, Heck & Deussen 2011)"
+    family: ClassVar[Family] = "cellular"
+    dimensions: ClassVar[tuple[int, int | None]] = (2, 2)
+    toroidal: ClassVar[bool] = True
+    reference: ClassVar[str] = "Schlömer, Heck & Deussen, Farthest-point optimized point sets, 2011"
 
     target: float = 0.925
     gain: float = 0.002

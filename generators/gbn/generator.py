@@ -23,6 +23,7 @@ from gbnbench.generators.gbn.optimiser import Descent, Nesterov
 from gbnbench.generators.gbn.polish import empty_band
 from gbnbench.generators.gbn.step_sizes import authors_step
 from gbnbench.generators.monitor import Monitor
+from gbnbench.generators.protocol import Family
 
 PAPER_ITERATIONS = 10_000  # what the paper recommends
 MOST_BOUND = 0.9  # share of the coordinates that polish may bind
@@ -75,6 +76,10 @@ class GaussianBlueNoise:
 
     name: ClassVar[str] = "gbn"
     summary: ClassVar[str] = "Gaussian Blue Noise (Ahmed, Ren & Wonka 2022)"
+    family: ClassVar[Family] = "kernel-based"
+    dimensions: ClassVar[tuple[int, int | None]] = (1, None)
+    toroidal: ClassVar[bool] = True
+    reference: ClassVar[str] = "Ahmed, Ren & Wonka, Gaussian Blue Noise, 2022"
 
     sigma: float = 1.0
     gradients: int = 320

@@ -11,6 +11,7 @@ import numpy as np
 
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray, wrap
+from gbnbench.generators.protocol import Family
 
 MOST_STRAIN = 0.02  # 1024, 4096 and half of all n near 1,000 fit, nearly all beyond 5,000
 MOST_POINTS = 1_000_000  # there are more than n lattices to choose from
@@ -75,6 +76,10 @@ class Hexagonal:
 
     name: ClassVar[str] = "hexagonal"
     summary: ClassVar[str] = "hexagonal lattice in 2D, strained by at most 2% to be periodic"
+    family: ClassVar[Family] = "lattice"
+    dimensions: ClassVar[tuple[int, int | None]] = (2, 2)
+    toroidal: ClassVar[bool] = True
+    reference: ClassVar[str] = ""
     shift: bool = True
 
     def refusal(self, n: int, d: int) -> str | None:

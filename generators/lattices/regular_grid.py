@@ -9,6 +9,7 @@ import numpy as np
 
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray, wrap
+from gbnbench.generators.protocol import Family
 
 
 def grid_side(n: int, d: int) -> int | None:
@@ -100,6 +101,10 @@ class Grid:
 
     name: ClassVar[str] = "grid"
     summary: ClassVar[str] = "regular grid of m**d points, each realization shifted at random"
+    family: ClassVar[Family] = "lattice"
+    dimensions: ClassVar[tuple[int, int | None]] = (1, None)
+    toroidal: ClassVar[bool] = True
+    reference: ClassVar[str] = ""
     shift: bool = True
 
     def refusal(self, n: int, d: int) -> str | None:

@@ -16,6 +16,7 @@ from gbnbench.generators.gauss_newton.modes import edge_binding
 from gbnbench.generators.gauss_newton.solver import solve_for_amplitudes
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.monitor import Monitor
+from gbnbench.generators.protocol import Family
 from gbnbench.generators.spectral_control.band import BandGenerator, check_edge
 from gbnbench.generators.spectral_control.target_profiles import Exponential, Table
 
@@ -67,6 +68,10 @@ class Deep(BandGenerator):
 
     name: ClassVar[str] = "deep"
     summary: ClassVar[str] = "deep blue noise: Gaussian Blue Noise moved least to a steeper profile"
+    family: ClassVar[Family] = "spectral"
+    dimensions: ClassVar[tuple[int, int | None]] = (1, None)
+    toroidal: ClassVar[bool] = True
+    reference: ClassVar[str] = "gbnbench; after Ahmed, Ren & Wonka, 2022"
     most_bound: ClassVar[float] = 0.995  # up to .992 sets were seen to converge, slowly
 
     c: float | None = None

@@ -20,6 +20,7 @@ from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.optimiser import Nesterov
 from gbnbench.generators.gbn.step_sizes import step_size
 from gbnbench.generators.monitor import Monitor, refuse_all_but_progress
+from gbnbench.generators.protocol import Family
 from gbnbench.generators.spectral_control.band import BandGenerator, check_edge
 
 SHARE = 0.6  # of the coordinates that the default edge binds, in any dimension
@@ -95,6 +96,10 @@ class Stealthy(BandGenerator):
 
     name: ClassVar[str] = "stealthy"
     summary: ClassVar[str] = "stealthy (step) blue noise: no power below an edge (Uche et al. 2006)"
+    family: ClassVar[Family] = "spectral"
+    dimensions: ClassVar[tuple[int, int | None]] = (1, None)
+    toroidal: ClassVar[bool] = True
+    reference: ClassVar[str] = "Uche, Torquato & Stillinger, Collective coordinate control, 2006"
     most_bound: ClassVar[float] = (
         0.96  # beyond, there are no disordered sets: in 1D they collapse to the grid
     )

@@ -9,6 +9,7 @@ import numpy as np
 
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray, spacing
+from gbnbench.generators.protocol import Family
 from gbnbench.generators.voronoi.cells import move_to_centroids, toroidal_cells
 
 
@@ -48,6 +49,10 @@ class Lloyd:
     summary: ClassVar[str] = (
         "centroidal Voronoi tessellation by Lloyd's method on the torus, d <= 3 (Lloyd 1982)"
     )
+    family: ClassVar[Family] = "cellular"
+    dimensions: ClassVar[tuple[int, int | None]] = (1, 3)
+    toroidal: ClassVar[bool] = True
+    reference: ClassVar[str] = "Lloyd, 1982; Du, Faber & Gunzburger, 1999"
     iterations: int = 200
     tolerance: float = 1e-3
 

@@ -11,7 +11,7 @@ import pytest
 
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.settings import specification
-from gbnbench.generators.protocol import Generator, realization_rng
+from gbnbench.generators.protocol import FAMILIES, Generator, ListedGenerator, realization_rng
 from gbnbench.generators.registry import GENERATORS, find, generate
 
 QUICK: dict[str, dict[str, Any]] = {"lloyd": {"iterations": 4}, "gbn": {"gradients": 20}}
@@ -83,7 +83,15 @@ class TestGenerator:
         assert kind.name == name
         assert kind.summary
         assert "\n" not in kind.summary
-        assert isinstance(kind(), Generator)
+        assert isinstance(kind(), ListedGenerator)
+        assert kind.family in FAMILIES
+
+    def test_the_dimensions_listed_are_those_it_serves(self, name: str) -> None:
+        least, most = GENERATORS[name].dimensions
+        for d in (1, 2, 3, 4):
+            refused = [find(name).refusal(n, d) for n in (1024, 1000, 2401, 4096)]
+            inside = least <= d and (most is None or d <= most)
+            assert all(reason is not None and f"d={d}" in reason for reason in refused) == (not inside)
 
     def test_is_equal_by_its_settings(self, name: str) -> None:
         generator = GENERATORS[name]()
