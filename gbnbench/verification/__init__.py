@@ -1,0 +1,1 @@
+"""Generators held against the figures that were published of them."""

@@ -1,0 +1,8 @@
+"""All published figures that generators are held against, family by family."""
+
+from __future__ import annotations
+
+from gbnbench.verification.published.cellular import CELLULAR
+from gbnbench.verification.published_figure import PublishedFigure
+
+PUBLISHED: tuple[PublishedFigure, ...] = (*CELLULAR,)

@@ -1,0 +1,52 @@
+"""Published figures: each names a generator and a measure, and ours are measured of the sets."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from gbnbench.analysis.measure_definitions import BY_NAME
+from gbnbench.analysis.measures import measures
+from gbnbench.core.torus import FloatArray
+from gbnbench.generators.registry import find, generate
+from gbnbench.verification.published import PUBLISHED
+from gbnbench.verification.published_figure import PublishedFigure
+from gbnbench.verification.verify import verify
+
+
+@pytest.mark.parametrize("figure", PUBLISHED, ids=lambda f: f"{f.generator}-{f.measure_name}")
+def test_a_figure_can_be_measured(figure: PublishedFigure) -> None:
+    assert find(figure.generator).refusal(figure.n, figure.d) is None
+    assert not isinstance(figure.measure, str) or figure.measure in BY_NAME
+    assert figure.low < figure.high
+    assert figure.published
+    assert figure.reason
+    assert figure.source
+
+
+def first_coordinate(x: FloatArray) -> float:
+    return float(x[0, 0])
+
+
+def test_ours_are_the_measures_of_the_sets() -> None:
+    sets = generate("random", n=16, d=2, seed=3, realizations=3)
+    drawn: list[str] = []
+    figures = [
+        PublishedFigure("random", measure, "none", low, math.inf, "none", "none", n=16, sets=3, seed=3)
+        for measure, low in (("power_at_1", -math.inf), (first_coordinate, 1.0))
+    ]
+    power, coordinate = verify(figures, drawn.append)
+    assert drawn == ["random"]
+    assert power.ours == measures(sets)["power_at_1"]
+    assert power.agrees
+    assert coordinate.ours == pytest.approx(np.mean(sets[:, 0, 0]))
+    assert not coordinate.agrees
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("figure", PUBLISHED, ids=lambda f: f"{f.generator}-{f.measure_name}")
+def test_ours_agrees_with_what_was_published(figure: PublishedFigure) -> None:
+    (found,) = verify([figure])
+    assert found.agrees, (found.ours, figure.published)
