@@ -22,6 +22,7 @@ from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.lattices.hexagonal import Hexagonal
 from gbnbench.generators.lattices.regular_grid import Grid
 from gbnbench.generators.monitor import Monitor, MonitoredGenerator, refuse_all_but_progress
+from gbnbench.generators.power_cells.bnot import OptimalTransport
 from gbnbench.generators.protocol import Generator, ListedGenerator, checked_draw, realization_rng
 from gbnbench.generators.spectral_control.deep import Deep
 from gbnbench.generators.spectral_control.stealthy import Stealthy
@@ -37,6 +38,7 @@ GENERATORS: dict[str, type[ListedGenerator]] = {
     "halton": Halton,
     "sobol": Sobol,
     "lloyd": Lloyd,
+    "bnot": OptimalTransport,
     "fpo": FarthestPoint,
     "gbn": GaussianBlueNoise,
     "deep": Deep,
