@@ -28,8 +28,8 @@ class OptimalTransport:
     breaks : int
         Most times that regular regions are broken up and the alternations done anew, >= 0.
     regularity : float
-        Points count as regular whose cell's energy differs from its neighbours' by less than this in the mean,
-        in units of 1/n**2, >= 0.
+        Points count as regular whose cell's energy differs from its neighbours' by less than this in the
+        mean, in units of 1/n**2, >= 0.
 
     Raises
     ------
@@ -39,14 +39,14 @@ class OptimalTransport:
     Notes
     -----
     The weights of a power diagram are found by Newton's method so that every cell has the area 1/n
-    (``gbnbench.generators.power_cells.equal_areas``); then every point moves to its cell's centroid, and so on.
-    Each move lowers the cost of the transport from the uniform density to the points. The publication goes on
-    until the gradient is small; how far that is decides how ordered the sets are. The default of 10 alternations
-    gives sets as its authors and others published them, 20 the most ordered of those; from about 50 on points
-    crystallise. For long runs there is the publication's remedy, ``breaks``: where a cell's energy is nearly that
-    of its neighbours, the point and its neighbours are jittered, some regular points are put elsewhere, and
-    the alternations are done once more. Its threshold of 0.25/n in these units is held at its value for
-    n = 1,024, so that it does not depend on n.
+    (``gbnbench.generators.power_cells.equal_areas``); then every point moves to its cell's centroid, and so
+    on. Each move lowers the cost of the transport from the uniform density to the points. The publication
+    goes on until the gradient is small; how far that is decides how ordered the sets are. The default of 10
+    alternations gives sets as they were published, 20 the most ordered of those; from about 50 on points
+    crystallise. For long runs there is the publication's remedy, ``breaks``: where a cell's energy is nearly
+    that of its neighbours, the point and its neighbours are jittered, some regular points are put elsewhere,
+    and the alternations are done once more. Its threshold, 0.25/n in these units, is held at the value that
+    it has for n = 1,024, so that it does not depend on n.
 
     Cost: 0.4 CPU s for 1,024 points, 10 s for 16,384.
 
@@ -100,9 +100,8 @@ class OptimalTransport:
         if reason := self.refusal(n, d):
             raise RefusalError(reason)
         x, diagram = self._alternate(rng.random((n, d)))
-        for _ in range(self.breaks if diagram is not None else 0):
-            regular = irregularity(diagram) < self.regularity
-            if not regular.any():
+        for _ in range(self.breaks):
+            if diagram is None or not (regular := irregularity(diagram) < self.regularity).any():
                 break
             x, diagram = self._alternate(break_regions(x, diagram, regular, rng))
         return x

@@ -1,4 +1,4 @@
-"""Power diagrams of weighted points on the torus in 2D, by the lower hull of lifted points (Aurenhammer 1987)."""
+"""Power diagrams of weighted points on the torus in 2D, by the hull of lifted points (Aurenhammer 1987)."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class PowerDiagram:
             return np.asarray(self.moment / self.mass[:, None])
 
     def laplacian(self) -> csc_matrix:
-        """Derivative of the masses by the weights: (n, n), symmetric, its rows sum to 0."""
+        """Derive the masses by the weights: (n, n), symmetric, its rows sum to 0."""
         from scipy.sparse import csc_matrix
 
         n = len(self.mass)

@@ -38,17 +38,18 @@ def equal_areas(x: FloatArray, weight: FloatArray, tolerance: float) -> tuple[Fl
 
     Notes
     -----
-    The areas are the gradient of a concave function of the weights, the dual of the optimal transport from the
-    uniform density to the points (Aurenhammer, Hoffmann & Aronov 1998), and the diagram's Laplacian is its
-    Hessian. A step solves that sparse system with the first weight held, and is halved until every cell
+    The areas are the gradient of a concave function of the weights, the dual of the optimal transport from
+    the uniform density to the points (Aurenhammer, Hoffmann & Aronov 1998), and the diagram's Laplacian is
+    its Hessian. A step solves that sparse system with the first weight held, and is halved until every cell
     has at least half the area of the smallest at the start, or half of 1/n if that is less, and the residual
-    has fallen by half of what the step promises; then Newton's method converges from any start without hidden points.
+    has fallen by half of what the step promises; then Newton's method converges from any start without
+    hidden points.
 
     References
     ----------
     Kitagawa, Mérigot & Thibert, "Convergence of a Newton algorithm for semi-discrete optimal transport",
-    J. European Mathematical Society 21(9), 2019. de Goes, Breeden, Ostromoukhov & Desbrun, "Blue noise through
-    optimal transport", ACM Trans. Graphics 31(6), 2012, Section 4.
+    J. European Mathematical Society 21(9), 2019. de Goes, Breeden, Ostromoukhov & Desbrun, "Blue noise
+    through optimal transport", ACM Trans. Graphics 31(6), 2012, Section 4.
     """
     n = len(x)
     diagram = power_diagram(x, weight)
