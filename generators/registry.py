@@ -26,6 +26,7 @@ from gbnbench.generators.power_cells.bnot import OptimalTransport
 from gbnbench.generators.protocol import Generator, ListedGenerator, checked_draw, realization_rng
 from gbnbench.generators.spectral_control.deep import Deep
 from gbnbench.generators.spectral_control.stealthy import Stealthy
+from gbnbench.generators.voronoi.capcvt import CapacityConstrainedVoronoi
 from gbnbench.generators.voronoi.lloyd import Lloyd
 from gbnbench.opencl import use_device
 
@@ -39,6 +40,7 @@ GENERATORS: dict[str, type[ListedGenerator]] = {
     "sobol": Sobol,
     "lloyd": Lloyd,
     "bnot": OptimalTransport,
+    "capcvt": CapacityConstrainedVoronoi,
     "fpo": FarthestPoint,
     "gbn": GaussianBlueNoise,
     "deep": Deep,

@@ -1,4 +1,4 @@
-"""Published figures of sets made by cells: optimal transport, farthest points."""
+"""Published figures of sets made by cells: optimal transport, capacity-constrained tessellations, farthest points."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from gbnbench.verification.published_figure import PublishedFigure
 
 BNOT = "de Goes, Breeden, Ostromoukhov & Desbrun, Blue noise through optimal transport, SIGGRAPH Asia 2012"
 BNOT_SETS = "measured on ten sets published by the deepsampling project"
+CAPCVT = "measured on a set made by the method of Chen et al., Variational blue noise sampling, 2012"
 FPO = "Schlömer, Heck & Deussen, Farthest-point optimized point sets, HPG 2011"
 
 CELLULAR = (
@@ -42,6 +43,16 @@ CELLULAR = (
     ),
     PublishedFigure(
         "bnot", "valence6", ".581", 0.55, 0.61, "the spread over sets is .015", BNOT_SETS,
+    ),
+    PublishedFigure(
+        "capcvt", "min_distance", ".751", 0.72, 0.79, "one set: the least of 1,024 distances", CAPCVT,
+    ),
+    PublishedFigure(
+        "capcvt", "noise_floor", "1.2e-4", 0.9e-4, 1.6e-4,
+        "one set of a few dozen frequencies: a third", CAPCVT,
+    ),
+    PublishedFigure(
+        "capcvt", "peak", "5.2", 4.5, 6.0, "one set: the peak of a single set is higher than that of a mean", CAPCVT,
     ),
     PublishedFigure(
         "fpo", "min_distance", "at least .925", 0.925, math.inf, "the method stops at this distance", FPO
