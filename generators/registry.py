@@ -12,6 +12,7 @@ from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.memory import too_large
 from gbnbench.core.settings import configure, nearest, parse
 from gbnbench.core.torus import FloatArray
+from gbnbench.generators.ccvt.generator import CapacityConstrained
 from gbnbench.generators.direct.halton import Halton
 from gbnbench.generators.direct.jittered import Jittered
 from gbnbench.generators.direct.latin_hypercube import LatinHypercube
@@ -41,6 +42,7 @@ GENERATORS: dict[str, type[ListedGenerator]] = {
     "lloyd": Lloyd,
     "bnot": OptimalTransport,
     "capcvt": CapacityConstrainedVoronoi,
+    "ccvt": CapacityConstrained,
     "fpo": FarthestPoint,
     "gbn": GaussianBlueNoise,
     "deep": Deep,

@@ -65,13 +65,13 @@ class CapacityConstrainedVoronoi:
 
     Notes
     -----
-    The energy is the sum over Voronoi cells of the integral of |y - x|**2 and of ``capacity`` times the squared
-    area, less what equal areas have. Both have the dimension of a squared area, so that the price is a pure
-    number. It is lowered by L-BFGS from uniform points, as in the publication. How far it is lowered, and how
-    dear unequal areas are, decides between order and evenness of areas; 130 steps at a price of 50 give the
-    minimum distance, noise floor and peak that were measured on sets made by the method.
+    The energy is the sum over Voronoi cells of the integral of |y - x|**2 and of ``capacity`` times the
+    squared area, less what equal areas have. Both have the dimension of a squared area, so that the price is
+    a pure number. It is lowered by L-BFGS from uniform points, as in the publication. How far it is lowered,
+    and how dear unequal areas are, decides between order and evenness of areas; 130 steps at a price of 50
+    give the minimum distance, noise floor and peak that were measured on sets made by the method.
 
-    Cost: 0.9 CPU s for 1,024 points, 15 s for 16,384.
+    Cost: 0.9 CPU s for 1,024 points, 20 s for 16,384.
 
     References
     ----------
@@ -128,6 +128,11 @@ class CapacityConstrainedVoronoi:
             energy, gradient = energy_and_gradient(power_diagram(wrap(places.reshape(n, 2))), self.capacity)
             return energy, gradient.ravel()
 
-        options = {"maxiter": self.iterations, "maxfun": 20 * self.iterations, "ftol": 0.0, "gtol": 1e-9}
-        found = minimize(objective, rng.random(2 * n), jac=True, method="L-BFGS-B", options=options)
+        found = minimize(
+            objective,
+            rng.random(2 * n),
+            jac=True,
+            method="L-BFGS-B",
+            options={"maxiter": self.iterations, "maxfun": 20 * self.iterations, "ftol": 0.0, "gtol": 1e-9},
+        )
         return wrap(found.x.reshape(n, 2))

@@ -17,6 +17,7 @@ from gbnbench.generators.registry import GENERATORS, find, generate
 QUICK: dict[str, dict[str, Any]] = {
     "lloyd": {"iterations": 4},
     "capcvt": {"iterations": 10},
+    "ccvt": {"samples": 16},
     "gbn": {"gradients": 20},
 }
 SIZES = (16, 15, 27)

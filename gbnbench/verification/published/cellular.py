@@ -1,4 +1,4 @@
-"""Published figures of sets made by cells: optimal transport, capacity-constrained tessellations, farthest points."""
+"""Published figures of sets made by cells: equal areas, capacities, farthest points."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ CELLULAR = (
         "one set of a few dozen frequencies: a third", CAPCVT,
     ),
     PublishedFigure(
-        "capcvt", "peak", "5.2", 4.5, 6.0, "one set: the peak of a single set is higher than that of a mean", CAPCVT,
+        "capcvt", "peak", "5.2", 4.5, 6.0, "one set, and a tenth more or fewer steps are a twelfth", CAPCVT,
     ),
     PublishedFigure(
         "fpo", "min_distance", "at least .925", 0.925, math.inf, "the method stops at this distance", FPO
