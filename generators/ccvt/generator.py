@@ -48,7 +48,8 @@ class CapacityConstrained:
     its capacity, so the variance of capacities is 0 exactly. The samples are a lattice and not the square
     grid of the authors, which needs n * samples to be a square; pairs that share no site are treated
     together, in random order. Sites settle first with a sixteenth and a quarter of the samples, which saves
-    time. Of a few points, whose cells meet on both sides of the torus, swaps are sought on one side at a time.
+    time. Of a few points, whose cells meet on both sides of the torus, swaps are sought on one side at
+    a time.
 
     Where the swaps end depends on the capacity, for a coarse sampling holds boundaries fast. With the 1,024
     samples a point of the authors' program points are a little less even than the sets whose figures were

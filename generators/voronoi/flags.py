@@ -1,4 +1,4 @@
-"""Moments of Voronoi cells from Delaunay simplices, in any dimension, by right-angled simplices (Schläfli)."""
+"""Moments of Voronoi cells from Delaunay simplices by right-angled simplices (Schläfli)."""
 
 from __future__ import annotations
 
@@ -22,30 +22,34 @@ def circumcentres(corners: FloatArray) -> FloatArray:
     Returns
     -------
     (m, d) float64
-        Points at one distance from all corners of a simplex, in its plane; nan for flat simplices.
+        Points at one distance from all corners of a simplex, in its plane.
+
+    Raises
+    ------
+    numpy.linalg.LinAlgError
+        If a simplex is flat.
     """
     sides = corners[:, 1:] - corners[:, :1]
+    squares = np.sum(sides * sides, axis=2)
+    k, d = sides.shape[1:]
+    if k == d:  # without the Gram matrix, whose condition is the square of this one's
+        return np.asarray(corners[:, 0] + np.linalg.solve(2 * sides, squares[:, :, None])[:, :, 0])
     gram = np.einsum("mia,mja->mij", sides, sides)
-    half = np.einsum("mii->mi", gram) / 2
-    k = sides.shape[1]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        if k == 1:
-            share = half / gram[:, 0]
-        elif k == 2:
-            det = gram[:, 0, 0] * gram[:, 1, 1] - gram[:, 0, 1] ** 2
-            share = np.stack(
-                [
-                    (half[:, 0] * gram[:, 1, 1] - half[:, 1] * gram[:, 0, 1]) / det,
-                    (half[:, 1] * gram[:, 0, 0] - half[:, 0] * gram[:, 0, 1]) / det,
-                ],
-                axis=1,
-            )
-        else:
-            flat = np.linalg.det(gram) == 0
-            gram[flat] = np.eye(k)
-            share = np.linalg.solve(gram, half[:, :, None])[:, :, 0]
-            share[flat] = np.nan
+    if k == 1:
+        share = np.full((len(corners), 1), 0.5)
+    elif k == 2:
+        product, det = gram[:, 0, 1], gram[:, 0, 0] * gram[:, 1, 1] - gram[:, 0, 1] ** 2
+        share = (squares[:, ::-1] * (squares - product[:, None])) / (2 * det)[:, None]
+    else:
+        share = np.linalg.solve(2 * gram, squares[:, :, None])[:, :, 0]
     return np.asarray(corners[:, 0] + np.einsum("mi,mia->ma", share, sides))
+
+
+def flattest(corners: FloatArray) -> float:
+    """Return the least d! volume / side**d of simplices, (m, d + 1, d), by their sides at the first corner."""
+    sides = corners[:, 1:] - corners[:, :1]
+    longest = np.sqrt(np.sum(sides * sides, axis=2).max(axis=1))
+    return float(np.min(np.abs(np.linalg.det(sides)) / longest ** sides.shape[1], initial=np.inf))
 
 
 def cell_moments(
@@ -74,8 +78,8 @@ def cell_moments(
     Notes
     -----
     A cell is the signed sum, over the flags of the simplices about its point (point, edge, triangle, ...), of
-    the simplices that join the circumcentres along the flag. Each step of such a path is at right angles to those
-    before, so that the volume is the product of the steps over d!; a step counts as negative where the
+    the simplices that join the circumcentres along the flag. Each step of such a path is at right angles to
+    those before, so that the volume is the product of the steps over d!; a step counts as negative where the
     circumcentre lies on the far side of the face from the corner that is added.
     """
     d = tiled.shape[1]
@@ -119,7 +123,7 @@ def _climb(
     below: tuple[FloatArray, FloatArray, FloatArray],
     sums: _Sums,
 ) -> None:
-    """Follow all flags from a face upwards; below are the product of steps, the sum of arms, of their squares."""
+    """Follow all flags from a face upwards; below: product of steps, sum of arms, sum of their squares."""
     product, total, squares = below
     d = total.shape[1]
     if len(face) == d + 1:

@@ -56,10 +56,10 @@ CELLULAR = (
         "capcvt", "peak", "5.2", 4.5, 6.0, "one set, and a tenth more or fewer steps are a twelfth", CAPCVT,
     ),
     PublishedFigure(
-        "ccvt", "mean_distance", ".872", 0.855, 0.880, "the samples a point of that set are not known", CCVT, sets=1,
+        "ccvt", "mean_distance", ".872", 0.855, 0.880, "its samples a point are unknown", CCVT, sets=1,
     ),
     PublishedFigure(
-        "ccvt", "effective_nyquist", ".860", 0.83, 0.87, "steps of .01; 2,048 samples a point give .860", CCVT, sets=1,
+        "ccvt", "effective_nyquist", ".860", 0.83, 0.87, "2,048 samples a point give .860", CCVT, sets=1,
     ),
     PublishedFigure(
         "ccvt", "oscillations", "2.01", 1.65, 2.15, "2,048 samples a point give 2.05", CCVT, sets=1,
