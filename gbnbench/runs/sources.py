@@ -21,6 +21,7 @@ from gbnbench.core.sides import as_sides
 from gbnbench.core.torus import FloatArray, as_realizations
 from gbnbench.generators.protocol import Generator
 from gbnbench.generators.registry import GENERATORS, of_instance
+from gbnbench.generators.third_parties.discovery import provenance
 from gbnbench.io.points import ReadingOptions
 from gbnbench.runs.file_sets import read_groups
 from gbnbench.runs.source_names import generator_named
@@ -80,7 +81,7 @@ class Source:
             box = {} if as_sides(self.sides, self.d) is None else {"sides": list(self.sides or ())}
             return {**same, "kind": self.kind, "sha256": self.digest, **read, **box}
         kind = type(self.generator)
-        own = {} if GENERATORS.get(kind.name) is kind else {"class": f"{kind.__module__}.{kind.__qualname__}"}
+        own = {} if GENERATORS.get(kind.name) is kind else provenance(kind)
         return {
             **same,
             "kind": "generator",
