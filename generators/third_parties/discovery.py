@@ -115,6 +115,13 @@ def third_parties(taken: Collection[str]) -> tuple[dict[str, ThirdParty], tuple[
     return found, tuple(faults)
 
 
+def third_party_origin(kind: type[Generator]) -> str:
+    """Name the package, or the file of programs, that a generator from elsewhere is from."""
+    if issubclass(kind, ExternalProgram):
+        return str(program_file())
+    return str(provenance(kind).get("package", kind.__module__))
+
+
 def provenance(kind: type[object]) -> dict[str, Any]:
     """Return what a run folder keeps of a generator from elsewhere beside its settings, JSON-ready.
 
