@@ -24,6 +24,7 @@ from gbnbench.generators.registry import GENERATORS, of_instance
 from gbnbench.generators.third_parties.discovery import provenance
 from gbnbench.io.points import ReadingOptions
 from gbnbench.runs.file_sets import read_groups
+from gbnbench.runs.named_groups import expanded
 from gbnbench.runs.source_names import generator_named
 
 DEFAULT_READING = ReadingOptions()
@@ -136,7 +137,8 @@ def resolve(
     names : iterable of str, Path, Generator or Source
         Generators such as ``gbn[iterations=1000]``, files and folders. A name that is both is a generator;
         with a path separator (``./gbn``) or as a Path it is a path. An instance is a generator of your own,
-        whose class the workers must be able to import.
+        whose class the workers must be able to import. ``family:cellular`` is every generator of a family,
+        ``preset:paper`` the methods of the paper's figures 1 and 8.
     n, d : sequence of int
         Sizes and dimensions for the generators: each is made at every pair. Files bring their own.
     realizations : int
@@ -149,7 +151,8 @@ def resolve(
     sources : tuple of Source
         At least one.
     skipped : tuple of str
-        A sentence for each generator, n and d that was refused.
+        A sentence for each generator, n and d that was refused, and for each method of a preset without a
+        generator.
 
     Raises
     ------
@@ -162,8 +165,8 @@ def resolve(
         if bad := [v for v in values if v < 1]:
             raise InputError(f"{argument} must be at least 1; got {bad[0]}")
     sources: list[Source] = []
-    skipped: list[str] = []
-    names = list(names)
+    names, told = expanded(names)
+    skipped = list(told)
     paths = dict.fromkeys(str(name) for name in names if isinstance(name, (str, Path)))
     stems = Counter(_title(Path(path)) for path in paths)
     for name in names:

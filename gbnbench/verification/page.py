@@ -16,8 +16,8 @@ HEAD = """\
 
 `gbnbench generators --verify -o docs/verification.md` draws these sets anew, measures them and writes this
 page; its exit code is 1 where one does not agree. *Ours* is a measure of all sets together, as
-[the measures](measures.md) define it, or the mean of a figure of each set. It agrees if it lies between *from*
-and *to*; *why* says what that room is for.
+[the measures](measures.md) define it, or the mean of a figure of each set. It agrees if it lies between
+*from* and *to*; *why* says what that room is for.
 """
 COLUMNS = ("generator", "sets", "measure", "published", "ours", "from", "to", "agrees", "why", "source")
 

@@ -84,13 +84,14 @@ def run_program(
         If the program cannot be started, fails, takes longer, or writes anything but n points of the torus.
     """
     with tempfile.TemporaryDirectory(prefix="gbnbench-", ignore_cleanup_errors=True) as place:
-        folder = Path(place)
-        points = folder / f"points.{suffix}"
-        words = filled(command, {**values, OUTPUT: str(points)})
+        folder = Path(place) / "empty"
+        folder.mkdir()
+        file, said = folder / f"points.{suffix}", Path(place) / "standard-error"
+        words = filled(command, {**values, OUTPUT: str(file)})
         into_file = words != filled(command, values)
+        points, printed = (file, Path(os.devnull)) if into_file else (Path(place) / file.name,) * 2
         shown = shlex.join(words)
-        said = folder / "standard-error"
-        with said.open("wb") as errors, (Path(os.devnull) if into_file else points).open("wb") as out:
+        with said.open("wb") as errors, printed.open("wb") as out:
             code = _ended(name, shown, words, folder, (out.fileno(), errors.fileno()), timeout)
         if code != 0:
             raise GbnbenchError(f"{name} drew no set: {shown}: {cause_of_end(code, said.read_bytes())}")
@@ -99,7 +100,9 @@ def run_program(
         try:
             x = load(points)
         except GbnbenchError as error:
-            fault = str(error).replace(f"{folder}{os.sep}", "" if into_file else "standard output, as ")
+            fault = str(error).replace(
+                f"{points.parent}{os.sep}", "" if into_file else "standard output, as "
+            )
             raise GbnbenchError(f"{name} drew no set: {shown}: {fault}") from None
         if not isinstance(x, np.ndarray) or x.shape != (n, d):
             got = f"shape {x.shape}" if isinstance(x, np.ndarray) else f"{len(x)} sets of several sizes"
