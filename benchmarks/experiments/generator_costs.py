@@ -26,7 +26,7 @@ def main(names: list[str]) -> None:
     """Measure all generators, or those named, and rewrite the package's file."""
     if unknown := [name for name in names if name not in GENERATORS]:
         raise SystemExit(f"no generator is named {unknown[0]!r}{nearest(unknown[0], GENERATORS)}")
-    machine = f"{processor()}, one thread, CPU seconds"
+    machine = f"{processor()}, one thread"
     if names and machine != cost_machine():
         raise SystemExit(f"the others were measured on another machine, {cost_machine()}: measure all anew")
     costs = measured_costs() if names else {}

@@ -52,8 +52,8 @@ def generators(
         raise click.UsageError("a name goes with neither --family nor --verify: leave one out")
     if only and not verifying:
         raise click.UsageError("--only goes with --verify")
-    if name is None and (n is not None or d is not None):
-        raise click.UsageError("-n and -d are those of the picture of a generator: name it")
+    if (n is not None or d is not None) and (name is None or out is None):
+        raise click.UsageError("-n and -d are those of a picture: name a generator, and a file by --out")
     if verifying:
         _verify(only, family, out, jobs, as_json, quiet)
     elif name is not None:

@@ -1,4 +1,4 @@
-"""What ``gbnbench generators`` prints: the list, the description of one, published figures beside ours."""
+"""The lines of ``gbnbench generators``: the list, one described, published figures beside ours."""
 
 from __future__ import annotations
 

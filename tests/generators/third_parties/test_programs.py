@@ -112,7 +112,7 @@ def test_a_failure_is_told_in_words(programs, mode: str, said: str) -> None:
 def test_a_program_that_takes_too_long_is_ended_with_what_it_started(programs) -> None:
     programs("[generators.mine]\ncommand = 'sh -c \"sleep 60; true {n} {seed}\"'\ntimeout = 0.2\n")
     began = time.monotonic()
-    with pytest.raises(GbnbenchError, match="was ended after .* s; its timeout allows no more"):
+    with pytest.raises(GbnbenchError, match=r"was ended after .* s; its timeout allows no more"):
         gbnbench.generate("mine", n=3)
     assert time.monotonic() - began < 30
 
@@ -133,7 +133,8 @@ def test_a_program_that_is_not_there_is_a_refusal(programs) -> None:
 
 
 def test_cpu_seconds_count_those_of_programs(programs) -> None:
-    programs("[generators.mine]\ncommand = 'PYTHON -c \"sum(range(9**6)); print(.5, .5)\" {n} {seed}'\n")
+    command = 'PYTHON -c "sum(range(9**6)); print(.5, .5)" {n} {seed}'
+    programs(f"[generators.mine]\ncommand = '{command}'\n")
     began, own = cpu_seconds(), time.process_time()
     gbnbench.generate("mine", n=1)
     program = (cpu_seconds() - began) - (time.process_time() - own)
@@ -154,7 +155,7 @@ def test_cpu_seconds_count_those_of_programs(programs) -> None:
         ("[generators.mine]\ncommand = 'x {n} {seed}'\nfamily = 'blue'", "family must be one of direct, "),
         ("[generators.mine]\ncommand = 'x {n} {seed}'\nformat = 'a/b'", "format must be the suffix"),
         ("[generators.mine]\ncommand = '\"x {n} {seed}'", "command cannot be read: No closing quotation"),
-        ("[generators.mine]\ncommand = 'x {n} {seed}'\nsettings.a = 3", "setting a must read { default = 0.5"),
+        ("[generators.mine]\ncommand = 'x {n} {seed}'\nsettings.a = 3", "setting a must read { default ="),
         (
             "[generators.mine]\ncommand = 'x {n} {seed}'\nsettings.a = { default = 3, meaning = 'b' }",
             "command must hold {a}",
