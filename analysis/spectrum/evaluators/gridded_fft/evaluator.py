@@ -18,8 +18,8 @@ from gbnbench.analysis.spectrum.evaluators.gridded_fft.bands import (
 )
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.errors import WINDOW_TYPICAL, fft_errors, usual_crowd
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import AXES, real_grid
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.host_transform import shape_of_harmonics
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.powers import fft_powers, sets_together
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.transform import shape_of_harmonics
 from gbnbench.analysis.spectrum.evaluators.protocol import Evaluator
 from gbnbench.analysis.spectrum.evaluators.work_model import device_cost
 from gbnbench.analysis.spectrum.limits import BYTES, MEMORY_SHARE

@@ -1,4 +1,4 @@
-"""Power of a cube by the gridded FFT: spreading and power on the OpenCL device, the transform on the host.
+"""Power of a cube by the gridded FFT: points are carried to grids, which are transformed.
 
 F(f) is the transform of the grid over the product of the window's transforms (kaiser_bessel.py). Points have
 real strengths, so the grid is real, and half of its transform is enough. In double the error of the window is
@@ -22,7 +22,6 @@ from gbnbench.analysis.spectrum.evaluators.gridded_fft.bands import (
 )
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.errors import fft_errors
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import RealGrid, real_grid, transform_of_window
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.transform import harmonics
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.workspace import Workspace, workspace
 from gbnbench.analysis.spectrum.evaluators.two_group_product import norms_of
 from gbnbench.core.torus import FloatArray
@@ -59,26 +58,8 @@ def fft_powers(
         errors = errors.or_larger(fft_errors(p, grid, n, bands.crowd, bands.runs, at))
         weight = None if weights is None or len(weights) == 1 else weights[first:end]
         spread(p, grid, work, bands, weights if weight is None else weight)
-        rt.finish()
-        transformed = work.harmonics[: end - first]
-        harmonics(grid, work.nodes[: end - first], transformed, rt.device.compute_units)
-        work.power.run(
-            "grid_power",
-            {1: (1, 1), 2: (base, 1), 3: (base, base)}[d],
-            (1, 1),
-            work.transforms,
-            np.uint64(transformed[0].size * 2),
-            np.uint32(transformed.shape[-1]),
-            np.uint32(grid.nodes),
-            np.uint32(base),
-            np.int32(fmax),
-            np.uint32(end - first),
-            over,
-            np.uint32(first),
-            work.gains,
-            np.uint32(half),
-            out,
-            np.uint64(0 if mean else power[0].size),
+        work.transform.write_powers(
+            work.grids, end - first, over, first, half, out, 0 if mean else power[0].size
         )
         rt.finish()
     total = norms if weights is None else np.broadcast_to(weights.sum(axis=1), (sets,)) ** 2 / norms
@@ -111,7 +92,7 @@ def spread(p: Precision, grid: RealGrid, work: Workspace, bands: Bands, weights:
     mean = transform_of_window(grid)[0] ** grid.d / grid.nodes**grid.d / bands.runs
     means = np.broadcast_to(mean * (n if weights is None else weights.sum(axis=1)), (sets,))
     weight, stride = _in_order(p, weights, bands.order, sets, n)
-    work.spread.run(
+    work.program.run(
         "grid_spread",
         (bands.count, sets),
         (1, 1),

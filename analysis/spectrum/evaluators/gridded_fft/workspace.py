@@ -10,8 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.analysis.precision import Precision
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import RealGrid, transform_of_window, window_terms
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.transform import shape_of_harmonics
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import RealGrid, window_terms
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.host_transform import HostTransform, host_transform
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.plane_transform import (
+    PlaneTransform,
+    plane_transform,
+    serves,
+)
 from gbnbench.analysis.spectrum.evaluators.kept_memory import kept
 from gbnbench.opencl import Program
 
@@ -24,36 +29,31 @@ class Workspace:
     ----------
     nodes : (sets, *grid.shape) float64 or float32
         The grids.
-    harmonics : (sets, ...) complex128 or complex64
-        Their transforms, as ``transform.harmonics`` writes them.
     grids : buffer
-        The memory of the grids on the device.
-    transforms : buffer
-        The memory of the transforms on the device.
-    terms, gains : buffer
-        Polynomials of the window, and the squared gains of an axis at f = 0 .. fmax.
-    spread, power : Program
-        The kernels.
+        Their memory on the device.
+    terms : buffer
+        Polynomials of the window.
+    program : Program
+        The kernel that carries points to the grids.
+    transform : PlaneTransform or HostTransform
+        What makes powers of them.
     """
 
     nodes: NDArray[Any]
-    harmonics: NDArray[Any]
     grids: Any
-    transforms: Any
     terms: Any
-    gains: Any
-    spread: Program
-    power: Program
+    program: Program
+    transform: PlaneTransform | HostTransform
 
     @property
     def nbytes(self) -> int:
         """Bytes of the grids and of their transforms."""
-        return self.nodes.nbytes + self.harmonics.nbytes
+        return self.nodes.nbytes + self.transform.nbytes
 
     @cached_property
     def parts(self) -> Any:
         """Memory as large as the grids', where each of several runs is summed."""
-        return self.spread.owner.empty(self.nodes.nbytes)
+        return self.program.owner.empty(self.nodes.nbytes)
 
 
 def workspace(p: Precision, grid: RealGrid, sets: int) -> Workspace:
@@ -78,15 +78,11 @@ def workspace(p: Precision, grid: RealGrid, sets: int) -> Workspace:
 def _made(p: Precision, grid: RealGrid, sets: int) -> Workspace:
     rt = p.runtime
     nodes = np.empty((sets, *grid.shape), p.real)
-    transforms = np.empty((sets, *shape_of_harmonics(grid)), np.result_type(p.real, np.complex64))
     terms = window_terms(p.name)
     return Workspace(
         nodes=nodes,
-        harmonics=transforms,
         grids=rt.shared(nodes),
-        transforms=rt.shared(transforms),
         terms=rt.upload(terms.astype(p.real)),
-        gains=rt.upload((transform_of_window(grid) ** -2.0).astype(p.sum)),
-        spread=p.program("grid_spread.cl", AXES=grid.d, WIDTH=grid.width, TERMS=len(terms)),
-        power=p.program("grid_power.cl", AXES=grid.d),
+        program=p.program("grid_spread.cl", AXES=grid.d, WIDTH=grid.width, TERMS=len(terms)),
+        transform=plane_transform(p, grid, sets) if serves(p, grid) else host_transform(p, grid, nodes),
     )

@@ -8,8 +8,8 @@ import pytest
 from gbnbench.analysis.precision import Precision, precision_of
 from gbnbench.analysis.spectrum.evaluators.cube_product import cube_powers
 from gbnbench.analysis.spectrum.evaluators.gridded_fft import bands as bands_module
+from gbnbench.analysis.spectrum.evaluators.gridded_fft import host_transform
 from gbnbench.analysis.spectrum.evaluators.gridded_fft import powers as powers_module
-from gbnbench.analysis.spectrum.evaluators.gridded_fft import transform
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.bands import bin_counts, bins, cells
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import real_grid, window_terms
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.powers import fft_powers
@@ -34,9 +34,9 @@ def away(power, exact):
 @pytest.fixture(params=["scipy", "ducc0"])
 def library(request, monkeypatch):
     """Each library of transforms in turn."""
-    if request.param == "ducc0" and not transform.ducc_available():
+    if request.param == "ducc0" and not host_transform.ducc_available():
         pytest.skip("ducc0 is not installed")
-    monkeypatch.setattr(transform, "ducc_available", lambda: request.param == "ducc0")
+    monkeypatch.setattr(host_transform, "ducc_available", lambda: request.param == "ducc0")
 
 
 @pytest.mark.usefixtures("library")

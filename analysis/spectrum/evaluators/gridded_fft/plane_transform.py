@@ -1,0 +1,174 @@
+"""Transform of grids in the plane on the device, by kernels that end in the powers that are wanted.
+
+Libraries are slower here: their wheels are compiled for any processor, and they make harmonics that are not
+wanted. A row needs f = 0 .. fmax alone, and the last pass over the columns makes no more than what is wanted.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from gbnbench.analysis.precision import Precision, padded
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.fourier_tables import radices, turns, twiddles
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import TILE, RealGrid, transform_of_window
+from gbnbench.opencl import Program
+
+
+@dataclass(frozen=True)
+class PlaneTransform:
+    """Kernels and memory of a transform in the plane.
+
+    Attributes
+    ----------
+    grid : RealGrid
+        Layout of a grid.
+    harmonics : int
+        Harmonics of a row that are kept: fmax + 1, and as many more as fill a tile.
+    transforms : buffer
+        Transformed rows of a batch.
+    nbytes : int
+        Bytes of these.
+    row_tables, column_tables : (buffer, buffer)
+        Radices of the passes, up to a zero, and their twiddles.
+    turns, gains : buffer
+        exp(-2 pi i f / nodes), and the squared gains of an axis, both at f = 0 .. harmonics - 1.
+    row_memory, column_memory, sums : local memory
+        Of a work-item.
+    program : Program
+        The kernels.
+    """
+
+    grid: RealGrid
+    harmonics: int
+    transforms: Any
+    nbytes: int
+    row_tables: tuple[Any, Any]
+    column_tables: tuple[Any, Any]
+    turns: Any
+    gains: Any
+    row_memory: Any
+    column_memory: Any
+    sums: Any
+    program: Program
+
+    def write_powers(
+        self, grids: Any, sets: int, over: Any, first: int, half: bool, out: Any, set_size: int
+    ) -> None:
+        """Transform the grids of a batch, and write their powers.
+
+        Parameters
+        ----------
+        grids : buffer
+            The grids.
+        sets : int
+            Sets of the batch.
+        over : buffer
+            One over the norm of every set.
+        first : int
+            The first set of the batch.
+        half : bool
+            Only the half of the cube with f_0 >= 0.
+        out : buffer
+            Powers; those of several sets are added up where ``set_size`` is 0.
+        set_size : int
+            Numbers from the powers of one set to those of the next one.
+        """
+        grid, size = self.grid, np.uint64(transform_numbers(self.grid))
+        self.program.run(
+            "transform_rows",
+            (grid.nodes // TILE[grid.precision], sets),
+            (1, 1),
+            grids,
+            np.uint64(grid.size),
+            np.uint32(grid.row_length),
+            np.uint32(grid.nodes),
+            *self.row_tables,
+            self.turns,
+            np.uint32(self.harmonics),
+            self.transforms,
+            size,
+            self.row_memory,
+        )
+        self.program.run(
+            "transform_columns",
+            (self.harmonics // TILE[grid.precision],),
+            (1,),
+            self.transforms,
+            size,
+            np.uint32(self.harmonics),
+            np.uint32(grid.nodes),
+            *self.column_tables,
+            np.int32(grid.fmax),
+            np.uint32(sets),
+            over,
+            np.uint32(first),
+            self.gains,
+            np.uint32(half),
+            out,
+            np.uint64(set_size),
+            self.column_memory,
+            self.sums,
+        )
+
+
+def transform_numbers(grid: RealGrid) -> int:
+    """Count the numbers of a grid's transformed rows, twice the complex ones."""
+    return 2 * grid.nodes * padded(grid.fmax + 1, TILE[grid.precision])
+
+
+def serves(p: Precision, grid: RealGrid) -> bool:
+    """Tell whether a grid is one of the plane, and its columns fit in the device's local memory."""
+    return grid.d == 2 and sum(_local_bytes(p, grid)) <= p.runtime.local_bytes
+
+
+def plane_transform(p: Precision, grid: RealGrid, sets: int) -> PlaneTransform:
+    """Build the kernels and the tables for a batch of sets.
+
+    Parameters
+    ----------
+    p : Precision
+        Precision on the device.
+    grid : RealGrid
+        Layout of a grid.
+    sets : int
+        Sets of a batch.
+
+    Returns
+    -------
+    PlaneTransform
+    """
+    rt, tile, nodes = p.runtime, TILE[p.name], grid.nodes
+    harmonics = padded(grid.fmax + 1, tile)
+    gains = np.zeros(harmonics)
+    gains[: grid.fmax + 1] = transform_of_window(grid) ** -2.0
+    column_memory, sums = _local_bytes(p, grid)
+    nbytes = sets * transform_numbers(grid) * grid.itemsize
+    return PlaneTransform(
+        grid=grid,
+        harmonics=harmonics,
+        transforms=rt.empty(nbytes),
+        nbytes=nbytes,
+        row_tables=_tables(p, nodes // 2, radices(nodes // 2)),
+        column_tables=_tables(p, nodes, radices(nodes // 4)),  # the last pass, of radix 4, is of its own
+        turns=rt.upload(turns(np.arange(harmonics), nodes).astype(p.real)),
+        gains=rt.upload(gains.astype(p.sum)),
+        row_memory=rt.local(2 * (nodes // 2 + 1) * 2 * tile * grid.itemsize),
+        column_memory=rt.local(column_memory),
+        sums=rt.local(sums),
+        program=p.program("fourier_passes.cl", "plane_transform.cl", TILE=tile),
+    )
+
+
+def _tables(p: Precision, length: int, order: list[int]) -> tuple[Any, Any]:
+    rt = p.runtime
+    table = np.concatenate([twiddles(length, order), [[1.0, 0.0]]])  # never empty
+    return rt.upload(np.array([*order, 0], np.uint32)), rt.upload(table.astype(p.real))
+
+
+def _local_bytes(p: Precision, grid: RealGrid) -> tuple[int, int]:
+    """Count the bytes of the two halves of a transform of columns, and of the sums of their powers."""
+    tile = TILE[grid.precision]
+    return 2 * grid.nodes * 2 * tile * grid.itemsize, (2 * grid.fmax + 1) * tile * np.dtype(p.sum).itemsize
