@@ -18,4 +18,4 @@ ROWS = re.findall(
 def test_the_page_has_a_row_for_every_figure() -> None:
     """Where it fails: gbnbench generators --verify -o docs/verification.md makes the page anew."""
     expected = [(one.generator, f"{one.sets} of n={one.n}, d={one.d}", one.measure_name) for one in PUBLISHED]
-    assert ROWS == expected
+    assert expected == ROWS
