@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Mapping
 
 from gbnbench.core.errors import InputError
 from gbnbench.core.settings import SPECIFICATION
@@ -75,3 +76,41 @@ def checked_kind(kind: object, name: str) -> type[Generator]:
         raise InputError(f"each setting needs a default; {kind.__name__} has none of {', '.join(bare)}")
     check_setting_names(kind)
     return kind
+
+
+def of_instance(generator: object, settings: Mapping[str, object] | None = None) -> Generator:
+    """Return a generator that came as an instance, of the registry or somebody's own, or say what it lacks.
+
+    Parameters
+    ----------
+    generator : Generator
+        An instance of a frozen dataclass with what ``Generator`` asks for.
+    settings : mapping, optional
+        What was given beside it: it has its settings already, so there must be none.
+
+    Returns
+    -------
+    Generator
+        The instance itself.
+
+    Raises
+    ------
+    InputError
+        If it is a class, no frozen dataclass, or no generator, if a setting of it has the name of a keyword
+        of ``generate``, or if settings came with it.
+    """
+    kind = type(generator)
+    if isinstance(generator, type):
+        raise InputError(f"a generator must be an instance; got the class: write {generator.__name__}()")
+    if not isinstance(generator, Generator):
+        raise InputError(
+            "a generator must be text such as 'gbn[sigma=0.8]', or an object with name, summary, "
+            f"refusal(n, d) and __call__(n, d, rng); got {kind.__name__}"
+        )
+    if not is_frozen_dataclass(kind):
+        raise InputError(f"a generator must be a frozen dataclass of its settings; {kind.__name__} is none")
+    check_setting_names(kind)
+    if settings:
+        given = ", ".join(f"{name}=..." for name in settings)
+        raise InputError(f"an instance has its settings already: write {kind.__name__}({given})")
+    return generator

@@ -19,8 +19,9 @@ from gbnbench.core.readable_text import without_bytes
 from gbnbench.core.settings import specification
 from gbnbench.core.sides import as_sides
 from gbnbench.core.torus import FloatArray, as_realizations
+from gbnbench.generators.kind_check import of_instance
 from gbnbench.generators.protocol import Generator
-from gbnbench.generators.registry import GENERATORS, of_instance
+from gbnbench.generators.registry import GENERATORS
 from gbnbench.generators.third_parties.discovery import provenance
 from gbnbench.io.points import ReadingOptions
 from gbnbench.runs.file_sets import read_groups
