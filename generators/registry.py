@@ -24,7 +24,6 @@ from gbnbench.generators.monitor import Monitor, MonitoredGenerator, refuse_all_
 from gbnbench.generators.protocol import Generator, ListedGenerator, checked_draw, realization_rng
 from gbnbench.generators.spectral_control.deep import Deep
 from gbnbench.generators.spectral_control.stealthy import Stealthy
-from gbnbench.generators.third_parties.discovery import third_party, third_party_names
 from gbnbench.generators.voronoi.lloyd import Lloyd
 from gbnbench.opencl import use_device
 
@@ -55,11 +54,17 @@ def kind_named(name: str) -> type[Generator] | None:
     InputError
         If it is one from elsewhere that cannot be used; the text says why.
     """
-    return GENERATORS.get(name) or third_party(name)
+    if name in GENERATORS:
+        return GENERATORS[name]
+    from gbnbench.generators.third_parties.discovery import third_party  # slow to load, and seldom needed
+
+    return third_party(name)
 
 
 def generator_names() -> list[str]:
     """List every name that ``find`` knows, gbnbench's own first; nothing is imported."""
+    from gbnbench.generators.third_parties.discovery import third_party_names
+
     return list(dict.fromkeys([*GENERATORS, *third_party_names()]))
 
 
