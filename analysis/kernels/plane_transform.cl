@@ -1,10 +1,13 @@
-/* Transform of real grids in the plane, and the power of its lowest harmonics; needs fourier_passes.cl.
+/* Transform of points in the plane by way of a real grid, and the power of its lowest harmonics; needs
+ * fourier_passes.cl and grid_spread.cl.
  *
- * transform_rows: one work-item transforms TILE rows of a grid, a row of `nodes` numbers as half as many complex ones,
- * z_j = x_2j + i x_2j+1, of which the harmonics of the even and the odd numbers are (Z_f +- conj Z_-f) / 2. It writes
- * those of f = 0 .. fmax as tiles: at [rows / TILE][f] the complex numbers of TILE rows.
+ * plane_rows: a work-item carries points to one band of a grid after another, always in the same memory, which so
+ * stays in the cache, and transforms the band's rows there. A row of `nodes` numbers is transformed as half as many
+ * complex ones, z_j = x_2j + i x_2j+1, of which the harmonics of the even and the odd numbers are
+ * (Z_f +- conj Z_-f) / 2. Those of f = 0 .. fmax are written as tiles: at [row / TILE][f] the complex numbers of TILE
+ * rows.
  *
- * transform_columns: one work-item transforms TILE columns and writes their powers at all f_0, and at -f. Its last
+ * plane_columns: one work-item transforms TILE columns and writes their powers at all f_0, and at -f. Its last
  * pass, of radix 4, makes only the first and the last quarter of the harmonics, among which are all that are wanted.
  * Sets are added up to those of the batches before, or stand set_size numbers apart.
  */
@@ -20,22 +23,20 @@
 #define EACH_LANE(DO) DO(0) DO(1) DO(2) DO(3) DO(4) DO(5) DO(6) DO(7)
 #endif
 
-__kernel void transform_rows(__global const REAL *grids, const ulong grid_size, const uint row_length,
-                             const uint nodes, __global const uint *radices, __global const REAL *twiddles,
-                             __global const REAL *turns, const uint harmonics, __global REAL *transforms,
-                             const ulong transform_size, __local COMPLEX *memory)
+/* Transforms TILE rows, of which the first begins at `at`, and writes their harmonics. */
+static void transform_rows(__global const REAL *at, const size_t row_length, const uint nodes,
+                           __global const uint *radices, __global const REAL *twiddles, __global const REAL *turns,
+                           const uint harmonics, __global VECTOR *to, __local COMPLEX *memory)
 {
-    const size_t tile = get_global_id(0), set = get_global_id(1), length = nodes / 2, row = row_length;
-    __global const REAL *at = grids + set * grid_size + tile * TILE * row;
+    const uint length = nodes / 2;
     for (size_t j = 0; j < length; j++, at += 2) {
         COMPLEX z;
-        z.re = STRIDED(VECTOR, at, row);
-        z.im = STRIDED(VECTOR, at + 1, row);
+        z.re = STRIDED(VECTOR, at, row_length);
+        z.im = STRIDED(VECTOR, at + 1, row_length);
         memory[j] = z;
     }
     __local COMPLEX *z = passes(memory, memory + length + 1, length, radices, twiddles);
     z[length] = z[0];
-    __global VECTOR *to = (__global VECTOR *)(transforms + set * transform_size) + 2 * tile * harmonics;
     for (size_t f = 0; f < harmonics; f++, to += 2) {
         const COMPLEX p = z[f], m = z[length - f];
         COMPLEX even, odd;
@@ -46,6 +47,29 @@ __kernel void transform_rows(__global const REAL *grids, const ulong grid_size, 
         const COMPLEX found = times(plus(even, turned(odd, turns + 2 * f)), (REAL)0.5);
         to[0] = found.re;
         to[1] = found.im;
+    }
+}
+
+__kernel void plane_rows(__global const TURN *points, const uint stride, __global const REAL *weight,
+                         const uint weight_stride, __global const uint *starts, const uint bands, const uint runs,
+                         __global const REAL *means, const uint nodes, const uint rows_a_band,
+                         const uint row_length, __constant REAL *terms, __global REAL *grids,
+                         __global REAL *parts, const ulong band_size, const uint sets,
+                         __global const uint *radices, __global const REAL *twiddles, __global const REAL *turns,
+                         const uint harmonics, __global REAL *transforms, const ulong transform_size,
+                         __local COMPLEX *memory)
+{
+    __global REAL *grid = grids + get_global_id(0) * band_size, *part = parts + get_global_id(0) * band_size;
+    for (uint one = get_global_id(0); one < bands * sets; one += get_global_size(0)) {
+        const uint set = one / bands, band = one % bands, first = band * rows_a_band;
+        const uint rows = first + rows_a_band < nodes ? rows_a_band : nodes - first;
+        spread_band(set, band, points, stride, weight, weight_stride, starts, bands, runs, means[set], nodes,
+                    rows_a_band, row_length, terms, grid, part);
+        for (uint row = 0; row < rows; row += TILE)
+            transform_rows(grid + (size_t)row * row_length, row_length, nodes, radices, twiddles, turns, harmonics,
+                           (__global VECTOR *)(transforms + set * transform_size)
+                               + 2 * (size_t)(first + row) / TILE * harmonics,
+                           memory);
     }
 }
 
@@ -70,11 +94,11 @@ static void add_power(const COMPLEX found, const SUM over, __local SUMS *sum, co
         if (minus_wanted && plus_f != minus_f) *minus_f = add ? *minus_f + power.s##lane : power.s##lane;    \
     }
 
-__kernel void transform_columns(__global const REAL *transforms, const ulong transform_size, const uint harmonics,
-                                const uint nodes, __global const uint *radices, __global const REAL *twiddles,
-                                const int fmax, const uint sets, __global const SUM *over, const uint first_set,
-                                __global const SUM *gain, const uint half_only, __global SUM *out,
-                                const ulong set_size, __local COMPLEX *memory, __local SUMS *sums)
+__kernel void plane_columns(__global const REAL *transforms, const ulong transform_size, const uint harmonics,
+                            const uint nodes, __global const uint *radices, __global const REAL *twiddles,
+                            const int fmax, const uint sets, __global const SUM *over, const uint first_set,
+                            __global const SUM *gain, const uint half_only, __global SUM *out, const ulong set_size,
+                            __local COMPLEX *memory, __local SUMS *sums)
 {
     const int column = get_global_id(0) * TILE, quarter = nodes / 4;
     const long base = 2 * fmax + 1, last = base * base - 1, start = half_only ? fmax * base : 0;

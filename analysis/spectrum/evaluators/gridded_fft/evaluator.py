@@ -11,6 +11,7 @@ from gbnbench.analysis.spectrum.evaluators.cube_product import CubeProduct
 from gbnbench.analysis.spectrum.evaluators.device_evaluator import DeviceEvaluator
 from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.bands import (
+    BAND_ROWS,
     CACHE_BYTES,
     BinnedPoints,
     binned,
@@ -19,6 +20,7 @@ from gbnbench.analysis.spectrum.evaluators.gridded_fft.bands import (
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.errors import WINDOW_TYPICAL, fft_errors, usual_crowd
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import AXES, real_grid
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.host_transform import shape_of_harmonics
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.plane_transform import plane_serves, transform_numbers
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.powers import fft_powers, sets_together
 from gbnbench.analysis.spectrum.evaluators.protocol import Evaluator
 from gbnbench.analysis.spectrum.evaluators.work_model import device_cost
@@ -96,9 +98,15 @@ class GriddedFFT(DeviceEvaluator):
 
     def _held(self, request: SpectrumRequest) -> float:
         """Count the bytes of the grids of a batch, their transforms and the cube."""
-        grid = real_grid(request.d, request.fmax, self.precision)
-        numbers = grid.size + math.prod(shape_of_harmonics(grid))
-        held = 2 * grid.itemsize * numbers * sets_together(self.on_device, grid, request.realizations)
+        p, grid = self.on_device, real_grid(request.d, request.fmax, self.precision)
+        numbers = float(sets_together(p, grid, request.realizations))
+        if plane_serves(p, grid):
+            numbers *= transform_numbers(grid)
+            band = min(grid.size, max(2 * BAND_ROWS * grid.row_length, CACHE_BYTES // grid.itemsize))
+            numbers += 2 * p.runtime.device.compute_units * band
+        else:
+            numbers *= 2 * (grid.size + math.prod(shape_of_harmonics(grid)))
+        held = numbers * grid.itemsize
         return float(held + BYTES * (2 * request.fmax + 1) ** request.d)
 
     def expected_errors(self, request: SpectrumRequest) -> Errors:

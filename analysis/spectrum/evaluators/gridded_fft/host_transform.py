@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,12 @@ import scipy.fft
 from numpy.typing import NDArray
 
 from gbnbench.analysis.precision import Precision
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import RealGrid, transform_of_window
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import (
+    RealGrid,
+    transform_of_window,
+    window_terms,
+)
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.spreading import SpreadPoints
 from gbnbench.analysis.spectrum.evaluators.optional_library import loads
 from gbnbench.opencl import Program
 
@@ -24,7 +30,7 @@ BLOCK_BYTES = 256 << 10  # of the rows that are transformed at once
 
 @dataclass(frozen=True)
 class HostTransform:
-    """Memory of a transform by a library, and the kernel of its powers.
+    """Memory of a transform by a library, and the kernels before and after it.
 
     Attributes
     ----------
@@ -33,36 +39,60 @@ class HostTransform:
     nodes : (sets, *grid.shape) float64 or float32
         The grids of a batch, in memory that the device and the host share.
     harmonics : (sets, ...) complex128 or complex64
-        Their transforms, as ``write_harmonics`` writes them.
-    transforms : buffer
-        The memory of the transforms on the device.
+        Their transforms, as ``write_harmonics`` writes them; shared as well.
+    grids, transforms : buffer
+        The memory of both on the device.
+    terms : buffer
+        Polynomials of the window.
     gains : buffer
         Squared gains of an axis at f = 0 .. fmax.
-    program : Program
-        The kernel.
+    spread, power : Program
+        The kernels.
     """
 
     grid: RealGrid
     nodes: NDArray[Any]
     harmonics: NDArray[Any]
+    grids: Any
     transforms: Any
+    terms: Any
     gains: Any
-    program: Program
+    spread: Program
+    power: Program
 
     @property
     def nbytes(self) -> int:
-        """Bytes of the transforms."""
-        return self.harmonics.nbytes
+        """Bytes of the grids and of their transforms."""
+        return self.nodes.nbytes + self.harmonics.nbytes
+
+    @cached_property
+    def parts(self) -> Any:
+        """Memory as large as the grids', where each of several runs is summed."""
+        return self.spread.owner.empty(self.nodes.nbytes)
 
     def write_powers(
-        self, grids: Any, sets: int, over: Any, first: int, half: bool, out: Any, set_size: int
+        self, points: SpreadPoints, over: Any, first: int, half: bool, out: Any, set_size: int
     ) -> None:
-        """Transform the grids of a batch, and write their powers, as ``PlaneTransform.write_powers`` does."""
-        grid, base, rt = self.grid, 2 * self.grid.fmax + 1, self.program.owner
+        """Carry points to their grids, transform these, and write the powers.
+
+        Parameters are those of ``PlaneTransform.write_powers``.
+        """
+        grid, base, rt = self.grid, 2 * self.grid.fmax + 1, self.spread.owner
+        self.spread.run(
+            "grid_spread",
+            (points.bands, points.sets),
+            (1, 1),
+            *points.arguments,
+            np.uint32(grid.row_length),
+            self.terms,
+            self.grids,
+            self.parts if points.runs > 1 else self.grids,
+            np.uint64(grid.size),
+        )
         rt.finish()
-        transformed = self.harmonics[:sets]
-        write_harmonics(grid, self.nodes[:sets], transformed, rt.device.compute_units)
-        self.program.run(
+        transformed = self.harmonics[: points.sets]
+        write_harmonics(grid, self.nodes[: points.sets], transformed, rt.device.compute_units)
+        self.power.run(
             "grid_power",
             {1: (1, 1), 2: (base, 1), 3: (base, base)}[grid.d],
             (1, 1),
@@ -72,7 +102,7 @@ class HostTransform:
             np.uint32(grid.nodes),
             np.uint32(base),
             np.int32(grid.fmax),
-            np.uint32(sets),
+            np.uint32(points.sets),
             over,
             np.uint32(first),
             self.gains,
@@ -82,8 +112,8 @@ class HostTransform:
         )
 
 
-def host_transform(p: Precision, grid: RealGrid, nodes: NDArray[Any]) -> HostTransform:
-    """Make room for the transforms of a batch.
+def host_transform(p: Precision, grid: RealGrid, sets: int) -> HostTransform:
+    """Make room for the grids of a batch and their transforms.
 
     Parameters
     ----------
@@ -91,21 +121,26 @@ def host_transform(p: Precision, grid: RealGrid, nodes: NDArray[Any]) -> HostTra
         Precision on the device.
     grid : RealGrid
         Layout of a grid.
-    nodes : (sets, *grid.shape) float64 or float32
-        The grids.
+    sets : int
+        Most sets of a batch.
 
     Returns
     -------
     HostTransform
     """
-    transforms = np.empty((len(nodes), *shape_of_harmonics(grid)), np.result_type(p.real, np.complex64))
+    rt, terms = p.runtime, window_terms(p.name)
+    nodes = np.empty((sets, *grid.shape), p.real)
+    harmonics = np.empty((sets, *shape_of_harmonics(grid)), np.result_type(p.real, np.complex64))
     return HostTransform(
         grid=grid,
         nodes=nodes,
-        harmonics=transforms,
-        transforms=p.runtime.shared(transforms),
-        gains=p.runtime.upload((transform_of_window(grid) ** -2.0).astype(p.sum)),
-        program=p.program("grid_power.cl", AXES=grid.d),
+        harmonics=harmonics,
+        grids=rt.shared(nodes),
+        transforms=rt.shared(harmonics),
+        terms=rt.upload(terms.astype(p.real)),
+        gains=rt.upload((transform_of_window(grid) ** -2.0).astype(p.sum)),
+        spread=p.program("grid_spread.cl", AXES=grid.d, WIDTH=grid.width, TERMS=len(terms)),
+        power=p.program("grid_power.cl", AXES=grid.d),
     )
 
 

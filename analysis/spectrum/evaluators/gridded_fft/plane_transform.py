@@ -1,4 +1,4 @@
-"""Transform of grids in the plane on the device, by kernels that end in the powers that are wanted.
+"""Powers of points in the plane, by kernels that fill a grid band by band and transform it on the device.
 
 Libraries are slower here: their wheels are compiled for any processor, and they make harmonics that are not
 wanted. A row needs f = 0 .. fmax alone, and the last pass over the columns makes no more than what is wanted.
@@ -13,7 +13,13 @@ import numpy as np
 
 from gbnbench.analysis.precision import Precision, padded
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.fourier_tables import radices, turns, twiddles
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import TILE, RealGrid, transform_of_window
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import (
+    TILE,
+    RealGrid,
+    transform_of_window,
+    window_terms,
+)
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.spreading import SpreadPoints
 from gbnbench.opencl import Program
 
 
@@ -27,10 +33,16 @@ class PlaneTransform:
         Layout of a grid.
     harmonics : int
         Harmonics of a row that are kept: fmax + 1, and as many more as fill a tile.
+    cores : int
+        Work-items that share the bands.
+    bands : buffer
+        One band of a grid for each of them, and as much memory again for the runs of crowded sets.
     transforms : buffer
         Transformed rows of a batch.
+    terms : buffer
+        Polynomials of the window.
     nbytes : int
-        Bytes of these.
+        Bytes of bands and transforms.
     row_tables, column_tables : (buffer, buffer)
         Radices of the passes, up to a zero, and their twiddles.
     turns, gains : buffer
@@ -43,7 +55,10 @@ class PlaneTransform:
 
     grid: RealGrid
     harmonics: int
+    cores: int
+    bands: tuple[Any, Any]
     transforms: Any
+    terms: Any
     nbytes: int
     row_tables: tuple[Any, Any]
     column_tables: tuple[Any, Any]
@@ -55,18 +70,16 @@ class PlaneTransform:
     program: Program
 
     def write_powers(
-        self, grids: Any, sets: int, over: Any, first: int, half: bool, out: Any, set_size: int
+        self, points: SpreadPoints, over: Any, first: int, half: bool, out: Any, set_size: int
     ) -> None:
-        """Transform the grids of a batch, and write their powers.
+        """Carry points to their grids, transform these, and write the powers.
 
         Parameters
         ----------
-        grids : buffer
-            The grids.
-        sets : int
+        points : SpreadPoints
             Sets of the batch.
         over : buffer
-            One over the norm of every set.
+            One over the norm of every set, those of other batches included.
         first : int
             The first set of the batch.
         half : bool
@@ -78,13 +91,15 @@ class PlaneTransform:
         """
         grid, size = self.grid, np.uint64(transform_numbers(self.grid))
         self.program.run(
-            "transform_rows",
-            (grid.nodes // TILE[grid.precision], sets),
-            (1, 1),
-            grids,
-            np.uint64(grid.size),
+            "plane_rows",
+            (self.cores,),
+            (1,),
+            *points.arguments,
             np.uint32(grid.row_length),
-            np.uint32(grid.nodes),
+            self.terms,
+            *self.bands,
+            np.uint64(points.rows * grid.row_length),
+            np.uint32(points.sets),
             *self.row_tables,
             self.turns,
             np.uint32(self.harmonics),
@@ -93,7 +108,7 @@ class PlaneTransform:
             self.row_memory,
         )
         self.program.run(
-            "transform_columns",
+            "plane_columns",
             (self.harmonics // TILE[grid.precision],),
             (1,),
             self.transforms,
@@ -102,7 +117,7 @@ class PlaneTransform:
             np.uint32(grid.nodes),
             *self.column_tables,
             np.int32(grid.fmax),
-            np.uint32(sets),
+            np.uint32(points.sets),
             over,
             np.uint32(first),
             self.gains,
@@ -119,12 +134,12 @@ def transform_numbers(grid: RealGrid) -> int:
     return 2 * grid.nodes * padded(grid.fmax + 1, TILE[grid.precision])
 
 
-def serves(p: Precision, grid: RealGrid) -> bool:
+def plane_serves(p: Precision, grid: RealGrid) -> bool:
     """Tell whether a grid is one of the plane, and its columns fit in the device's local memory."""
     return grid.d == 2 and sum(_local_bytes(p, grid)) <= p.runtime.local_bytes
 
 
-def plane_transform(p: Precision, grid: RealGrid, sets: int) -> PlaneTransform:
+def plane_transform(p: Precision, grid: RealGrid, sets: int, rows: int) -> PlaneTransform:
     """Build the kernels and the tables for a batch of sets.
 
     Parameters
@@ -134,23 +149,30 @@ def plane_transform(p: Precision, grid: RealGrid, sets: int) -> PlaneTransform:
     grid : RealGrid
         Layout of a grid.
     sets : int
-        Sets of a batch.
+        Most sets of a batch.
+    rows : int
+        Rows of a band.
 
     Returns
     -------
     PlaneTransform
     """
-    rt, tile, nodes = p.runtime, TILE[p.name], grid.nodes
+    rt, tile, nodes, terms = p.runtime, TILE[p.name], grid.nodes, window_terms(p.name)
     harmonics = padded(grid.fmax + 1, tile)
     gains = np.zeros(harmonics)
     gains[: grid.fmax + 1] = transform_of_window(grid) ** -2.0
     column_memory, sums = _local_bytes(p, grid)
-    nbytes = sets * transform_numbers(grid) * grid.itemsize
+    cores = rt.device.compute_units
+    held = sets * transform_numbers(grid) * grid.itemsize
+    band = cores * rows * grid.row_length * grid.itemsize
     return PlaneTransform(
         grid=grid,
         harmonics=harmonics,
-        transforms=rt.empty(nbytes),
-        nbytes=nbytes,
+        cores=cores,
+        bands=(rt.empty(band), rt.empty(band)),
+        transforms=rt.empty(held),
+        terms=rt.upload(terms.astype(p.real)),
+        nbytes=2 * band + held,
         row_tables=_tables(p, nodes // 2, radices(nodes // 2)),
         column_tables=_tables(p, nodes, radices(nodes // 4)),  # the last pass, of radix 4, is of its own
         turns=rt.upload(turns(np.arange(harmonics), nodes).astype(p.real)),
@@ -158,8 +180,11 @@ def plane_transform(p: Precision, grid: RealGrid, sets: int) -> PlaneTransform:
         row_memory=rt.local(2 * (nodes // 2 + 1) * 2 * tile * grid.itemsize),
         column_memory=rt.local(column_memory),
         sums=rt.local(sums),
-        program=p.program("fourier_passes.cl", "plane_transform.cl", TILE=tile),
-    )
+        program=p.program(
+            "fourier_passes.cl", "grid_spread.cl", "plane_transform.cl",
+            AXES=grid.d, WIDTH=grid.width, TERMS=len(terms), TILE=tile,
+        ),
+    )  # fmt: skip
 
 
 def _tables(p: Precision, length: int, order: list[int]) -> tuple[Any, Any]:
