@@ -17,6 +17,7 @@ from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import Family
 from gbnbench.generators.third_parties.program_run import run_program
+from gbnbench.generators.third_parties.size_rule import SizeRule, size_refusal
 
 SEEDS = 2**31  # so that every language's integer holds a seed
 PLACEHOLDER = re.compile(r"\{(\w+)\}")
@@ -44,6 +45,8 @@ class ProgramDefinition:
         The words of the command, with placeholders.
     dimensions : (int, int or None)
         Least and largest d that it serves.
+    sizes : str or tuple of int
+        Numbers of points that it serves.
     toroidal : bool
         Whether opposite sides of the unit cube meet by its design.
     format : str
@@ -60,6 +63,7 @@ class ProgramDefinition:
     family: Family | None
     reference: str
     dimensions: tuple[int, int | None]
+    sizes: SizeRule
     toroidal: bool
     format: str
     timeout: float
@@ -89,13 +93,13 @@ class ExternalProgram:
     reference: ClassVar[str]
     definition: ClassVar[ProgramDefinition]
 
-    def refusal(self, n: int, d: int) -> str | None:  # noqa: ARG002 (the protocol's arguments)
-        """Say why the program cannot be run for d dimensions.
+    def refusal(self, n: int, d: int) -> str | None:
+        """Say why the program cannot be run for n points in d dimensions.
 
         Parameters
         ----------
         n, d : int
-            Points and dimension. Which n it can make the program itself says when it runs.
+            Points and dimension.
 
         Returns
         -------
@@ -110,7 +114,7 @@ class ExternalProgram:
             return f"d must be {fits} for {self.name}; got d={d}, nearest is {max(least, min(d, most or d))}"
         if self.definition.program is None:
             return f"its program {self.definition.command[0]} is not there, or may not be run"
-        return None
+        return size_refusal(self.definition.sizes, self.name, n, d)
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, d) float64, by running the program once in a folder of its own.
@@ -155,7 +159,9 @@ def program_kind(definition: ProgramDefinition) -> type[ExternalProgram]:
     parameters = "\n".join(["Parameters", "----------", *described, ""]) if described else ""
     members = {name: getattr(definition, name) for name in
                ("name", "summary", "family", "dimensions", "toroidal", "reference")}  # fmt: skip
-    command = " ".join(definition.command)
+    notes = f"The program: {' '.join(definition.command)}"
+    if definition.sizes == "any":
+        notes += "\n\nAny n is tried; where the program cannot make it, it says so when it runs."
     return dataclasses.make_dataclass(
         "ExternalProgram_" + re.sub(r"\W", "_", definition.name),
         [(s.name, type(s.default), dataclasses.field(default=s.default)) for s in definition.settings],
@@ -163,7 +169,7 @@ def program_kind(definition: ProgramDefinition) -> type[ExternalProgram]:
         namespace={
             **members,
             "definition": definition,
-            "__doc__": f"{definition.summary}\n\n{parameters}\nNotes\n-----\nThe program: {command}\n",
+            "__doc__": f"{definition.summary}\n\n{parameters}\nNotes\n-----\n{notes}\n",
             "__module__": __name__,
         },
         frozen=True,

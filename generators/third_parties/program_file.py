@@ -21,13 +21,14 @@ from gbnbench.generators.third_parties.program import (
     ProgramSetting,
     program_kind,
 )
+from gbnbench.generators.third_parties.size_rule import FORMS, SizeRule
 
 VARIABLE = "GBNBENCH_GENERATORS"
 NAME = "generators.toml"  # in the user's folder of settings
 TIMEOUT = 600.0  # seconds
 KEYS = {
     "command": str, "summary": str, "family": str, "reference": str, "dimensions": (int, list),
-    "toroidal": bool, "format": str, "timeout": (int, float), "settings": dict,
+    "n": (str, list), "toroidal": bool, "format": str, "timeout": (int, float), "settings": dict,
 }  # fmt: skip
 
 
@@ -128,6 +129,7 @@ def definition(name: str, table: object, folder: Path) -> ProgramDefinition:
         family=cast("Family | None", family),
         reference=table.get("reference", ""),
         dimensions=dimensions,
+        sizes=_sizes(table.get("n", "any")),
         toroidal=table.get("toroidal", False),
         format=suffix,
         timeout=timeout,
@@ -173,6 +175,14 @@ def _dimensions(value: object) -> tuple[int, int | None]:
         if least >= 1 and (most is None or most >= least):
             return least, most
     raise InputError(f"dimensions must be d, [least, most] or [least], whole and >= 1; got {value!r}")
+
+
+def _sizes(value: object) -> SizeRule:
+    if value in FORMS:
+        return cast("SizeRule", value)
+    if isinstance(value, list) and value and all(type(n) is int and n >= 1 for n in value):
+        return tuple(value)
+    raise InputError(f"n must be one of {', '.join(FORMS)}, or a list of numbers >= 1; got {value!r}")
 
 
 def _words(kinds: Any) -> str:

@@ -90,10 +90,12 @@ def test_a_script_draws_what_it_is_told(
     assert np.all(4 * x - cell < 0.5)
     assert not np.array_equal(x[0], x[1])
     assert np.array_equal(x[1], gbnbench.generate("shaken[width=0.5]", n=16, seed=3, realizations=2)[1])
-    assert run(["generate", "shaken", "-n", "15", "-o", "x.txt"]) == 2
+    assert run(["generate", "shaken[width=2]", "-n", "16", "-o", "x.txt"]) == 2
     said = capsys.readouterr().err
-    assert "awk -v n=15 -v seed=" in said
-    assert said.endswith("its process ended with exit code 1: n must be m**2; got n=15\n")
+    assert "awk -v n=16 -v seed=" in said
+    assert said.endswith("its process ended with exit code 1: width must be at most 1; got 2.0\n")
+    assert run(["generate", "shaken", "-n", "15", "-o", "x.txt"]) == 2
+    assert "n must be m**2 for shaken; got n=15, nearest is 16" in capsys.readouterr().err
     assert run(["generate", "shaken", "-n", "16", "-d", "3", "-o", "x.txt"]) == 2
     assert "d must be 2 for shaken; got d=3, nearest is 2" in capsys.readouterr().err
 
@@ -111,12 +113,15 @@ def test_a_program_in_c_takes_part_in_everything(
     steps = np.diff(x, axis=0) % 1
     assert np.allclose(steps, [1 / phi, 1 / phi**2], rtol=0, atol=1e-12)
     assert gbnbench.generate("roberts", n=20, d=5).shape == (20, 5)
-    line = "compare shaken shaken[width=0.5] roberts jittered -n 64 --realizations 2 --jobs 2 --quiet -o run"
+    line = (
+        "compare shaken shaken[width=0.5] roberts jittered -n 64,60 --realizations 2 --jobs 2 --quiet -o run"
+    )
     assert run(line.split()) == 0
-    table = capsys.readouterr().out
+    table, told = capsys.readouterr()
+    assert "skipped: shaken at n=60, d=2: n must be m**2 for shaken; got n=60, nearest is 64" in told
     assert all(name in table for name in ("shaken[width=0.5]", "roberts", "jittered"))
     sources = json.loads(Path("run/settings.json").read_text())["sources"]
-    assert sources[1]["settings"] == {"width": 0.5}
-    program = sources[2]["program"]
+    assert [one["settings"] for one in sources if "width" in one["label"]] == [{"width": 0.5}]
+    (program,) = [source["program"] for source in sources if source["key"] == "roberts_n64_d2"]
     assert program["command"] == [str(programs / "roberts"), "{n}", "{d}", "{seed}", "{output}"]
     assert list(program["sha256"]) == [str(programs / "roberts")]

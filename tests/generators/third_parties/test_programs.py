@@ -151,6 +151,8 @@ def test_cpu_seconds_count_those_of_programs(programs) -> None:
         ("[generators.mine]\ncommand = 'x {n} {seed}'\ndimensions = [1, 3]", "command must hold {d}"),
         ("[generators.mine]\ncommand = 'x {n} {seed}'\ndimensions = [3, 1]", "dimensions must be d"),
         ("[generators.mine]\ncommand = 'x {n} {seed}'\ndimensions = true", "dimensions must be"),
+        ("[generators.mine]\ncommand = 'x {n} {seed}'\nn = 'm**3'", "n must be one of any, m**d, 2**m"),
+        ("[generators.mine]\ncommand = 'x {n} {seed}'\nn = [0]", "or a list of numbers >= 1; got [0]"),
         ("[generators.mine]\ncommand = 'x {n} {seed}'\ntimeout = 0", "timeout must be above 0 seconds"),
         ("[generators.mine]\ncommand = 'x {n} {seed}'\nfamily = 'blue'", "family must be one of direct, "),
         ("[generators.mine]\ncommand = 'x {n} {seed}'\nformat = 'a/b'", "format must be the suffix"),
