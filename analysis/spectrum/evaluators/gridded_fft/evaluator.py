@@ -33,6 +33,7 @@ from gbnbench.core.torus import FloatArray
 # and beyond it, a node and level of the transform, a power, and a call. Fitted to the CPU times of 38 cubes
 # on one Intel core, n = 16 to 16,384 and F = 4 to 4,096 in 1D to 3D: 8 in 10 are within 15%.
 POINT, REACHED, FAR_REACHED, LEVEL, WRITTEN, SET_UP = 610.0, 7.6, 10.9, 4.9, 78.0, 3.5e6
+PLANE_LEVEL = 3.6  # of a node and level in the plane, powers included; fitted to 34 cubes there
 LARGEST_TYPICAL = 9.0  # typical error in units of rounding, beyond which crowded points go to the product
 
 
@@ -87,8 +88,9 @@ class GriddedFFT(DeviceEvaluator):
         far = request.d == AXES and grid.size * grid.itemsize > CACHE_BYTES
         reached = FAR_REACHED if far else REACHED
         points = request.n * (POINT * request.d + reached * grid.width**request.d)
-        outputs = (2 * request.fmax + 1) ** request.d
-        each = points + LEVEL * nodes * math.log2(nodes) + WRITTEN * outputs
+        levels, outputs = nodes * math.log2(nodes), (2 * request.fmax + 1) ** request.d
+        plane = request.d == 2 and plane_serves(self.on_device, grid)
+        each = points + (PLANE_LEVEL * levels if plane else LEVEL * levels + WRITTEN * outputs)
         return float(request.realizations * each)
 
     def cost(self, request: SpectrumRequest) -> EvaluationCost:
