@@ -39,7 +39,7 @@ PAPER = (
     PaperMethod("lloyd", "CVT (Lloyd 1982)", ("8",)),
     PaperMethod("bnot", "BNOT (de Goes et al. 2012)", ("1", "8")),
     PaperMethod("kdm", "KDM (Fattal 2011)", ("1", "8")),
-    PaperMethod("vnc", "VnC, void and cluster (Ulichney 1993)", ("1", "8")),
+    PaperMethod("voidcluster", "VnC, void and cluster (Ulichney 1993)", ("1", "8")),
     PaperMethod("ccvt", "CCVT (Balzer et al. 2009)", ("8",)),
     PaperMethod("bluenets", "BlueNets (Ahmed & Wonka 2021)", ("1", "8")),
     PaperMethod("fpo", "FPO (Schlömer et al. 2011)", ("1", "8")),
