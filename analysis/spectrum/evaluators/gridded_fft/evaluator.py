@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import ClassVar
 
 from gbnbench.analysis.spectrum.error_model import UNIT, Errors, rms_for, rounded_at_worst
@@ -123,11 +123,13 @@ class GriddedFFT(DeviceEvaluator):
         p, (_, n, d) = self.on_device, x.shape
         grid = real_grid(d, fmax, self.precision)
         points = binned(p, grid, x)
+        if points.crowd <= usual_crowd(grid, n):
+            return GriddedFFT(self.precision, points=points)
         runs = run_count(grid, n, points.crowd)
         errors = fft_errors(p, grid, n, points.crowd, runs, rounded_at_worst(n, d, p.name))
         usual = math.hypot(LARGEST_TYPICAL * UNIT[p.name], WINDOW_TYPICAL[p.name])
         allowed = usual if floor is None else max(usual, rms_for(floor))
-        return CubeProduct(self.precision) if errors.rms > allowed else replace(self, points=points)
+        return CubeProduct(self.precision) if errors.rms > allowed else GriddedFFT(self.precision, points=points)
 
     def cube(
         self, x: FloatArray, fmax: int, weights: FloatArray | None, *, half: bool, mean: bool

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,8 @@ from gbnbench.analysis.precision import Precision
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.bands import Bands
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import RealGrid, transform_of_window
 from gbnbench.core.torus import FloatArray
+
+KEPT_POINTS = 1 << 16  # up to which weights of 1 are kept from call to call
 
 
 @dataclass(frozen=True)
@@ -59,22 +62,40 @@ def spread_points(p: Precision, grid: RealGrid, bands: Bands, weights: FloatArra
     """
     sets, _, n = bands.turns.shape
     rt = p.runtime
-    mean = transform_of_window(grid)[0] ** grid.d / grid.nodes**grid.d / bands.runs
-    means = np.broadcast_to(mean * (n if weights is None else weights.sum(axis=1)), (sets,))
-    weight, stride = _in_order(p, weights, bands.order, sets, n)
+    if weights is None and n <= KEPT_POINTS:
+        weight, means = _of_equal_points(p, grid, sets, n, bands.runs)
+        stride = 0
+    else:
+        values, stride = _in_order(p, weights, bands.order, sets, n)
+        weight, means = rt.upload(values), _means(p, grid, weights, sets, n, bands.runs)
     arguments = (
         rt.upload(bands.turns),
         np.uint32(n),
-        rt.upload(weight),
+        weight,
         np.uint32(stride),
         rt.upload(bands.starts),
         np.uint32(bands.count),
         np.uint32(bands.runs),
-        rt.upload(means.astype(p.real)),
+        means,
         np.uint32(grid.nodes),
         np.uint32(bands.rows),
     )
     return SpreadPoints(sets, bands.count, bands.rows, bands.runs, arguments)
+
+
+@lru_cache(maxsize=32)
+def _of_equal_points(p: Precision, grid: RealGrid, sets: int, n: int, runs: int) -> tuple[Any, Any]:
+    """Weights and means on the device, which are only read."""
+    return p.runtime.upload(np.ones(n, p.real)), _means(p, grid, None, sets, n, runs)
+
+
+def _means(
+    p: Precision, grid: RealGrid, weights: FloatArray | None, sets: int, n: int, runs: int
+) -> Any:  # a buffer
+    """Mean of a node in each run of each set."""
+    mean = transform_of_window(grid)[0] ** grid.d / grid.nodes**grid.d / runs
+    each = np.broadcast_to(mean * (n if weights is None else weights.sum(axis=1)), (sets,))
+    return p.runtime.upload(each.astype(p.real))
 
 
 def _in_order(
