@@ -12,9 +12,14 @@ from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.memory import too_large
 from gbnbench.core.settings import configure, nearest, parse
 from gbnbench.core.torus import FloatArray
+from gbnbench.generators.direct.best_candidate import BestCandidate
+from gbnbench.generators.direct.bridson import Bridson
+from gbnbench.generators.direct.dart_throwing import DartThrowing
 from gbnbench.generators.direct.halton import Halton
 from gbnbench.generators.direct.jittered import Jittered
 from gbnbench.generators.direct.latin_hypercube import LatinHypercube
+from gbnbench.generators.direct.maximal_poisson import MaximalPoisson
+from gbnbench.generators.direct.sample_elimination import SampleElimination
 from gbnbench.generators.direct.sobol import Sobol
 from gbnbench.generators.direct.uniform import Uniform
 from gbnbench.generators.fpo.generator import FarthestPoint
@@ -33,6 +38,11 @@ GENERATORS: dict[str, type[ListedGenerator]] = {
     "grid": Grid,
     "hexagonal": Hexagonal,
     "jittered": Jittered,
+    "darts": DartThrowing,
+    "maximalpoisson": MaximalPoisson,
+    "bridson": Bridson,
+    "elimination": SampleElimination,
+    "bestcandidate": BestCandidate,
     "latin": LatinHypercube,
     "halton": Halton,
     "sobol": Sobol,
