@@ -26,6 +26,13 @@ from gbnbench.generators.fpo.generator import FarthestPoint
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.lattices.hexagonal import Hexagonal
 from gbnbench.generators.lattices.regular_grid import Grid
+from gbnbench.generators.low_discrepancy.blue_nets import BlueNets
+from gbnbench.generators.low_discrepancy.correlated_multijitter import CorrelatedMultiJitter
+from gbnbench.generators.low_discrepancy.hammersley import Hammersley
+from gbnbench.generators.low_discrepancy.kronecker import Kronecker
+from gbnbench.generators.low_discrepancy.latin_maximin import LatinMaximin
+from gbnbench.generators.low_discrepancy.pmj02 import ProgressiveMultiJitter
+from gbnbench.generators.low_discrepancy.rank1_lattice import Rank1Lattice
 from gbnbench.generators.monitor import Monitor, MonitoredGenerator, refuse_all_but_progress
 from gbnbench.generators.protocol import Generator, ListedGenerator, checked_draw, realization_rng
 from gbnbench.generators.spectral_control.deep import Deep
@@ -37,6 +44,7 @@ GENERATORS: dict[str, type[ListedGenerator]] = {
     "random": Uniform,
     "grid": Grid,
     "hexagonal": Hexagonal,
+    "rank1": Rank1Lattice,
     "jittered": Jittered,
     "darts": DartThrowing,
     "maximalpoisson": MaximalPoisson,
@@ -44,8 +52,14 @@ GENERATORS: dict[str, type[ListedGenerator]] = {
     "elimination": SampleElimination,
     "bestcandidate": BestCandidate,
     "latin": LatinHypercube,
+    "latinmaximin": LatinMaximin,
+    "cmj": CorrelatedMultiJitter,
+    "hammersley": Hammersley,
     "halton": Halton,
     "sobol": Sobol,
+    "kronecker": Kronecker,
+    "pmj02": ProgressiveMultiJitter,
+    "bluenets": BlueNets,
     "lloyd": Lloyd,
     "fpo": FarthestPoint,
     "gbn": GaussianBlueNoise,

@@ -62,7 +62,19 @@ class Cells:
 
     @classmethod
     def of_torus(cls, n: int, d: int, radius: float) -> Cells:
-        """Cut the whole torus in cells that hold a point each at most, or in 16 n where these are fewer."""
+        """Cut the whole torus in cells that hold a point each at most, or in 16 n where these are fewer.
+
+        Parameters
+        ----------
+        n, d : int
+            Points and dimension.
+        radius : float
+            Least distance of points, in box sides.
+
+        Returns
+        -------
+        Cells
+        """
         most = int(max(CELLS_A_POINT * n, 2) ** (1 / d) + 1e-9)
         side = max(1, min(math.ceil(math.sqrt(d) / radius), most))
         return cls(grid_corners(side, d).astype(np.int64), side)
@@ -74,7 +86,19 @@ class Cells:
         return Cells(corners, 2 * self.side)
 
     def uncovered(self, x: FloatArray, radius: float) -> Cells:
-        """Leave out the cells that lie in the disc round the point nearest to their centre."""
+        """Leave out the cells that lie in the disc round the point nearest to their centre.
+
+        Parameters
+        ----------
+        x : (n, d) float64
+            Points.
+        radius : float
+            Of the discs, in box sides.
+
+        Returns
+        -------
+        Cells
+        """
         if not len(x):
             return self
         d = self.corners.shape[1]
@@ -89,7 +113,19 @@ class Cells:
         return Cells(self.corners[keep], self.side)
 
     def throw(self, darts: int, rng: np.random.Generator) -> FloatArray:
-        """Throw darts uniformly at the cells, (darts, d)."""
+        """Throw darts uniformly at the cells.
+
+        Parameters
+        ----------
+        darts : int
+            Their number.
+        rng : Generator
+            Of the darts.
+
+        Returns
+        -------
+        (darts, d) float64
+        """
         hit = self.corners[rng.integers(len(self.corners), size=darts)]
         thrown: FloatArray = (hit + rng.random(hit.shape)) / self.side
         return np.minimum(thrown, 1 - 2.0**-53)
