@@ -37,7 +37,7 @@ class Kronecker:
     Notes
     -----
     alpha = (phi**-1, phi**-2, ..., phi**-d), where phi**(d + 1) = phi + 1. In 1D these are the multiples of
-    the golden ratio, whose gaps have at most three lengths. Any prefix is such a set; the torus is its domain.
+    the golden ratio, whose gaps have at most three lengths. Any prefix is such a set, on the torus.
 
     References
     ----------
