@@ -10,6 +10,7 @@ from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.memory import too_large
 from gbnbench.core.settings import configure, nearest, parse
 from gbnbench.core.torus import FloatArray
+from gbnbench.generators.ccvt.generator import CapacityConstrained
 from gbnbench.generators.direct.best_candidate import BestCandidate
 from gbnbench.generators.direct.bridson import Bridson
 from gbnbench.generators.direct.dart_throwing import DartThrowing
@@ -33,9 +34,11 @@ from gbnbench.generators.low_discrepancy.latin_maximin import LatinMaximin
 from gbnbench.generators.low_discrepancy.pmj02 import ProgressiveMultiJitter
 from gbnbench.generators.low_discrepancy.rank1_lattice import Rank1Lattice
 from gbnbench.generators.monitor import Monitor, MonitoredGenerator, refuse_all_but_progress
+from gbnbench.generators.power_cells.bnot import OptimalTransport
 from gbnbench.generators.protocol import Generator, ListedGenerator, checked_draw, realization_rng
 from gbnbench.generators.spectral_control.deep import Deep
 from gbnbench.generators.spectral_control.stealthy import Stealthy
+from gbnbench.generators.voronoi.capcvt import CapacityConstrainedVoronoi
 from gbnbench.generators.voronoi.lloyd import Lloyd
 from gbnbench.opencl import use_device
 
@@ -60,6 +63,9 @@ GENERATORS: dict[str, type[ListedGenerator]] = {
     "pmj02": ProgressiveMultiJitter,
     "bluenets": BlueNets,
     "lloyd": Lloyd,
+    "bnot": OptimalTransport,
+    "capcvt": CapacityConstrainedVoronoi,
+    "ccvt": CapacityConstrained,
     "fpo": FarthestPoint,
     "gbn": GaussianBlueNoise,
     "deep": Deep,
