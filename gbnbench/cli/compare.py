@@ -28,7 +28,7 @@ Examples:
   gbnbench compare gbn --baseline runs/before       exit code 1 when worse
 
 \b
-Generators: random, grid, hexagonal, jittered, latin, halton, sobol, lloyd, fpo, gbn, deep, stealthy;
+Generators: random, grid, hexagonal, jittered, latin, halton, sobol, lloyd, fpo, voidcluster, gbn, deep, stealthy;
 an unknown setting, as in gbn[x=1], lists those there are.
 """
 
