@@ -90,5 +90,18 @@ def _axis_kernel(side: int, sigma: float) -> tuple[NDArray[np.intp], FloatArray]
 
 
 def pixel_centres(pixels: NDArray[np.intp], side: int, d: int) -> FloatArray:
-    """Centres of pixels given by flat indices, (len(pixels), d) on the unit torus."""
+    """Centres of pixels.
+
+    Parameters
+    ----------
+    pixels : (n,) intp
+        Flat indices in C order.
+    side, d : int
+        Pixels an axis and dimension.
+
+    Returns
+    -------
+    (n, d) float64
+        On the unit torus.
+    """
     return (np.stack(np.unravel_index(pixels, (side,) * d), axis=1) + 0.5) / side

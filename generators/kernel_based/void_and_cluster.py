@@ -83,7 +83,17 @@ class VoidAndCluster:
             raise InputError(f"initial must be above 0 and at most 0.5; got {self.initial}")
 
     def side(self, n: int, d: int) -> int:
-        """Pixels on a side of the raster for n points in d dimensions."""
+        """Pixels on a side of the raster.
+
+        Parameters
+        ----------
+        n, d : int
+            Points and dimension.
+
+        Returns
+        -------
+        int
+        """
         return self.pixels or max(round((n / self.share) ** (1 / d)), 1)
 
     def refusal(self, n: int, d: int) -> str | None:

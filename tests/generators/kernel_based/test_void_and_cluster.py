@@ -95,7 +95,7 @@ def test_refusals_name_the_raster() -> None:
 
 @pytest.mark.slow
 def test_the_spectrum_is_exponential_with_the_exponent_of_farthest_points() -> None:
-    """Section 3.2 and Fig. 1(g) of Gaussian Blue Noise: c of ln P = ln epsilon + c nu**2, 20% for few sets."""
+    """Section 3.2 and Fig. 1(g) of Gaussian Blue Noise: c of ln P = ln eps + c nu**2, to 20%."""
     ours = measures(generate("voidcluster", n=1024, realizations=16))
     farthest = measures(generate("fpo", n=1024, realizations=2))
     assert ours["profile_residual_db"] < 0.7 * ours["powerlaw_residual_db"]
