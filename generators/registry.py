@@ -20,6 +20,7 @@ from gbnbench.generators.direct.uniform import Uniform
 from gbnbench.generators.fpo.generator import FarthestPoint
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.kernel_based.kernel_density import KernelDensityModel
+from gbnbench.generators.kernel_based.kernel_energy import KernelEnergy
 from gbnbench.generators.kernel_based.void_and_cluster import VoidAndCluster
 from gbnbench.generators.lattices.hexagonal import Hexagonal
 from gbnbench.generators.lattices.regular_grid import Grid
@@ -42,6 +43,7 @@ GENERATORS: dict[str, type[ListedGenerator]] = {
     "fpo": FarthestPoint,
     "voidcluster": VoidAndCluster,
     "kdm": KernelDensityModel,
+    "kernelenergy": KernelEnergy,
     "gbn": GaussianBlueNoise,
     "deep": Deep,
     "stealthy": Stealthy,

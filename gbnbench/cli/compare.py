@@ -28,8 +28,8 @@ Examples:
   gbnbench compare gbn --baseline runs/before       exit code 1 when worse
 
 \b
-Generators: random, grid, hexagonal, jittered, latin, halton, sobol, lloyd, fpo, voidcluster, kdm, gbn, deep,
-stealthy; an unknown setting, as in gbn[x=1], lists those there are.
+Generators: random, grid, hexagonal, jittered, latin, halton, sobol, lloyd, fpo, voidcluster, kdm, kernelenergy,
+gbn, deep, stealthy; an unknown setting, as in gbn[x=1], lists those there are.
 """
 
 

@@ -64,9 +64,7 @@ class KernelDensityModel:
     """
 
     name: ClassVar[str] = "kdm"
-    summary: ClassVar[str] = (
-        "kernel density model, sampled by Langevin steps, d <= 3 (Fattal 2011)"
-    )
+    summary: ClassVar[str] = "kernel density model, sampled by Langevin steps, d <= 3 (Fattal 2011)"
     family: ClassVar[Family] = "kernel-based"
     dimensions: ClassVar[tuple[int, int | None]] = (1, 3)
     toroidal: ClassVar[bool] = True

@@ -18,6 +18,7 @@ QUICK: dict[str, dict[str, Any]] = {
     "lloyd": {"iterations": 4},
     "gbn": {"gradients": 20},
     "kdm": {"iterations": 3},
+    "kernelenergy": {"gradients": 10},
 }
 SIZES = (16, 15, 27)
 
