@@ -23,6 +23,9 @@ from gbnbench.generators.direct.sobol import Sobol
 from gbnbench.generators.direct.uniform import Uniform
 from gbnbench.generators.fpo.generator import FarthestPoint
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
+from gbnbench.generators.kernel_based.kernel_density import KernelDensityModel
+from gbnbench.generators.kernel_based.kernel_energy import KernelEnergy
+from gbnbench.generators.kernel_based.void_and_cluster import VoidAndCluster
 from gbnbench.generators.kind_check import check_setting_names, of_instance
 from gbnbench.generators.lattices.hexagonal import Hexagonal
 from gbnbench.generators.lattices.regular_grid import Grid
@@ -67,6 +70,9 @@ GENERATORS: dict[str, type[ListedGenerator]] = {
     "capcvt": CapacityConstrainedVoronoi,
     "ccvt": CapacityConstrained,
     "fpo": FarthestPoint,
+    "voidcluster": VoidAndCluster,
+    "kdm": KernelDensityModel,
+    "kernelenergy": KernelEnergy,
     "gbn": GaussianBlueNoise,
     "deep": Deep,
     "stealthy": Stealthy,
