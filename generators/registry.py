@@ -40,7 +40,11 @@ from gbnbench.generators.monitor import Monitor, MonitoredGenerator, refuse_all_
 from gbnbench.generators.power_cells.bnot import OptimalTransport
 from gbnbench.generators.protocol import Generator, ListedGenerator, checked_draw, realization_rng
 from gbnbench.generators.spectral_control.deep import Deep
+from gbnbench.generators.spectral_control.single_peak import SinglePeak
+from gbnbench.generators.spectral_control.staircase import Staircase
 from gbnbench.generators.spectral_control.stealthy import Stealthy
+from gbnbench.generators.spectral_control.step import Step
+from gbnbench.generators.spectral_control.targeted import Targeted
 from gbnbench.generators.voronoi.capcvt import CapacityConstrainedVoronoi
 from gbnbench.generators.voronoi.lloyd import Lloyd
 from gbnbench.opencl import use_device
@@ -76,6 +80,10 @@ GENERATORS: dict[str, type[ListedGenerator]] = {
     "gbn": GaussianBlueNoise,
     "deep": Deep,
     "stealthy": Stealthy,
+    "step": Step,
+    "peak": SinglePeak,
+    "staircase": Staircase,
+    "targeted": Targeted,
 }
 
 for _kind in GENERATORS.values():
