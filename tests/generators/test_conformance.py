@@ -19,7 +19,6 @@ QUICK: dict[str, dict[str, Any]] = {
     "capcvt": {"iterations": 10},
     "ccvt": {"samples": 16},
     "gbn": {"gradients": 20},
-    "gbn": {"gradients": 20},
     "kdm": {"iterations": 3},
     "kernelenergy": {"gradients": 10},
 }
