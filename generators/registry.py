@@ -10,20 +10,42 @@ from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.memory import too_large
 from gbnbench.core.settings import configure, nearest, parse
 from gbnbench.core.torus import FloatArray
+from gbnbench.generators.ccvt.generator import CapacityConstrained
+from gbnbench.generators.direct.best_candidate import BestCandidate
+from gbnbench.generators.direct.bridson import Bridson
+from gbnbench.generators.direct.dart_throwing import DartThrowing
 from gbnbench.generators.direct.halton import Halton
 from gbnbench.generators.direct.jittered import Jittered
 from gbnbench.generators.direct.latin_hypercube import LatinHypercube
+from gbnbench.generators.direct.maximal_poisson import MaximalPoisson
+from gbnbench.generators.direct.sample_elimination import SampleElimination
 from gbnbench.generators.direct.sobol import Sobol
 from gbnbench.generators.direct.uniform import Uniform
 from gbnbench.generators.fpo.generator import FarthestPoint
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
+from gbnbench.generators.kernel_based.kernel_density import KernelDensityModel
+from gbnbench.generators.kernel_based.kernel_energy import KernelEnergy
+from gbnbench.generators.kernel_based.void_and_cluster import VoidAndCluster
 from gbnbench.generators.kind_check import check_setting_names, of_instance
 from gbnbench.generators.lattices.hexagonal import Hexagonal
 from gbnbench.generators.lattices.regular_grid import Grid
+from gbnbench.generators.low_discrepancy.blue_nets import BlueNets
+from gbnbench.generators.low_discrepancy.correlated_multijitter import CorrelatedMultiJitter
+from gbnbench.generators.low_discrepancy.hammersley import Hammersley
+from gbnbench.generators.low_discrepancy.kronecker import Kronecker
+from gbnbench.generators.low_discrepancy.latin_maximin import LatinMaximin
+from gbnbench.generators.low_discrepancy.pmj02 import ProgressiveMultiJitter
+from gbnbench.generators.low_discrepancy.rank1_lattice import Rank1Lattice
 from gbnbench.generators.monitor import Monitor, MonitoredGenerator, refuse_all_but_progress
+from gbnbench.generators.power_cells.bnot import OptimalTransport
 from gbnbench.generators.protocol import Generator, ListedGenerator, checked_draw, realization_rng
 from gbnbench.generators.spectral_control.deep import Deep
+from gbnbench.generators.spectral_control.single_peak import SinglePeak
+from gbnbench.generators.spectral_control.staircase import Staircase
 from gbnbench.generators.spectral_control.stealthy import Stealthy
+from gbnbench.generators.spectral_control.step import Step
+from gbnbench.generators.spectral_control.targeted import Targeted
+from gbnbench.generators.voronoi.capcvt import CapacityConstrainedVoronoi
 from gbnbench.generators.voronoi.lloyd import Lloyd
 from gbnbench.opencl import use_device
 
@@ -31,15 +53,37 @@ GENERATORS: dict[str, type[ListedGenerator]] = {
     "random": Uniform,
     "grid": Grid,
     "hexagonal": Hexagonal,
+    "rank1": Rank1Lattice,
     "jittered": Jittered,
+    "darts": DartThrowing,
+    "maximalpoisson": MaximalPoisson,
+    "bridson": Bridson,
+    "elimination": SampleElimination,
+    "bestcandidate": BestCandidate,
     "latin": LatinHypercube,
+    "latinmaximin": LatinMaximin,
+    "cmj": CorrelatedMultiJitter,
+    "hammersley": Hammersley,
     "halton": Halton,
     "sobol": Sobol,
+    "kronecker": Kronecker,
+    "pmj02": ProgressiveMultiJitter,
+    "bluenets": BlueNets,
     "lloyd": Lloyd,
+    "bnot": OptimalTransport,
+    "capcvt": CapacityConstrainedVoronoi,
+    "ccvt": CapacityConstrained,
     "fpo": FarthestPoint,
+    "voidcluster": VoidAndCluster,
+    "kdm": KernelDensityModel,
+    "kernelenergy": KernelEnergy,
     "gbn": GaussianBlueNoise,
     "deep": Deep,
     "stealthy": Stealthy,
+    "step": Step,
+    "peak": SinglePeak,
+    "staircase": Staircase,
+    "targeted": Targeted,
 }
 
 for _kind in GENERATORS.values():

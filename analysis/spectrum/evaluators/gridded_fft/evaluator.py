@@ -129,7 +129,8 @@ class GriddedFFT(DeviceEvaluator):
         errors = fft_errors(p, grid, n, points.crowd, runs, rounded_at_worst(n, d, p.name))
         usual = math.hypot(LARGEST_TYPICAL * UNIT[p.name], WINDOW_TYPICAL[p.name])
         allowed = usual if floor is None else max(usual, rms_for(floor))
-        return CubeProduct(self.precision) if errors.rms > allowed else GriddedFFT(self.precision, points=points)
+        usable = errors.rms <= allowed
+        return GriddedFFT(self.precision, points=points) if usable else CubeProduct(self.precision)
 
     def cube(
         self, x: FloatArray, fmax: int, weights: FloatArray | None, *, half: bool, mean: bool

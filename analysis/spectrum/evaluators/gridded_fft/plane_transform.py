@@ -130,12 +130,34 @@ class PlaneTransform:
 
 
 def transform_numbers(grid: RealGrid) -> int:
-    """Count the numbers of a grid's transformed rows, twice the complex ones."""
+    """Count the numbers of a grid's transformed rows, twice the complex ones.
+
+    Parameters
+    ----------
+    grid : RealGrid
+        Layout of a grid.
+
+    Returns
+    -------
+    int
+    """
     return 2 * grid.nodes * padded(grid.fmax + 1, TILE[grid.precision])
 
 
 def plane_serves(p: Precision, grid: RealGrid) -> bool:
-    """Tell whether a grid is one of the plane, and its columns fit in the device's local memory."""
+    """Tell whether a grid is one of the plane, and its columns fit in the device's local memory.
+
+    Parameters
+    ----------
+    p : Precision
+        Precision on the device.
+    grid : RealGrid
+        Layout of a grid.
+
+    Returns
+    -------
+    bool
+    """
     return grid.d == 2 and sum(_local_bytes(p, grid)) <= p.runtime.local_bytes
 
 
