@@ -19,6 +19,7 @@ from gbnbench.generators.direct.sobol import Sobol
 from gbnbench.generators.direct.uniform import Uniform
 from gbnbench.generators.fpo.generator import FarthestPoint
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
+from gbnbench.generators.kernel_based.electrostatic import Electrostatic
 from gbnbench.generators.kernel_based.kernel_density import KernelDensityModel
 from gbnbench.generators.kernel_based.kernel_energy import KernelEnergy
 from gbnbench.generators.kernel_based.void_and_cluster import VoidAndCluster
@@ -44,6 +45,7 @@ GENERATORS: dict[str, type[ListedGenerator]] = {
     "voidcluster": VoidAndCluster,
     "kdm": KernelDensityModel,
     "kernelenergy": KernelEnergy,
+    "electrostatic": Electrostatic,
     "gbn": GaussianBlueNoise,
     "deep": Deep,
     "stealthy": Stealthy,
