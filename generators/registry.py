@@ -22,6 +22,7 @@ from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.kernel_based.electrostatic import Electrostatic
 from gbnbench.generators.kernel_based.kernel_density import KernelDensityModel
 from gbnbench.generators.kernel_based.kernel_energy import KernelEnergy
+from gbnbench.generators.kernel_based.particle_hydrodynamics import ParticleHydrodynamics
 from gbnbench.generators.kernel_based.void_and_cluster import VoidAndCluster
 from gbnbench.generators.lattices.hexagonal import Hexagonal
 from gbnbench.generators.lattices.regular_grid import Grid
@@ -46,6 +47,7 @@ GENERATORS: dict[str, type[ListedGenerator]] = {
     "kdm": KernelDensityModel,
     "kernelenergy": KernelEnergy,
     "electrostatic": Electrostatic,
+    "sph": ParticleHydrodynamics,
     "gbn": GaussianBlueNoise,
     "deep": Deep,
     "stealthy": Stealthy,
