@@ -23,6 +23,7 @@ from gbnbench.generators.lattices.hexagonal import Hexagonal
 from gbnbench.generators.lattices.regular_grid import Grid
 from gbnbench.generators.monitor import Monitor, MonitoredGenerator, refuse_all_but_progress
 from gbnbench.generators.protocol import Generator, ListedGenerator, checked_draw, realization_rng
+from gbnbench.generators.sliced.generator import Sliced
 from gbnbench.generators.spectral_control.deep import Deep
 from gbnbench.generators.spectral_control.single_peak import SinglePeak
 from gbnbench.generators.spectral_control.staircase import Staircase
@@ -42,6 +43,7 @@ GENERATORS: dict[str, type[ListedGenerator]] = {
     "sobol": Sobol,
     "lloyd": Lloyd,
     "fpo": FarthestPoint,
+    "sliced": Sliced,
     "gbn": GaussianBlueNoise,
     "deep": Deep,
     "stealthy": Stealthy,

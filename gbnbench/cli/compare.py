@@ -28,8 +28,8 @@ Examples:
   gbnbench compare gbn --baseline runs/before       exit code 1 when worse
 
 \b
-Generators: random, grid, hexagonal, jittered, latin, halton, sobol, lloyd, fpo, gbn, deep, stealthy,
-step, peak, staircase, targeted;
+Generators: random, grid, hexagonal, jittered, latin, halton, sobol, lloyd, fpo, sliced, gbn, deep,
+stealthy, step, peak, staircase, targeted;
 an unknown setting, as in gbn[x=1], lists those there are.
 """
 

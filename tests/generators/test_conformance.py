@@ -14,7 +14,11 @@ from gbnbench.core.settings import specification
 from gbnbench.generators.protocol import FAMILIES, Generator, ListedGenerator, realization_rng
 from gbnbench.generators.registry import GENERATORS, find, generate
 
-QUICK: dict[str, dict[str, Any]] = {"lloyd": {"iterations": 4}, "gbn": {"gradients": 20}}
+QUICK: dict[str, dict[str, Any]] = {
+    "lloyd": {"iterations": 4},
+    "gbn": {"gradients": 20},
+    "sliced": {"iterations": 20},
+}
 SIZES = (16, 15, 27)
 
 
