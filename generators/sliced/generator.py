@@ -43,7 +43,8 @@ class Sliced:
     and independent elsewhere; the publication's program keeps a least angle between them. More
     ``directions`` leave less noise: the noise floor goes down as 1 / directions.
 
-    The cube is no torus: points keep away from its faces, which a spectrum with periodic waves sees. 3 CPU seconds at n = 1,024 in the plane.
+    The cube is no torus: points keep away from its faces, which a spectrum with periodic waves sees. 3 CPU
+    seconds at n = 1,024 in the plane.
 
     References
     ----------
