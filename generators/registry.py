@@ -41,6 +41,7 @@ from gbnbench.generators.low_discrepancy.rank1_lattice import Rank1Lattice
 from gbnbench.generators.monitor import Monitor, MonitoredGenerator, refuse_all_but_progress
 from gbnbench.generators.power_cells.bnot import OptimalTransport
 from gbnbench.generators.protocol import Generator, ListedGenerator, checked_draw, realization_rng
+from gbnbench.generators.sliced.generator import Sliced
 from gbnbench.generators.spectral_control.deep import Deep
 from gbnbench.generators.spectral_control.single_peak import SinglePeak
 from gbnbench.generators.spectral_control.staircase import Staircase
@@ -76,6 +77,7 @@ GENERATORS: dict[str, type[ListedGenerator]] = {
     "capcvt": CapacityConstrainedVoronoi,
     "ccvt": CapacityConstrained,
     "fpo": FarthestPoint,
+    "sliced": Sliced,
     "voidcluster": VoidAndCluster,
     "kdm": KernelDensityModel,
     "kernelenergy": KernelEnergy,

@@ -22,6 +22,7 @@ QUICK: dict[str, dict[str, Any]] = {
     "kdm": {"iterations": 3},
     "kernelenergy": {"gradients": 10},
     "electrostatic": {"iterations": 10},
+    "sliced": {"iterations": 20},
 }
 SIZES = (16, 15, 27)
 
