@@ -8,3 +8,7 @@ from gbnbench.verification.published.spectral import SPECTRAL
 from gbnbench.verification.published_figure import PublishedFigure
 
 PUBLISHED: tuple[PublishedFigure, ...] = (*CELLULAR, *KERNEL_BASED, *SPECTRAL)
+from gbnbench.verification.published.direct import DIRECT
+from gbnbench.verification.published.low_discrepancy import LOW_DISCREPANCY
+
+PUBLISHED: tuple[PublishedFigure, ...] = (*DIRECT, *LOW_DISCREPANCY, *CELLULAR)
