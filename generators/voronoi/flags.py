@@ -84,7 +84,7 @@ def cell_moments(
     """
     d = tiled.shape[1]
     corners = tiled[simplices]
-    centre = {(k,): corners[:, k] for k in range(d + 1)}
+    centre: dict[tuple[int, ...], FloatArray] = {(k,): corners[:, k] for k in range(d + 1)}
     for size in range(2, d + 2):
         for face in combinations(range(d + 1), size):
             centre[face] = circumcentres(corners[:, list(face)])
