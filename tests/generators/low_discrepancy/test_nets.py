@@ -13,8 +13,8 @@ from gbnbench.generators.low_discrepancy.dyadic_net import (
     exchangeable_pairs,
     random_net,
 )
+from gbnbench.generators.low_discrepancy.net_quality import net_quality
 from gbnbench.generators.registry import generate
-from tests.oracles.nets import net_quality
 
 
 def as_points(y: np.ndarray) -> np.ndarray:
