@@ -15,7 +15,7 @@ from gbnbench.generators.protocol import FAMILIES, Generator, ListedGenerator, r
 from gbnbench.generators.registry import GENERATORS, find, generate
 
 QUICK: dict[str, dict[str, Any]] = {
-    "lloyd": {"iterations": 4},
+    "lloyd": {"iterations": 1, "method": "lloyd"},
     "capcvt": {"iterations": 10},
     "ccvt": {"samples": 16},
     "gbn": {"gradients": 20},
