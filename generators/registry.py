@@ -23,6 +23,7 @@ from gbnbench.generators.kernel_based.electrostatic import Electrostatic
 from gbnbench.generators.kernel_based.kernel_density import KernelDensityModel
 from gbnbench.generators.kernel_based.kernel_energy import KernelEnergy
 from gbnbench.generators.kernel_based.particle_hydrodynamics import ParticleHydrodynamics
+from gbnbench.generators.kernel_based.spectral_sampling import SpectralSampling
 from gbnbench.generators.kernel_based.void_and_cluster import VoidAndCluster
 from gbnbench.generators.lattices.hexagonal import Hexagonal
 from gbnbench.generators.lattices.regular_grid import Grid
@@ -48,6 +49,7 @@ GENERATORS: dict[str, type[ListedGenerator]] = {
     "kernelenergy": KernelEnergy,
     "electrostatic": Electrostatic,
     "sph": ParticleHydrodynamics,
+    "oztireli": SpectralSampling,
     "gbn": GaussianBlueNoise,
     "deep": Deep,
     "stealthy": Stealthy,

@@ -29,7 +29,7 @@ Examples:
 
 \b
 Generators: random, grid, hexagonal, jittered, latin, halton, sobol, lloyd, fpo, voidcluster, kdm, kernelenergy,
-electrostatic, sph, gbn, deep, stealthy; an unknown setting, as in gbn[x=1], lists those there are.
+electrostatic, sph, oztireli, gbn, deep, stealthy; an unknown setting, as in gbn[x=1], lists those there are.
 """
 
 
