@@ -16,10 +16,13 @@ from gbnbench.generators.registry import GENERATORS, find, generate
 
 QUICK: dict[str, dict[str, Any]] = {
     "lloyd": {"iterations": 4},
+    "capcvt": {"iterations": 10},
+    "ccvt": {"samples": 16},
     "gbn": {"gradients": 20},
     "kdm": {"iterations": 3},
     "kernelenergy": {"gradients": 10},
     "electrostatic": {"iterations": 10},
+    "sliced": {"iterations": 20},
 }
 SIZES = (16, 15, 27)
 

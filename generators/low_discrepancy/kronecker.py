@@ -1,0 +1,88 @@
+"""Kronecker sequences of the generalised golden ratio (Kronecker 1884; Roberts 2018)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from gbnbench.core.errors import RefusalError
+from gbnbench.core.torus import FloatArray, wrap
+from gbnbench.generators.protocol import Family
+
+MOST_DIMENSIONS = 100  # beyond, the ratio is so near 1 that axes follow one another
+
+
+def generalised_golden_ratio(d: int) -> float:
+    """Positive root of phi**(d + 1) = phi + 1, by Newton's method: the golden ratio for d = 1."""
+    ratio = 2.0
+    for _ in range(100):  # from above the root of a convex function, every step lowers it
+        step = (ratio ** (d + 1) - ratio - 1) / ((d + 1) * ratio**d - 1)
+        if ratio - step >= ratio:
+            break
+        ratio -= step
+    return ratio
+
+
+@dataclass(frozen=True)
+class Kronecker:
+    """First n points of the R_d sequence, {s + i alpha}.
+
+    Parameters
+    ----------
+    shift : bool
+        Begin each realization at its own uniform s; without it at 1/2, as Roberts does.
+
+    Notes
+    -----
+    alpha = (phi**-1, phi**-2, ..., phi**-d), where phi**(d + 1) = phi + 1. In 1D these are the multiples of
+    the golden ratio, whose gaps have at most three lengths. Any prefix is such a set, on the torus.
+
+    References
+    ----------
+    Roberts, "The unreasonable effectiveness of quasirandom sequences", Extreme Learning, 2018. Kuipers &
+    Niederreiter, "Uniform distribution of sequences", 1974.
+
+    Examples
+    --------
+    >>> Kronecker(shift=False)(3, 2, np.random.default_rng(0)).round(4).tolist()
+    [[0.2549, 0.0698], [0.0098, 0.6397], [0.7646, 0.2095]]
+    """
+
+    name: ClassVar[str] = "kronecker"
+    summary: ClassVar[str] = (
+        "R_d sequence: multiples of powers of the generalised golden ratio (Roberts 2018)"
+    )
+    family: ClassVar[Family] = "low-discrepancy"
+    dimensions: ClassVar[tuple[int, int | None]] = (1, MOST_DIMENSIONS)
+    toroidal: ClassVar[bool] = True
+    reference: ClassVar[str] = "Roberts, The unreasonable effectiveness of quasirandom sequences, 2018"
+    shift: bool = True
+
+    def refusal(self, n: int, d: int) -> str | None:  # noqa: ARG002 (the protocol's arguments)
+        """Say why there is no such sequence in d dimensions.
+
+        Parameters
+        ----------
+        n : int
+            Points; any number will do.
+        d : int
+            Dimension.
+
+        Returns
+        -------
+        str or None
+            The reason; None for d <= 100.
+        """
+        if d <= MOST_DIMENSIONS:
+            return None
+        return f"d must be at most {MOST_DIMENSIONS} for the R_d sequence, whose axes grow alike; got d={d}"
+
+    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
+        """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
+        if reason := self.refusal(n, d):
+            raise RefusalError(reason)
+        alpha = generalised_golden_ratio(d) ** -np.arange(1.0, d + 1)
+        start = rng.random(d) if self.shift else np.full(d, 0.5)
+        return wrap(start + np.arange(1, n + 1)[:, None] * alpha)
