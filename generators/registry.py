@@ -27,6 +27,7 @@ from gbnbench.generators.kernel_based.electrostatic import Electrostatic
 from gbnbench.generators.kernel_based.kernel_density import KernelDensityModel
 from gbnbench.generators.kernel_based.kernel_energy import KernelEnergy
 from gbnbench.generators.kernel_based.particle_hydrodynamics import ParticleHydrodynamics
+from gbnbench.generators.kernel_based.progressive_gbn import ProgressiveGaussianBlueNoise
 from gbnbench.generators.kernel_based.spectral_sampling import SpectralSampling
 from gbnbench.generators.kernel_based.void_and_cluster import VoidAndCluster
 from gbnbench.generators.kind_check import check_setting_names, of_instance
@@ -86,6 +87,7 @@ GENERATORS: dict[str, type[ListedGenerator]] = {
     "sph": ParticleHydrodynamics,
     "oztireli": SpectralSampling,
     "gbn": GaussianBlueNoise,
+    "progressivegbn": ProgressiveGaussianBlueNoise,
     "deep": Deep,
     "stealthy": Stealthy,
     "step": Step,
