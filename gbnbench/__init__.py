@@ -6,6 +6,7 @@ The names below load their modules when first used, so that importing gbnbench c
   ``Comparison`` with its table, figures and report;
 - ``integrate(sources, ...)``: variance of integrals estimated by their points, as an ``Integration``;
 - ``generate(name, n=, d=, seed=, realizations=, **settings)``: point sets from a generator;
+- ``generator_table()``: every generator with its family, dimensions, cost and reference;
 - ``load(path)``, ``save(path, x)``: point-set files;
 - ``wrap(x)``, ``scale(x, low, high)``: points brought onto the unit torus [0, 1)^d;
 - ``periodogram(x, fmax)``: exact power at every integer frequency; ``radial(spectrum)``: its radial mean;
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
     from gbnbench.core.results.radial import ShellSpectrum
     from gbnbench.core.results.spectrum import Spectrum
     from gbnbench.core.torus import scale, wrap
+    from gbnbench.generators.listing import generator_table
     from gbnbench.generators.registry import generate
     from gbnbench.io.points import load, save
 
@@ -51,6 +53,7 @@ __all__ = [
     "WindowEstimates",
     "compare",
     "generate",
+    "generator_table",
     "in_window",
     "integrate",
     "load",
@@ -74,6 +77,7 @@ _MODULES = {
     "WindowEstimates": "gbnbench.analysis.window.estimates",
     "compare": "gbnbench.api.compare",
     "generate": "gbnbench.generators.registry",
+    "generator_table": "gbnbench.generators.listing",
     "in_window": "gbnbench.analysis.window.estimates",
     "integrate": "gbnbench.api.integration",
     "load": "gbnbench.io.points",

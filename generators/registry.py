@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import dataclasses
 import numbers
-from collections.abc import Mapping
 
 import numpy as np
 
@@ -12,6 +10,7 @@ from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.memory import too_large
 from gbnbench.core.settings import configure, nearest, parse
 from gbnbench.core.torus import FloatArray
+from gbnbench.generators.ccvt.generator import CapacityConstrained
 from gbnbench.generators.direct.best_candidate import BestCandidate
 from gbnbench.generators.direct.bridson import Bridson
 from gbnbench.generators.direct.dart_throwing import DartThrowing
@@ -24,6 +23,10 @@ from gbnbench.generators.direct.sobol import Sobol
 from gbnbench.generators.direct.uniform import Uniform
 from gbnbench.generators.fpo.generator import FarthestPoint
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
+from gbnbench.generators.kernel_based.kernel_density import KernelDensityModel
+from gbnbench.generators.kernel_based.kernel_energy import KernelEnergy
+from gbnbench.generators.kernel_based.void_and_cluster import VoidAndCluster
+from gbnbench.generators.kind_check import check_setting_names, of_instance
 from gbnbench.generators.lattices.hexagonal import Hexagonal
 from gbnbench.generators.lattices.regular_grid import Grid
 from gbnbench.generators.low_discrepancy.blue_nets import BlueNets
@@ -34,9 +37,15 @@ from gbnbench.generators.low_discrepancy.latin_maximin import LatinMaximin
 from gbnbench.generators.low_discrepancy.pmj02 import ProgressiveMultiJitter
 from gbnbench.generators.low_discrepancy.rank1_lattice import Rank1Lattice
 from gbnbench.generators.monitor import Monitor, MonitoredGenerator, refuse_all_but_progress
+from gbnbench.generators.power_cells.bnot import OptimalTransport
 from gbnbench.generators.protocol import Generator, ListedGenerator, checked_draw, realization_rng
 from gbnbench.generators.spectral_control.deep import Deep
+from gbnbench.generators.spectral_control.single_peak import SinglePeak
+from gbnbench.generators.spectral_control.staircase import Staircase
 from gbnbench.generators.spectral_control.stealthy import Stealthy
+from gbnbench.generators.spectral_control.step import Step
+from gbnbench.generators.spectral_control.targeted import Targeted
+from gbnbench.generators.voronoi.capcvt import CapacityConstrainedVoronoi
 from gbnbench.generators.voronoi.lloyd import Lloyd
 from gbnbench.opencl import use_device
 
@@ -61,33 +70,46 @@ GENERATORS: dict[str, type[ListedGenerator]] = {
     "pmj02": ProgressiveMultiJitter,
     "bluenets": BlueNets,
     "lloyd": Lloyd,
+    "bnot": OptimalTransport,
+    "capcvt": CapacityConstrainedVoronoi,
+    "ccvt": CapacityConstrained,
     "fpo": FarthestPoint,
+    "voidcluster": VoidAndCluster,
+    "kdm": KernelDensityModel,
+    "kernelenergy": KernelEnergy,
     "gbn": GaussianBlueNoise,
     "deep": Deep,
     "stealthy": Stealthy,
+    "step": Step,
+    "peak": SinglePeak,
+    "staircase": Staircase,
+    "targeted": Targeted,
 }
-# Keywords of ``generate``, which no setting may be named after.
-RESERVED = frozenset({"name", "n", "d", "seed", "realizations", "monitor", "device", "settings"})
+
+for _kind in GENERATORS.values():
+    check_setting_names(_kind)
 
 
-def check_setting_names(kind: type[object]) -> None:
-    """Refuse a generator with a setting of the name of a keyword of ``generate``, which would never reach it.
+def kind_named(name: str) -> type[Generator] | None:
+    """Find the class of a generator: gbnbench's own, a program of the user's file, or a package's.
 
     Raises
     ------
     InputError
-        If there is such a setting.
+        If it is one from elsewhere that cannot be used; the text says why.
     """
-    fields = {field.name for field in dataclasses.fields(kind)}  # type: ignore[arg-type]
-    if taken := sorted(fields & RESERVED):
-        raise InputError(
-            f"a setting of a generator must not be named as a keyword of generate; {kind.__name__} has "
-            f"{', '.join(taken)}: rename it"
-        )
+    if name in GENERATORS:
+        return GENERATORS[name]
+    from gbnbench.generators.third_parties.discovery import third_party  # slow to load, and seldom needed
+
+    return third_party(name)
 
 
-for _kind in GENERATORS.values():
-    check_setting_names(_kind)
+def generator_names() -> list[str]:
+    """List every name that ``find`` knows, gbnbench's own first; nothing is imported."""
+    from gbnbench.generators.third_parties.discovery import third_party_names
+
+    return list(dict.fromkeys([*GENERATORS, *third_party_names()]))
 
 
 def find(text: str, **settings: object) -> Generator:
@@ -96,7 +118,8 @@ def find(text: str, **settings: object) -> Generator:
     Parameters
     ----------
     text : str
-        A name of ``GENERATORS``, with settings in brackets where they are not the defaults.
+        A name of ``GENERATORS`` or of a generator from elsewhere, with settings in brackets where they are
+        not the defaults.
     **settings
         More settings, as values or text.
 
@@ -107,7 +130,8 @@ def find(text: str, **settings: object) -> Generator:
     Raises
     ------
     InputError
-        If the text is malformed, the name or a setting unknown, a value wrong, or a setting given twice.
+        If the text is malformed, the name or a setting unknown, a value wrong, a setting given twice, or the
+        generator one from elsewhere that cannot be used.
 
     Examples
     --------
@@ -115,53 +139,16 @@ def find(text: str, **settings: object) -> Generator:
     Lloyd(iterations=50, tolerance=0.0)
     """
     name, inside = parse(text)
-    if name not in GENERATORS:
+    kind = kind_named(name)
+    if kind is None:
+        names = generator_names()
         raise InputError(
-            f"no generator is named {name!r}{nearest(name, GENERATORS)}; there are {', '.join(GENERATORS)}"
+            f"no generator is named {name!r}{nearest(name, names)}; there are {', '.join(names)}"
         )
     twice = sorted(inside.keys() & settings.keys())
     if twice:
         raise InputError(f"a setting must come once; got {twice[0]!r} in {text!r} and as an argument")
-    return configure(GENERATORS[name], {**inside, **settings})
-
-
-def of_instance(generator: object, settings: Mapping[str, object] | None = None) -> Generator:
-    """Return a generator that came as an instance, of the registry or somebody's own, or say what it lacks.
-
-    Parameters
-    ----------
-    generator : Generator
-        An instance of a frozen dataclass with what ``Generator`` asks for.
-    settings : mapping, optional
-        What was given beside it: it has its settings already, so there must be none.
-
-    Returns
-    -------
-    Generator
-        The instance itself.
-
-    Raises
-    ------
-    InputError
-        If it is a class, no frozen dataclass, or no generator, if a setting of it has the name of a keyword
-        of ``generate``, or if settings came with it.
-    """
-    kind = type(generator)
-    if isinstance(generator, type):
-        raise InputError(f"a generator must be an instance; got the class: write {generator.__name__}()")
-    if not isinstance(generator, Generator):
-        raise InputError(
-            "a generator must be text such as 'gbn[sigma=0.8]', or an object with name, summary, "
-            f"refusal(n, d) and __call__(n, d, rng); got {kind.__name__}"
-        )
-    frozen = getattr(getattr(kind, "__dataclass_params__", None), "frozen", False)
-    if not (dataclasses.is_dataclass(generator) and frozen):
-        raise InputError(f"a generator must be a frozen dataclass of its settings; {kind.__name__} is none")
-    check_setting_names(kind)
-    if settings:
-        given = ", ".join(f"{name}=..." for name in settings)
-        raise InputError(f"an instance has its settings already: write {kind.__name__}({given})")
-    return generator
+    return configure(kind, {**inside, **settings})
 
 
 def generate(
@@ -179,8 +166,8 @@ def generate(
     Parameters
     ----------
     name : str or Generator
-        One of ``GENERATORS``, with or without settings in brackets: ``"gbn[sigma=0.8]"``; or an instance of
-        a generator of your own, whose sets are seeded in the same way.
+        A generator, with or without settings in brackets: ``"gbn[sigma=0.8]"``, as ``gbnbench generators``
+        lists them; or an instance of one of your own, whose sets are seeded in the same way.
     n : int
         Points a set, >= 1.
     d : int

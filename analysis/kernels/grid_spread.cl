@@ -4,7 +4,7 @@
  * place less 1/2: the values of the lower cells are their sums, those of the upper ones, mirrored, their differences.
  * Strengths are real, so the grid is.
  *
- * One work-item takes the nodes first_row .. end_row of the first axis (all, if there is only one axis) of one set.
+ * A band is the nodes first_row .. end_row of the first axis (all, if there is only one axis) of one set.
  * It takes the points of its own band and of the band before, whose windows reach into its own. Where there are
  * several runs, each takes every runs-th point and is summed in `part`, which is then added to `grid`, so that the
  * rounding of a node's sum grows with the points of a run and the number of runs. A run's mean is left out then:
@@ -109,13 +109,13 @@ static void give(__global REAL *restrict part, __global REAL *restrict sum, cons
     }
 }
 
-__kernel void grid_spread(__global const TURN *turns, const uint stride, __global const REAL *weight,
-                          const uint weight_stride, __global const uint *starts, const uint bands,
-                          const uint runs, __global const REAL *means, const uint nodes, const uint rows_a_band,
-                          const uint row_length, __constant REAL *terms, __global REAL *grids,
-                          __global REAL *parts, const ulong grid_size)
+/* Carries the points of a set to a band of its grid: `grid`, which is cleared, with `part` beside it for runs. */
+static void spread_band(const uint set, const uint band, __global const TURN *turns, const uint stride,
+                        __global const REAL *weight, const uint weight_stride, __global const uint *starts,
+                        const uint bands, const uint runs, const REAL mean, const uint nodes,
+                        const uint rows_a_band, const uint row_length, __constant REAL *terms,
+                        __global REAL *grid, __global REAL *part)
 {
-    const uint band = get_global_id(0), set = get_global_id(1);
 #if AXES == 1
     const uint first_row = 0, end_row = 1;
 #else
@@ -123,10 +123,9 @@ __kernel void grid_spread(__global const TURN *turns, const uint stride, __globa
     const uint end_row = first_row + rows_a_band < nodes ? first_row + rows_a_band : nodes;
 #endif
     const ulong plane = AXES == 3 ? (ulong)(nodes + WIDTH) * row_length : row_length;
-    const ulong begin = set * grid_size + first_row * plane, count = (end_row - first_row) * plane;
+    const ulong count = (end_row - first_row) * plane;
     __global const uint *start = starts + set * (bands + 1);
-    __global REAL *grid = grids + begin;
-    __global REAL *into = runs > 1 ? parts + begin : grid;
+    __global REAL *into = runs > 1 ? part : grid;
     clear(grid, count);
     if (runs > 1) clear(into, count);
     for (uint run = 0; run < runs; run++) {
@@ -185,8 +184,21 @@ __kernel void grid_spread(__global const TURN *turns, const uint stride, __globa
         }
         if (runs > 1) {
             fold(into, end_row - first_row, plane, nodes, row_length);
-            give(into, grid, count, means[set]);
+            give(into, grid, count, mean);
         }
     }
     if (runs == 1) fold(grid, end_row - first_row, plane, nodes, row_length);
+}
+
+__kernel void grid_spread(__global const TURN *turns, const uint stride, __global const REAL *weight,
+                          const uint weight_stride, __global const uint *starts, const uint bands,
+                          const uint runs, __global const REAL *means, const uint nodes, const uint rows_a_band,
+                          const uint row_length, __constant REAL *terms, __global REAL *grids,
+                          __global REAL *parts, const ulong grid_size)
+{
+    const uint band = get_global_id(0), set = get_global_id(1);
+    const ulong plane = AXES == 3 ? (ulong)(nodes + WIDTH) * row_length : row_length;
+    const ulong begin = set * grid_size + (AXES == 1 ? 0 : band * rows_a_band * plane);
+    spread_band(set, band, turns, stride, weight, weight_stride, starts, bands, runs, means[set], nodes,
+                rows_a_band, row_length, terms, grids + begin, parts + begin);
 }

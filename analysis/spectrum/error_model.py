@@ -113,6 +113,8 @@ def coordinates(x: FloatArray, precision: str, weights: FloatArray | None = None
         share = float((np.abs(weights).sum(axis=1) / np.sqrt((weights**2).sum(axis=1))).max())
     flat = x.reshape(-1)
     inexact = (flat < EXACT_FROM).nonzero()[0] if precision == "double" else np.arange(flat.size)
+    if not inexact.size:
+        return Coordinates(0.0, 0.0, share)
     scaled = flat[inexact] * 2.0 ** BITS[precision]
     scaled -= np.rint(scaled)
     if not scaled.any():

@@ -57,6 +57,9 @@ PLANTS = {
     "a window's odd part": Plant(
         "grid_spread.cl", "= even1 + odd1 * s;", "= even1 - odd1 * s;", "gridded FFT"
     ),
+    "a harmonic's odd part": Plant("plane_transform.cl", "m.re - p.re", "p.re - m.re", "gridded FFT"),
+    "a fifth of a turn": Plant("fourier_passes.cl", "0.58778525", "0.58778526", "gridded FFT"),
+    "an eighth of a turn": Plant("fourier_passes.cl", "b3), -root", "b3), root", "gridded FFT"),
     "a negative frequency": Plant("grid_power.cl", "f + wrap : f", "f + wrap - 1 : f", "gridded FFT"),
     "a kernel of pairs": Plant("discrepancy_pairs.cl", "(t - t * t)", "(t + t * t)", "discrepancy, periodic"),
     "a lane too many": Plant("pair_distances.cl", "l < end - j", "l < LANES", "pair distances"),

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from gbnbench.core.errors import InputError
 from gbnbench.generators.protocol import Generator
 from gbnbench.io.points import ReadingOptions
+from gbnbench.runs.named_groups import is_group
 from gbnbench.runs.sources import DEFAULT_READING, Source, array_source, resolve
 
 SourceLike = Any  # str, Path, array_like, Generator or Source
@@ -61,6 +62,10 @@ def as_sources(
         sources: list[Source] = []
         skipped: list[str] = []
         for label, item in given.items():
+            if is_group(item):
+                raise InputError(
+                    f"{item} is several generators, which have their own names: give it no label"
+                )
             found, left_out = resolve(
                 [_source(item, str(label), sides)], sizes, dimensions, realizations, reading
             )

@@ -25,11 +25,12 @@ Examples:
   gbnbench compare                                  six classics, a minute or so
   gbnbench compare gbn 'gbn[iterations=1000]' mine.txt
   gbnbench compare jittered sobol -n 256,1024,4096  a sweep
+  gbnbench compare --preset paper                   the methods of the paper's figures 1 and 8
+  gbnbench compare gbn --family cellular
   gbnbench compare gbn --baseline runs/before       exit code 1 when worse
 
 \b
-Generators: random, grid, hexagonal, jittered, latin, halton, sobol, lloyd, fpo, gbn, deep, stealthy;
-an unknown setting, as in gbn[x=1], lists those there are.
+'gbnbench generators' lists them, 'gbnbench generators NAME' has the settings of one.
 """
 
 
@@ -37,6 +38,7 @@ an unknown setting, as in gbn[x=1], lists those there are.
 @click.argument("sources", nargs=-1)
 @click.option("-n", "n", type=options.WholeNumbers(), default="1024", show_default=True, help="Points a set.")
 @click.option("-d", "d", type=options.WholeNumbers(), default="2", show_default=True, help="Dimensions.")
+@options.groups
 @options.out_folder("Run folder.  [default: runs/NAME, by the settings]")
 @click.option("--baseline", type=click.Path(path_type=Path), help="A finished run to be judged against.")
 @options.reading
@@ -58,6 +60,7 @@ def compare(
     as_json: bool,
     quiet: bool,
     reading: ReadingOptions,
+    groups: tuple[str, ...],
 ) -> None:
     """Compare generators and files side by side: table, report.
 
@@ -71,7 +74,7 @@ def compare(
     for line in double_meanings(sources):
         click.echo(f"gbnbench: {line}", err=True)
     comparison = make(
-        list(sources or DEFAULT_SOURCES),
+        [*sources, *groups] or DEFAULT_SOURCES,
         n=n,
         d=d,
         realizations=realizations,

@@ -27,7 +27,8 @@ Examples:
 @options.out_folder("Folder for pictures and what they are drawn from.", default="figures")
 @click.option(
     "--sets", multiple=True, metavar="NAME=PATH",
-    help="Sets of a method without a generator here (bnot, kdm, vnc, bluenets, step, ...): a file or folder.",
+    help="Sets of a method of the paper (bnot, kdm, vnc, bluenets, ccvt, step, ...), in place of ours: "
+    "a file or folder.",
 )  # fmt: skip
 @click.option("--no-captions", is_flag=True, help="Leave captions out of the pictures; captions.md has them.")
 @options.reading

@@ -51,7 +51,7 @@ def generate(
 ) -> None:  # fmt: skip
     """Make point sets and write them to a file.
 
-    NAME is a generator, such as gbn or 'gbn[iterations=1000]'.
+    NAME is one of "gbnbench generators", such as gbn or 'gbn[iterations=1000]'.
     """
     from gbnbench.generators.monitor import Trace
     from gbnbench.generators.registry import find

@@ -75,6 +75,7 @@ def _settings(family: Family) -> str:
     "--list", "listed", is_flag=True, is_eager=True, expose_value=False, callback=_list,
     help="List the families of integrands.",
 )  # fmt: skip
+@options.groups
 @options.out_folder("Folder of results.  [default: runs/NAME, by the settings]")
 @options.reading
 @options.realizations(16)
@@ -97,6 +98,7 @@ def integrate(
     as_json: bool,
     quiet: bool,
     reading: ReadingOptions,
+    groups: tuple[str, ...],
 ) -> None:
     """Variance of integrals estimated by point sets.
 
@@ -113,7 +115,7 @@ def integrate(
     for line in double_meanings(sources):
         click.echo(f"gbnbench: {line}", err=True)
     made = make(
-        list(sources or DEFAULT_SOURCES),
+        [*sources, *groups] or DEFAULT_SOURCES,
         n=n,
         d=d,
         realizations=realizations,

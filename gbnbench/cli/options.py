@@ -174,6 +174,26 @@ def jobs(command: F) -> F:
     )
 
 
+def groups(command: F) -> F:
+    """Add ``--family`` and ``--preset``, generators by groups, which a command gets as ``groups``."""
+
+    @functools.wraps(command)
+    def with_groups(*args: Any, family: tuple[str, ...], preset: tuple[str, ...], **kwargs: Any) -> Any:
+        named = [*(f"family:{name}" for name in family), *(f"preset:{name}" for name in preset)]
+        return command(*args, groups=tuple(named), **kwargs)
+
+    decorated = click.option(
+        "--preset", metavar="NAME", multiple=True,
+        help="Also a choice of generators: paper, the methods of the paper's figures 1 and 8.",
+    )(with_groups)  # fmt: skip
+    return click.option(
+        "--family",
+        metavar="NAME",
+        multiple=True,
+        help="Also every generator of this family that serves n and d; may come again.",
+    )(decorated)  # type: ignore[return-value]
+
+
 def quiet(command: F) -> F:
     """Add ``--quiet``."""
     return click.option("--quiet", is_flag=True, help="No progress.")(command)

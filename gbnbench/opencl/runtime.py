@@ -55,6 +55,11 @@ class Runtime:
         """Bytes of the largest buffer that the device gives."""
         return int(handle(self.device.position).max_mem_alloc_size)
 
+    @cached_property
+    def local_bytes(self) -> int:
+        """Bytes of local memory that a work-group has."""
+        return int(handle(self.device.position).local_mem_size)
+
     def lanes(self, precision: str) -> int:
         """Vector width for precision, "float" or "double".
 
@@ -164,6 +169,10 @@ class Runtime:
         """
         flags = self._cl.mem_flags.READ_WRITE | self._cl.mem_flags.USE_HOST_PTR
         return self._cl.Buffer(self.context, flags, hostbuf=array)
+
+    def local(self, nbytes: int) -> Any:
+        """Ask for local memory of a work-group, at most ``local_bytes``, as an argument of a kernel."""
+        return self._cl.LocalMemory(int(nbytes))
 
     def download(self, buffer: Any, out: NDArray[Any]) -> NDArray[Any]:
         """Copy the beginning of a buffer to the host, after the kernels before it have ended.

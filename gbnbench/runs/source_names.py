@@ -8,7 +8,7 @@ from pathlib import Path
 
 from gbnbench.core.errors import InputError
 from gbnbench.generators.protocol import Generator
-from gbnbench.generators.registry import GENERATORS, find
+from gbnbench.generators.registry import find, generator_names, kind_named
 
 
 def generator_named(name: str) -> Generator | None:
@@ -31,7 +31,8 @@ def generator_named(name: str) -> Generator | None:
     """
     base, bracket, _ = name.partition("[")
     base = base.strip()
-    if base in GENERATORS:
+    names = generator_names()
+    if base in names:
         try:
             return find(name)
         except InputError:
@@ -40,11 +41,12 @@ def generator_named(name: str) -> Generator | None:
             raise
     if Path(name).exists():
         return None
-    close = difflib.get_close_matches(base.lower(), GENERATORS, n=2)
+    kind_named(base)  # has an error of its own where a file of programs cannot be read
+    close = difflib.get_close_matches(base.lower(), names, n=2)
     near = f"; did you mean {' or '.join(close)}?" if close else "."
     raise InputError(
         f"{name!r} is neither a generator nor an existing file or folder{near} "
-        f"The generators are {', '.join(GENERATORS)}"
+        f"The generators are {', '.join(names)}"
     )
 
 
@@ -62,8 +64,9 @@ def double_meanings(names: Iterable[object]) -> list[str]:
         A sentence for each, with the way to ask for the other.
     """
     told = []
+    known = generator_names()
     for name in dict.fromkeys(names):
-        if not isinstance(name, str) or name.partition("[")[0].strip() not in GENERATORS:
+        if not isinstance(name, str) or name.partition("[")[0].strip() not in known:
             continue
         if not Path(name).exists():
             continue

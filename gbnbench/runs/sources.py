@@ -19,10 +19,13 @@ from gbnbench.core.readable_text import without_bytes
 from gbnbench.core.settings import specification
 from gbnbench.core.sides import as_sides
 from gbnbench.core.torus import FloatArray, as_realizations
+from gbnbench.generators.kind_check import of_instance
 from gbnbench.generators.protocol import Generator
-from gbnbench.generators.registry import GENERATORS, of_instance
+from gbnbench.generators.registry import GENERATORS
+from gbnbench.generators.third_parties.discovery import provenance
 from gbnbench.io.points import ReadingOptions
 from gbnbench.runs.file_sets import read_groups
+from gbnbench.runs.named_groups import expanded
 from gbnbench.runs.source_names import generator_named
 
 DEFAULT_READING = ReadingOptions()
@@ -80,7 +83,7 @@ class Source:
             box = {} if as_sides(self.sides, self.d) is None else {"sides": list(self.sides or ())}
             return {**same, "kind": self.kind, "sha256": self.digest, **read, **box}
         kind = type(self.generator)
-        own = {} if GENERATORS.get(kind.name) is kind else {"class": f"{kind.__module__}.{kind.__qualname__}"}
+        own = {} if GENERATORS.get(kind.name) is kind else provenance(kind)
         return {
             **same,
             "kind": "generator",
@@ -135,7 +138,8 @@ def resolve(
     names : iterable of str, Path, Generator or Source
         Generators such as ``gbn[iterations=1000]``, files and folders. A name that is both is a generator;
         with a path separator (``./gbn``) or as a Path it is a path. An instance is a generator of your own,
-        whose class the workers must be able to import.
+        whose class the workers must be able to import. ``family:cellular`` is every generator of a family,
+        ``preset:paper`` the methods of the paper's figures 1 and 8.
     n, d : sequence of int
         Sizes and dimensions for the generators: each is made at every pair. Files bring their own.
     realizations : int
@@ -148,7 +152,8 @@ def resolve(
     sources : tuple of Source
         At least one.
     skipped : tuple of str
-        A sentence for each generator, n and d that was refused.
+        A sentence for each generator, n and d that was refused, and for each method of a preset without a
+        generator.
 
     Raises
     ------
@@ -161,8 +166,8 @@ def resolve(
         if bad := [v for v in values if v < 1]:
             raise InputError(f"{argument} must be at least 1; got {bad[0]}")
     sources: list[Source] = []
-    skipped: list[str] = []
-    names = list(names)
+    names, told = expanded(names)
+    skipped = list(told)
     paths = dict.fromkeys(str(name) for name in names if isinstance(name, (str, Path)))
     stems = Counter(_title(Path(path)) for path in paths)
     for name in names:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Sequence
 from functools import partial
 
 import numpy as np
 
 from gbnbench.analysis.measures import AnalysisArrays, analyse_to_arrays
+from gbnbench.core.cpu_time import cpu_seconds
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import Generator, checked_draw, realization_rng
 from gbnbench.io.points.point_sets import NO_TORUS
@@ -92,14 +92,14 @@ def draw_realization(
     """
     first = (generator, n, d) not in _drawn_before
     _drawn_before.add((generator, n, d))
-    began = time.process_time()
+    began = cpu_seconds()
     x = generator(n, d, realization_rng(seed, k))
-    cost = time.process_time() - began
+    cost = cpu_seconds() - began
     x = checked_draw(generator, x, n, d)
     if first and redraw and cost < REDRAW_SECONDS:
-        began = time.process_time()
+        began = cpu_seconds()
         generator(n, d, realization_rng(seed, k))
-        return Realization(x, time.process_time() - began, False)
+        return Realization(x, cpu_seconds() - began, False)
     return Realization(x, cost, first)
 
 

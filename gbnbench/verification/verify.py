@@ -23,11 +23,14 @@ class Verified:
     figure : PublishedFigure
         What was published.
     ours : float
-        What was measured; nan where the measure is undefined.
+        What was measured; nan where the measure is undefined or the sets could not be drawn.
+    failure : str
+        Why they could not be drawn; empty where they were.
     """
 
     figure: PublishedFigure
     ours: float
+    failure: str = ""
 
     @property
     def agrees(self) -> bool:
@@ -56,13 +59,16 @@ def verify(
     InputError, RefusalError
         If a generator is unknown or cannot make the sets.
     """
-    for (generator, n, d, sets, seed), group in groupby(
-        figures, lambda f: (f.generator, f.n, f.d, f.sets, f.seed)
-    ):
+    for (generator, n, d, sets, seed), group in groupby(figures, same_sets):
         if progress is not None:
             progress(generator)
         x = np.reshape(generate(generator, n=n, d=d, seed=seed, realizations=sets), (sets, n, d))
         yield from _measured(x, list(group))
+
+
+def same_sets(figure: PublishedFigure) -> tuple[str, int, int, int, int]:
+    """Return what figures of the same sets have in common: generator, n, d, number of sets and seed."""
+    return figure.generator, figure.n, figure.d, figure.sets, figure.seed
 
 
 def _measured(x: FloatArray, figures: list[PublishedFigure]) -> Iterator[Verified]:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import ClassVar, cast
+from typing import ClassVar
 
 import numpy as np
 
@@ -18,22 +18,13 @@ from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.monitor import Monitor
 from gbnbench.generators.protocol import Family
 from gbnbench.generators.spectral_control.band import BandGenerator, check_edge
-from gbnbench.generators.spectral_control.target_profiles import Exponential, Table
+from gbnbench.generators.spectral_control.target_profiles import Exponential, Table, TargetSetting, as_target
 
 BOUND = math.pi * 0.72**2 / 2  # share of the coordinates that the default edge binds, in any dimension
 DEPTH = 10 * math.pi**2 * 0.72**2  # c edge**2 by default: a power of 6e-23 at nu = 0, in any dimension
 STEPS = 60  # five to ten are usual, forty where nearly every coordinate is bound
 LONGER = ((3, 100), (10, 1000))  # further starts: times ``gradients``, and at least so many
 USUAL = 10  # steps that progress expects of a set
-
-Target = str | Table | Callable[[FloatArray], FloatArray] | None
-
-
-def _as_target(value: object) -> Target:
-    """Accept a file's name, a callable, a table or (k, 2) numbers."""
-    if value is None or isinstance(value, str | Table) or callable(value):
-        return None if isinstance(value, str) and value.lower() == "none" else cast("Target", value)
-    return Table.of(value)  # type: ignore[arg-type]
 
 
 @dataclass(frozen=True)
@@ -76,11 +67,11 @@ class Deep(BandGenerator):
 
     c: float | None = None
     edge: float | None = None
-    target: Target = field(default=None, metadata={"read": _as_target})
+    target: TargetSetting = field(default=None, metadata={"read": as_target})
     gradients: int = 200
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "target", _as_target(self.target))
+        object.__setattr__(self, "target", as_target(self.target))
         if self.c is not None and not (math.isfinite(self.c) and self.c > 0):
             raise InputError(f"c must be positive and finite; got {self.c}")
         check_edge(self.edge)

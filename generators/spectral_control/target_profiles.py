@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import csv
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -129,3 +131,28 @@ class Table:
             return cls.of(rows)
         except InputError as error:
             raise FormatError(path, str(error)) from None
+
+
+TargetSetting = str | Table | Callable[[FloatArray], FloatArray] | None
+
+
+def as_target(value: object) -> TargetSetting:
+    """Accept what a setting may give as a target: a name, a callable, a table or (k, 2) numbers.
+
+    Parameters
+    ----------
+    value : object
+        What was given; the text ``none`` is None.
+
+    Returns
+    -------
+    str, Table, callable or None
+
+    Raises
+    ------
+    InputError
+        If it is none of these.
+    """
+    if value is None or isinstance(value, str | Table) or callable(value):
+        return None if isinstance(value, str) and value.lower() == "none" else cast("TargetSetting", value)
+    return Table.of(value)  # type: ignore[arg-type]

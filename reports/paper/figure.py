@@ -28,7 +28,7 @@ class FigureOptions:
     scale : {"tiny", "quick", "full"}
         Size of the data: for tests (seconds for a figure), for minutes in all, or the paper's.
     sets : mapping
-        Name in lower case of a method without a generator here, such as ``bnot`` -> file or folder of its
+        Name in lower case of a method of others, such as ``bnot`` -> file or folder of its
         sets.
     seed : int
         Seed of all data.

@@ -57,7 +57,7 @@ def needs(options: FigureOptions) -> Mapping[str, DataRequest]:
             if _long_n(options) != gallery_requests.size(options)
             else {}
         ),
-        **gallery_requests.user_set_requests(options, gallery_requests.methods_with_sets(options, PAPER)),
+        **gallery_requests.method_requests(options, gallery_requests.methods_shown(options, PAPER)),
     }
 
 
@@ -77,7 +77,7 @@ def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
         The figure, as wide as the page, with its caption.
     """
     n, text, long_n = gallery_requests.size(options), _long(options)[0], _long_n(options)
-    methods = gallery_requests.methods_with_sets(options, PAPER)
+    methods = gallery_requests.methods_shown(options, PAPER)
     early, late = (
         user_columns(data, [m for m in methods if (m in BEFORE_FPO) is first], n) for first in (True, False)
     )

@@ -24,11 +24,11 @@ def needs(options: FigureOptions) -> Mapping[str, DataRequest]:
     strata = ComparisonRequest(
         ("jittered",), (gallery_requests.size(options),), (2,), gallery_requests.sets(options)
     )
-    methods = gallery_requests.methods_with_sets(options, PAPER)
+    methods = gallery_requests.methods_shown(options, PAPER)
     return {
         "strata": strata, "relaxed": gallery_requests.relaxed(options),
         "classic": gallery_requests.classic(options),
-        **gallery_requests.user_set_requests(options, methods),
+        **gallery_requests.method_requests(options, methods),
     }  # fmt: skip
 
 
@@ -51,7 +51,7 @@ def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
     columns = [
         generated_column(data["strata"], "jittered", n),
         generated_column(data["relaxed"], "lloyd", n),
-        *user_columns(data, gallery_requests.methods_with_sets(options, PAPER), n),
+        *user_columns(data, gallery_requests.methods_shown(options, PAPER), n),
         generated_column(data["classic"], "fpo", n),
         generated_column(data["classic"], "gbn", n),
     ]

@@ -28,7 +28,7 @@ def needs(options: FigureOptions) -> Mapping[str, DataRequest]:
     """Ask for truncated energies, a band emptied by Gauss-Newton, and the user's sets of Heck's step."""
     sources = (*(f"gbn[edge={edge}]" for edge in EDGES), f"stealthy[edge={EDGES[-1]}]")
     run = ComparisonRequest(sources, (gallery_requests.size(options),), (2,), gallery_requests.sets(options))
-    return {"sets": run, **gallery_requests.user_set_requests(options, PAPER)}
+    return {"sets": run, **gallery_requests.method_requests(options, PAPER)}
 
 
 def band(radial: RadialPower, edge: float) -> float:
@@ -104,10 +104,9 @@ def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
         f"these bands down to rounding, {most[3]}. "
     )
     if theirs:
+        given = ", the sets given" if "step" in options.sets else ""
         low = wording.rounded(band(theirs[0].source.radial, EDGES[0]))
-        caption += (
-            f"(e) The step of Heck et al. 2013, the sets given: the highest below {EDGES[0]} is {low}. "
-        )
+        caption += f"(e) The step of Heck et al. 2013{given}: the highest below {EDGES[0]} is {low}. "
     caption += (
         "Top: a set; middle: the mean spectrum in PSA's grey; bottom: radial power on exact shells in log "
         f"scale, with white noise at 1. {wording.counted(columns)}, d = 2. The edge bounds |f| here, "

@@ -23,7 +23,7 @@ def needs(options: FigureOptions) -> Mapping[str, DataRequest]:
     return {
         "sobol": many,
         "classic": gallery_requests.classic(options),
-        **gallery_requests.user_set_requests(options, PAPER),
+        **gallery_requests.method_requests(options, PAPER),
     }
 
 
@@ -81,7 +81,7 @@ def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
         "projections on either axis are stratified n-fold. "
         f"{wording.counted(examples)}, d = 2."
     )
-    if "bnot" not in options.sets:
+    if "bnot" not in data:
         caption += " The first example here is GBN; sets given as --sets bnot=PATH take its place."
     return Drawing(PAGE, 3.7, paint, caption)
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from gbnbench.generators.registry import GENERATORS
 from gbnbench.reports.paper.data import ComparisonRequest
 from gbnbench.reports.paper.figure import FigureOptions
-from gbnbench.reports.paper.method_styles import NAMES
+from gbnbench.reports.paper.method_styles import GENERATOR_NAMES, NAMES
 
 
 def size(options: FigureOptions) -> int:
@@ -31,8 +32,28 @@ def relaxed(options: FigureOptions) -> ComparisonRequest:
     return ComparisonRequest(("lloyd",), (size(options),), (2,), sets(options))
 
 
-def methods_with_sets(options: FigureOptions, paper: Sequence[str]) -> tuple[str, ...]:
-    """List the methods without a generator whose sets the user gave for a figure.
+def generator_of(options: FigureOptions, method: str) -> str | None:
+    """Name the generator of a method of the paper, if there is one that makes the galleries' sets.
+
+    Parameters
+    ----------
+    options : FigureOptions
+        Scale, sets of the user and seed.
+    method : str
+        One of ``GIVEN``.
+
+    Returns
+    -------
+    str or None
+    """
+    name = GENERATOR_NAMES.get(method, method)
+    if name not in GENERATORS or GENERATORS[name]().refusal(size(options), 2) is not None:
+        return None
+    return name
+
+
+def methods_shown(options: FigureOptions, paper: Sequence[str]) -> tuple[str, ...]:
+    """List the methods that a figure shows beside its own: by the sets that the user gave, or by a generator.
 
     Parameters
     ----------
@@ -47,9 +68,32 @@ def methods_with_sets(options: FigureOptions, paper: Sequence[str]) -> tuple[str
         Those of the paper first, then methods that the paper does not name.
     """
     return (
-        *(name for name in paper if name in options.sets),
+        *(name for name in paper if name in options.sets or generator_of(options, name)),
         *(name for name in options.sets if name not in NAMES),
     )
+
+
+def method_requests(options: FigureOptions, methods: Iterable[str]) -> dict[str, ComparisonRequest]:
+    """Return requests for sets of these methods: the user's, else those of the method's generator.
+
+    Parameters
+    ----------
+    options : FigureOptions
+        Scale, sets of the user and seed.
+    methods : iterable of str
+        Names of methods.
+
+    Returns
+    -------
+    dict
+        Method -> request, for the methods that have either.
+    """
+    made = {
+        method: ComparisonRequest((name,), (size(options),), (2,), sets(options))
+        for method in methods
+        if method not in options.sets and (name := generator_of(options, method))
+    }
+    return {**made, **user_set_requests(options, methods)}
 
 
 def user_set_requests(options: FigureOptions, methods: Iterable[str]) -> dict[str, ComparisonRequest]:

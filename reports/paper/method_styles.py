@@ -10,6 +10,9 @@ NAMES = {
     "fpo": "FPO", "gbn": "GBN", "deep": "Deep", "stealthy": "Stealthy", "bnot": "BNOT", "kdm": "KDM",
     "vnc": "VnC", "bluenets": "BlueNets", "ccvt": "CCVT", "step": "Step", "staircase": "Staircase",
 }  # fmt: skip
+# Methods of the paper whose sets a user may give, in place of our generator's where there is one.
+GIVEN = ("bnot", "kdm", "vnc", "bluenets", "ccvt", "step", "staircase")
+GENERATOR_NAMES = {"vnc": "voidcluster"}  # where a method's generator has another name
 _C, _D = style.COLOURS, style.DASHES
 STROKES = {
     "gbn": style.Stroke(_C[0], _D[0]),

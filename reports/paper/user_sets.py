@@ -1,4 +1,4 @@
-"""Check of the user's sets of methods without a generator: sets that no figure can show are refused."""
+"""Check of the user's sets of methods: sets that no figure can show are refused."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from gbnbench.core.errors import InputError
 from gbnbench.core.sides import as_sides
 from gbnbench.generators.registry import GENERATORS
 from gbnbench.reports.paper.figure import FigureOptions, PaperFigure
-from gbnbench.reports.paper.method_styles import NAMES
+from gbnbench.reports.paper.method_styles import GIVEN
 from gbnbench.runs.sources import resolve
 
 CLOSE = 0.7  # likeness of names beyond which one is taken for a slip of the other
@@ -30,19 +30,18 @@ def check_sets(figures: Sequence[PaperFigure], options: FigureOptions) -> None:
     Raises
     ------
     InputError
-        If a method has a generator here, if its name is close to that of a method of the paper, if none
-        of the figures shows the method, if they show it in other dimensions than those of its sets, or if its
-        torus has unequal sides.
+        If a method is one whose sets the figures always make, if its name is close to that of a method of the
+        paper, if none of the figures shows the method, if they show it in other dimensions than those of its
+        sets, or if its torus has unequal sides.
     """
     for name, path in options.sets.items():
-        if name in GENERATORS:
+        if name in GENERATORS and name not in GIVEN:
             raise InputError(
                 f"--sets {name}: {name} has a generator here, whose sets the figures show; give yours "
                 "another name"
             )
-        methods = [method for method in NAMES if method not in GENERATORS]
-        slips = difflib.get_close_matches(name, methods, 1, CLOSE)
-        if name not in methods and slips:
+        slips = difflib.get_close_matches(name, GIVEN, 1, CLOSE)
+        if name not in GIVEN and slips:
             raise InputError(f"--sets {name}: no method is named so; did you mean {slips[0]}?")
         without = dataclasses.replace(options, sets={k: v for k, v in options.sets.items() if k != name})
         shows = [figure.name for figure in figures if figure.needs(options) != figure.needs(without)]

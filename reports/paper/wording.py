@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Sequence
 
+from gbnbench.reports.paper import gallery_requests
 from gbnbench.reports.paper.figure import FigureOptions
 from gbnbench.reports.paper.method_columns import Column
 from gbnbench.reports.paper.method_styles import NAMES
 
 
 def missing_sets_note(options: FigureOptions, methods: Iterable[str], whose: str = "of the paper") -> str:
-    """Name the methods without sets in a sentence for the caption.
+    """Name the methods without sets and generator in a sentence for the caption.
 
     Parameters
     ----------
@@ -25,15 +26,15 @@ def missing_sets_note(options: FigureOptions, methods: Iterable[str], whose: str
     Returns
     -------
     str
-        The sentence, empty where the user gave sets of all.
+        The sentence, empty where all are shown.
     """
-    names = [name for name in methods if name not in options.sets]
+    names = [name for name in methods if name not in gallery_requests.methods_shown(options, [name])]
     if not names:
         return ""
     verb, them = ("is", "it") if len(names) == 1 else ("are", "them")
     return (
-        f"{listed([NAMES[name] for name in names])} {whose} {verb} left out: there is no generator for "
-        f"{them} here and no sets were given (--sets {names[0]}=PATH)."
+        f"{listed([NAMES[name] for name in names])} {whose} {verb} left out: no generator here makes {them} "
+        f"and no sets were given (--sets {names[0]}=PATH)."
     )
 
 

@@ -26,17 +26,20 @@ def every_command(group: click.Group = gbnbench, prefix: str = "") -> Iterator[t
 
 COMMANDS = dict(every_command())
 # Which command has which of the options that several have; report and analyze wait for little.
+BENCHES = "bench periodogram, bench gbn"
 SHARED = {
-    "--out": "compare spectrum analyze generate convert integrate figures, bench periodogram, bench gbn",
-    "--json": "compare spectrum analyze integrate check devices doctor, bench periodogram, bench gbn",
-    "--quiet": "compare spectrum generate integrate figures check doctor, bench periodogram, bench gbn",
-    "--quick": "figures check doctor, bench periodogram, bench gbn",
-    "--full": "figures check doctor, bench periodogram, bench gbn",
-    "--seed": "compare generate integrate figures",
-    "--jobs": "compare integrate figures check",
-    "--realizations": "compare spectrum generate integrate",
-    "--device": "compare spectrum analyze generate integrate figures check devices doctor, "
-    "bench periodogram, bench gbn",
+    "--out": f"compare spectrum analyze generate generators convert integrate figures, {BENCHES}",
+    "--json": f"compare spectrum analyze generators integrate check devices doctor, {BENCHES}",
+    "--quiet": f"compare spectrum generate generators integrate figures check doctor, {BENCHES}",
+    "--quick": f"figures check doctor, {BENCHES}",
+    "--full": f"figures check doctor, {BENCHES}",
+    "--seed": "compare generate generators integrate figures",
+    "--jobs": "compare generators integrate figures check",
+    "--family": "compare generators integrate",
+    "--preset": "compare integrate",
+    "--realizations": "compare spectrum generate generators integrate",
+    "--device": "compare spectrum analyze generate generators integrate figures check devices doctor, "
+    f"{BENCHES}",
 }
 
 

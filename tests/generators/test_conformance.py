@@ -14,7 +14,14 @@ from gbnbench.core.settings import specification
 from gbnbench.generators.protocol import FAMILIES, Generator, ListedGenerator, realization_rng
 from gbnbench.generators.registry import GENERATORS, find, generate
 
-QUICK: dict[str, dict[str, Any]] = {"lloyd": {"iterations": 4}, "gbn": {"gradients": 20}}
+QUICK: dict[str, dict[str, Any]] = {
+    "lloyd": {"iterations": 4},
+    "capcvt": {"iterations": 10},
+    "ccvt": {"samples": 16},
+    "gbn": {"gradients": 20},
+    "kdm": {"iterations": 3},
+    "kernelenergy": {"gradients": 10},
+}
 SIZES = (16, 15, 27)
 
 

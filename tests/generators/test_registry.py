@@ -11,7 +11,8 @@ import pytest
 
 from gbnbench.core.errors import DeviceError, InputError, RefusalError
 from gbnbench.core.torus import FloatArray
-from gbnbench.generators.registry import RESERVED, find, generate
+from gbnbench.generators.kind_check import RESERVED
+from gbnbench.generators.registry import find, generate
 from gbnbench.generators.voronoi.lloyd import Lloyd
 
 

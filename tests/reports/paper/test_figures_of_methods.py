@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -62,6 +62,14 @@ class Folder:
 
     def caption(self, name: str) -> str:
         return self.captions[f"figure-{int(name):02d}"]["caption"]
+
+
+@pytest.fixture(scope="module", autouse=True)
+def no_generators_of_others() -> Iterator[None]:
+    """Let the figures show methods of others by the sets given alone, whichever have a generator by now."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(gallery_requests, "generator_of", lambda *_: None)
+        yield
 
 
 @pytest.fixture(scope="module")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import ClassVar
 
 from gbnbench.analysis.spectrum.error_model import UNIT, Errors, rms_for, rounded_at_worst
@@ -11,6 +11,7 @@ from gbnbench.analysis.spectrum.evaluators.cube_product import CubeProduct
 from gbnbench.analysis.spectrum.evaluators.device_evaluator import DeviceEvaluator
 from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.bands import (
+    BAND_ROWS,
     CACHE_BYTES,
     BinnedPoints,
     binned,
@@ -18,8 +19,9 @@ from gbnbench.analysis.spectrum.evaluators.gridded_fft.bands import (
 )
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.errors import WINDOW_TYPICAL, fft_errors, usual_crowd
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import AXES, real_grid
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.host_transform import shape_of_harmonics
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.plane_transform import plane_serves, transform_numbers
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.powers import fft_powers, sets_together
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.transform import shape_of_harmonics
 from gbnbench.analysis.spectrum.evaluators.protocol import Evaluator
 from gbnbench.analysis.spectrum.evaluators.work_model import device_cost
 from gbnbench.analysis.spectrum.limits import BYTES, MEMORY_SHARE
@@ -31,6 +33,7 @@ from gbnbench.core.torus import FloatArray
 # and beyond it, a node and level of the transform, a power, and a call. Fitted to the CPU times of 38 cubes
 # on one Intel core, n = 16 to 16,384 and F = 4 to 4,096 in 1D to 3D: 8 in 10 are within 15%.
 POINT, REACHED, FAR_REACHED, LEVEL, WRITTEN, SET_UP = 610.0, 7.6, 10.9, 4.9, 78.0, 3.5e6
+PLANE_LEVEL = 3.6  # of a node and level in the plane, powers included; fitted to 34 cubes there
 LARGEST_TYPICAL = 9.0  # typical error in units of rounding, beyond which crowded points go to the product
 
 
@@ -85,8 +88,9 @@ class GriddedFFT(DeviceEvaluator):
         far = request.d == AXES and grid.size * grid.itemsize > CACHE_BYTES
         reached = FAR_REACHED if far else REACHED
         points = request.n * (POINT * request.d + reached * grid.width**request.d)
-        outputs = (2 * request.fmax + 1) ** request.d
-        each = points + LEVEL * nodes * math.log2(nodes) + WRITTEN * outputs
+        levels, outputs = nodes * math.log2(nodes), (2 * request.fmax + 1) ** request.d
+        plane = request.d == 2 and plane_serves(self.on_device, grid)
+        each = points + (PLANE_LEVEL * levels if plane else LEVEL * levels + WRITTEN * outputs)
         return float(request.realizations * each)
 
     def cost(self, request: SpectrumRequest) -> EvaluationCost:
@@ -96,9 +100,15 @@ class GriddedFFT(DeviceEvaluator):
 
     def _held(self, request: SpectrumRequest) -> float:
         """Count the bytes of the grids of a batch, their transforms and the cube."""
-        grid = real_grid(request.d, request.fmax, self.precision)
-        numbers = grid.size + math.prod(shape_of_harmonics(grid))
-        held = 2 * grid.itemsize * numbers * sets_together(self.on_device, grid, request.realizations)
+        p, grid = self.on_device, real_grid(request.d, request.fmax, self.precision)
+        numbers = float(sets_together(p, grid, request.realizations))
+        if plane_serves(p, grid):
+            numbers *= transform_numbers(grid)
+            band = min(grid.size, max(2 * BAND_ROWS * grid.row_length, CACHE_BYTES // grid.itemsize))
+            numbers += 2 * p.runtime.device.compute_units * band
+        else:
+            numbers *= 2 * (grid.size + math.prod(shape_of_harmonics(grid)))
+        held = numbers * grid.itemsize
         return float(held + BYTES * (2 * request.fmax + 1) ** request.d)
 
     def expected_errors(self, request: SpectrumRequest) -> Errors:
@@ -113,11 +123,14 @@ class GriddedFFT(DeviceEvaluator):
         p, (_, n, d) = self.on_device, x.shape
         grid = real_grid(d, fmax, self.precision)
         points = binned(p, grid, x)
+        if points.crowd <= usual_crowd(grid, n):
+            return GriddedFFT(self.precision, points=points)
         runs = run_count(grid, n, points.crowd)
         errors = fft_errors(p, grid, n, points.crowd, runs, rounded_at_worst(n, d, p.name))
         usual = math.hypot(LARGEST_TYPICAL * UNIT[p.name], WINDOW_TYPICAL[p.name])
         allowed = usual if floor is None else max(usual, rms_for(floor))
-        return CubeProduct(self.precision) if errors.rms > allowed else replace(self, points=points)
+        usable = errors.rms <= allowed
+        return GriddedFFT(self.precision, points=points) if usable else CubeProduct(self.precision)
 
     def cube(
         self, x: FloatArray, fmax: int, weights: FloatArray | None, *, half: bool, mean: bool

@@ -19,6 +19,8 @@ DEGREE = {"double": 19, "float": 11}  # degree of its polynomials
 # Nodes for each frequency -fmax .. fmax: with these the error of the window is less than rounding.
 OVERSAMPLING = {"double": 2.23, "float": 2.0}
 
+TILE = {"double": 4, "float": 8}  # rows or columns of the plane that are transformed at once
+
 
 @dataclass(frozen=True)
 class RealGrid:
@@ -93,11 +95,13 @@ def real_grid(d: int, fmax: int, precision: str) -> RealGrid:
     Returns
     -------
     RealGrid
-        Of an even number of nodes whose prime factors are small, so that its transform is fast.
+        Of an even number of nodes whose prime factors are small, so that its transform is fast; in the plane
+        the number is a multiple of ``TILE``.
     """
     least = max(math.ceil(OVERSAMPLING[precision] * (2 * fmax + 1)), 2 * WIDTH[precision])
+    step = TILE[precision] if d == 2 else 2
     nodes = int(next_fast_len(least, real=True))
-    while nodes % 2:
+    while nodes % step:
         nodes = int(next_fast_len(nodes + 1, real=True))
     row = padded(nodes + WIDTH[precision], 8)
     if row % 64 == 0:  # rows a power of two apart would share the same places of the cache

@@ -1,4 +1,4 @@
-"""Power of a cube by the gridded FFT: spreading and power on the OpenCL device, the transform on the host.
+"""Power of a cube by the gridded FFT: points are carried to grids, which are transformed.
 
 F(f) is the transform of the grid over the product of the window's transforms (kaiser_bessel.py). Points have
 real strengths, so the grid is real, and half of its transform is enough. In double the error of the window is
@@ -7,27 +7,24 @@ less than rounding, and cells and places are exact, so that no digit is lost.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
-from numpy.typing import NDArray
 
 from gbnbench.analysis.precision import Precision
 from gbnbench.analysis.spectrum.error_model import Errors, coordinates
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.bands import (
-    Bands,
     BinnedPoints,
     binned,
     dealt_to_bands,
 )
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.errors import fft_errors
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import RealGrid, real_grid, transform_of_window
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.transform import harmonics
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.workspace import Workspace, workspace
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import RealGrid, real_grid
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.plane_transform import plane_serves, transform_numbers
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.spreading import spread_points
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.transform_choice import transform_for
 from gbnbench.analysis.spectrum.evaluators.two_group_product import norms_of
 from gbnbench.core.torus import FloatArray
 
-BATCH_BYTES = 4 << 20  # of the grids of a batch
+BATCH_BYTES = 4 << 20  # of the grids of a batch, or of their transformed rows in the plane
 
 
 def fft_powers(
@@ -47,7 +44,6 @@ def fft_powers(
     sets, n, d = x.shape
     grid, base, rt = real_grid(d, fmax, p.name), 2 * fmax + 1, p.runtime
     together = sets_together(p, grid, sets)
-    work = workspace(p, grid, together)
     power = np.empty((1 if mean else sets, fmax + 1 if half else base, *(base,) * (d - 1)), p.sum)
     norms = norms_of(weights, sets, n)
     out, over = rt.shared(power), rt.upload((1 / norms).astype(p.sum))
@@ -58,28 +54,9 @@ def fft_powers(
         bands = dealt_to_bands(p, grid, some)
         errors = errors.or_larger(fft_errors(p, grid, n, bands.crowd, bands.runs, at))
         weight = None if weights is None or len(weights) == 1 else weights[first:end]
-        spread(p, grid, work, bands, weights if weight is None else weight)
-        rt.finish()
-        transformed = work.harmonics[: end - first]
-        harmonics(grid, work.nodes[: end - first], transformed, rt.device.compute_units)
-        work.power.run(
-            "grid_power",
-            {1: (1, 1), 2: (base, 1), 3: (base, base)}[d],
-            (1, 1),
-            work.transforms,
-            np.uint64(transformed[0].size * 2),
-            np.uint32(transformed.shape[-1]),
-            np.uint32(grid.nodes),
-            np.uint32(base),
-            np.int32(fmax),
-            np.uint32(end - first),
-            over,
-            np.uint32(first),
-            work.gains,
-            np.uint32(half),
-            out,
-            np.uint64(0 if mean else power[0].size),
-        )
+        points_there = spread_points(p, grid, bands, weights if weight is None else weight)
+        transform = transform_for(p, grid, together, bands.rows)
+        transform.write_powers(points_there, over, first, half, out, 0 if mean else power[0].size)
         rt.finish()
     total = norms if weights is None else np.broadcast_to(weights.sum(axis=1), (sets,)) ** 2 / norms
     centre = (slice(None), 0 if half else fmax, *(fmax,) * (d - 1))
@@ -90,62 +67,8 @@ def fft_powers(
     return (found[0] if mean else found), errors
 
 
-def spread(p: Precision, grid: RealGrid, work: Workspace, bands: Bands, weights: FloatArray | None) -> None:
-    """Carry the points of a batch to their grids.
-
-    Parameters
-    ----------
-    p : Precision
-        Precision on the device.
-    grid : RealGrid
-        Layout of a grid.
-    work : Workspace
-        The grids, which are written, and the kernels.
-    bands : Bands
-        The points.
-    weights : (sets or 1, n) float64 or None
-        Weights of the points, in the order before they were dealt to bands.
-    """
-    sets, _, n = bands.turns.shape
-    rt = p.runtime
-    mean = transform_of_window(grid)[0] ** grid.d / grid.nodes**grid.d / bands.runs
-    means = np.broadcast_to(mean * (n if weights is None else weights.sum(axis=1)), (sets,))
-    weight, stride = _in_order(p, weights, bands.order, sets, n)
-    work.spread.run(
-        "grid_spread",
-        (bands.count, sets),
-        (1, 1),
-        rt.upload(bands.turns),
-        np.uint32(n),
-        rt.upload(weight),
-        np.uint32(stride),
-        rt.upload(bands.starts),
-        np.uint32(bands.count),
-        np.uint32(bands.runs),
-        rt.upload(means.astype(p.real)),
-        np.uint32(grid.nodes),
-        np.uint32(bands.rows),
-        np.uint32(grid.row_length),
-        work.terms,
-        work.grids,
-        work.parts if bands.runs > 1 else work.grids,
-        np.uint64(grid.size),
-    )
-
-
-def _in_order(
-    p: Precision, weights: FloatArray | None, order: NDArray[np.intp] | None, sets: int, n: int
-) -> tuple[NDArray[Any], int]:
-    """Bring weights in the order of the points; the numbers from one set's to the next set's, 0 if shared."""
-    if weights is None:
-        return np.ones(n, p.real), 0
-    if order is not None:
-        return np.take_along_axis(np.broadcast_to(weights, (sets, n)), order, axis=1).astype(p.real), n
-    return weights.astype(p.real), 0 if len(weights) == 1 else n
-
-
 def sets_together(p: Precision, grid: RealGrid, sets: int) -> int:
-    """Count the sets of a batch: as many as their grids fit in the cache, and a multiple of the cores.
+    """Count the sets of a batch: as many as fit in the cache, and a multiple of the cores.
 
     Parameters
     ----------
@@ -161,5 +84,6 @@ def sets_together(p: Precision, grid: RealGrid, sets: int) -> int:
     int
     """
     cores = p.runtime.device.compute_units
-    fitting = max(1, min(sets, BATCH_BYTES // (grid.size * grid.itemsize)))
+    numbers = transform_numbers(grid) if plane_serves(p, grid) else grid.size
+    fitting = max(1, min(sets, BATCH_BYTES // (numbers * grid.itemsize)))
     return fitting if fitting < cores else fitting // cores * cores

@@ -8,8 +8,8 @@ import pytest
 from gbnbench.analysis.precision import Precision, precision_of
 from gbnbench.analysis.spectrum.evaluators.cube_product import cube_powers
 from gbnbench.analysis.spectrum.evaluators.gridded_fft import bands as bands_module
+from gbnbench.analysis.spectrum.evaluators.gridded_fft import host_transform
 from gbnbench.analysis.spectrum.evaluators.gridded_fft import powers as powers_module
-from gbnbench.analysis.spectrum.evaluators.gridded_fft import transform
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.bands import bin_counts, bins, cells
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import real_grid, window_terms
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.powers import fft_powers
@@ -34,9 +34,9 @@ def away(power, exact):
 @pytest.fixture(params=["scipy", "ducc0"])
 def library(request, monkeypatch):
     """Each library of transforms in turn."""
-    if request.param == "ducc0" and not transform.ducc_available():
+    if request.param == "ducc0" and not host_transform.ducc_available():
         pytest.skip("ducc0 is not installed")
-    monkeypatch.setattr(transform, "ducc_available", lambda: request.param == "ducc0")
+    monkeypatch.setattr(host_transform, "ducc_available", lambda: request.param == "ducc0")
 
 
 @pytest.mark.usefixtures("library")
@@ -59,6 +59,28 @@ def test_it_is_the_two_group_product(n, d, fmax, sets, precision):
     assert np.array_equal(power, np.flip(power))
     half, _ = fft_powers(precision_of(precision), x, fmax, half=True)
     assert np.array_equal(half, power[fmax:])
+
+
+@pytest.mark.parametrize("precision", ["double", "float"])
+def test_transforms_of_all_lengths_in_the_plane(precision):
+    """Radices 2, 3, 4, 5 and 8 in every order that comes up, for rows and for columns."""
+    x = on_grid(np.random.default_rng(11), (2, 40, 2))
+    p = precision_of(precision)
+    for fmax in (*range(1, 31), 55, 100, 223):
+        exact, _ = cube_powers(precision_of("double"), x, fmax)
+        power, errors = fft_powers(p, x, fmax)
+        assert away(power, exact).max() <= min(errors.bound, 200 * UNIT[precision])
+
+
+def test_where_columns_do_not_fit_in_local_memory_a_library_transforms(monkeypatch):
+    x = on_grid(np.random.default_rng(12), (2, 60, 2))
+    p = precision_of("double")
+    usual, _ = fft_powers(p, x, 37)
+    monkeypatch.setitem(vars(p.runtime), "local_bytes", 1 << 10)
+    other, _ = fft_powers(p, x, 39)
+    exact, _ = cube_powers(p, x, 39)
+    assert away(other, exact).max() <= 1e-14
+    assert away(other[2:-2, 2:-2], usual).max() <= 1e-14
 
 
 @pytest.mark.parametrize("weighting", ["shared", "own"])

@@ -13,7 +13,7 @@ from gbnbench.analysis.precision import precision_of
 from gbnbench.analysis.spectrum import choice
 from gbnbench.analysis.spectrum.evaluators import kept_memory, prepared_cube
 from gbnbench.analysis.spectrum.evaluators.cube_product import cube_powers
-from gbnbench.analysis.spectrum.evaluators.gridded_fft import workspace
+from gbnbench.analysis.spectrum.evaluators.gridded_fft import transform_choice
 from gbnbench.analysis.spectrum.evaluators.kept_memory import KEPT_BYTES, KEPT_REQUESTS, forget, kept
 from gbnbench.analysis.spectrum.evaluators.prepared_cube import PreparedCube
 from tests.devices import gpu_form
@@ -99,7 +99,9 @@ def test_a_request_seen_before_is_not_planned_again(monkeypatch, n, d, fmax):
 
 def test_a_grid_seen_before_is_not_made_again(monkeypatch):
     made = []
-    monkeypatch.setattr(workspace, "_made", lambda *a, make=workspace._made: made.append(a) or make(*a))
+    monkeypatch.setattr(
+        transform_choice, "_made", lambda *a, make=transform_choice._made: made.append(a) or make(*a)
+    )
     for k in range(3):
         periodogram(np.random.default_rng(k).random((50, 2)), 40, method="fft")
     periodogram(np.random.default_rng(0).random((50, 2)), 40, "float", method="fft")

@@ -1,0 +1,40 @@
+"""The transform of a request's grids, with memory and kernels that are kept from call to call."""
+
+from __future__ import annotations
+
+from gbnbench.analysis.precision import Precision
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import RealGrid
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.host_transform import HostTransform, host_transform
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.plane_transform import (
+    PlaneTransform,
+    plane_serves,
+    plane_transform,
+)
+from gbnbench.analysis.spectrum.evaluators.kept_memory import kept
+
+
+def transform_for(p: Precision, grid: RealGrid, sets: int, rows: int) -> PlaneTransform | HostTransform:
+    """Give this thread's transform for such requests, or make one.
+
+    Parameters
+    ----------
+    p : Precision
+        Precision on the device.
+    grid : RealGrid
+        Layout of a grid.
+    sets : int
+        Most sets of a batch.
+    rows : int
+        Rows of a band.
+
+    Returns
+    -------
+    PlaneTransform or HostTransform
+    """
+    return kept(_made, p, grid, sets, rows)
+
+
+def _made(p: Precision, grid: RealGrid, sets: int, rows: int) -> PlaneTransform | HostTransform:
+    if plane_serves(p, grid):
+        return plane_transform(p, grid, sets, rows)
+    return host_transform(p, grid, sets)

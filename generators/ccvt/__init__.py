@@ -1,0 +1,1 @@
+"""Capacity-constrained Voronoi tessellations of a discrete space (Balzer, Schlömer & Deussen 2009)."""

@@ -1,0 +1,123 @@
+"""Capacity-constrained point distributions by swapping samples (Balzer, Schlömer & Deussen 2009)."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.torus import FloatArray
+from gbnbench.generators.ccvt.assignment import sample_lattice, share_out
+from gbnbench.generators.ccvt.swaps import Swaps
+from gbnbench.generators.protocol import Family
+
+MOST = 2**25  # samples in all: some 2 GB while they are swapped
+
+
+@dataclass(frozen=True)
+class CapacityConstrained:
+    """Sites at the centroids of equally many samples each, which no swap of two samples can bring nearer.
+
+    Parameters
+    ----------
+    samples : int
+        Samples of the torus a point, its capacity, >= 1.
+    passes : int
+        Most passes over all pairs, >= 1.
+
+    Raises
+    ------
+    InputError
+        If a setting is out of range.
+
+    Warns
+    -----
+    RuntimeWarning
+        If swaps still lower the energy after the last pass.
+
+    Notes
+    -----
+    n * samples samples, a lattice at a random shift, are shared out among uniform random sites, each to the
+    nearest that has room. Then two sites swap samples, those first that gain the most, while that lowers the
+    sum of squared distances of samples from their sites, and both move to their centroids; pairs are looked
+    at whose bounding circles overlap and of which one has changed, until no swap is left. Every site keeps
+    its capacity, so the variance of capacities is 0 exactly. The samples are a lattice and not the square
+    grid of the authors, which needs n * samples to be a square; pairs that share no site are treated
+    together, in random order. Of a few points, whose cells meet on both sides of the torus, swaps are sought
+    on one side at a time.
+
+    Where the swaps end depends on the capacity, for a coarse sampling holds boundaries fast. With the 1,024
+    samples a point of the authors' program points are a little less even than the published sets (mean
+    distance .863 where these have .872, oscillations 1.8 and 2.0); with 2,048, the default, they agree.
+
+    Cost: 20 CPU s for 1,024 points, proportional to n; 4 with 512 samples a point.
+
+    References
+    ----------
+    Balzer, Schlömer & Deussen, "Capacity-constrained point distributions: a variant of Lloyd's method",
+    ACM Trans. Graphics 28(3), 2009.
+
+    Examples
+    --------
+    >>> CapacityConstrained(samples=64)(16, 2, np.random.default_rng(0)).shape
+    (16, 2)
+    """
+
+    name: ClassVar[str] = "ccvt"
+    summary: ClassVar[str] = (
+        "capacity-constrained point distribution by swapping samples (Balzer et al. 2009)"
+    )
+    family: ClassVar[Family] = "cellular"
+    dimensions: ClassVar[tuple[int, int | None]] = (2, 2)
+    toroidal: ClassVar[bool] = True
+    reference: ClassVar[str] = "Balzer, Schlömer & Deussen, 2009"
+    samples: int = 2048
+    passes: int = 1000
+
+    def __post_init__(self) -> None:
+        for name in ("samples", "passes"):
+            if getattr(self, name) < 1:
+                raise InputError(f"{name} must be >= 1; got {getattr(self, name)}")
+
+    def refusal(self, n: int, d: int) -> str | None:
+        """Say why not: d is other than 2, or there would be too many samples.
+
+        Parameters
+        ----------
+        n, d : int
+            Points and dimension.
+
+        Returns
+        -------
+        str or None
+            The reason; None where the set can be made.
+        """
+        if d != 2:
+            return f"ccvt shares out samples of the plane; got d={d}, use d=2"
+        if n * self.samples > MOST:
+            return (
+                f"ccvt swaps at most {MOST:,} samples; got n={n} of {self.samples} each, "
+                f"nearest is {max(1, MOST // self.samples)}"
+            )
+        return None
+
+    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
+        """Draw one realization, (n, 2) float64; RefusalError where ``refusal`` has a reason."""
+        if reason := self.refusal(n, d):
+            raise RefusalError(reason)
+        sites = rng.random((n, d))
+        samples = sample_lattice(n * self.samples, rng)
+        swaps = Swaps(sites, samples[share_out(sites, samples, rng)])
+        for _ in range(self.passes):
+            swaps.sweep(rng)
+            if swaps.settled:
+                return swaps.sites
+        warnings.warn(
+            f"ccvt: passes={self.passes} left swaps that lower the energy of n={n} points; raise passes",
+            RuntimeWarning,
+            stacklevel=2,
+        )
+        return swaps.sites

@@ -1,0 +1,1 @@
+"""Generators that spread kernels placed on the points: void-and-cluster, kernel densities, repulsion."""

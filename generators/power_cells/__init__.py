@@ -1,0 +1,1 @@
+"""Generators whose points have power cells of equal area on the torus."""

@@ -1,0 +1,156 @@
+"""Point sets whose ring means of the power are those of a target (Zhou et al. 2012; Heck et al. 2013)."""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.torus import FloatArray, wrap
+from gbnbench.generators.gauss_newton.modes import largest_square
+from gbnbench.generators.gauss_newton.product_cost import wave_sum_operations
+from gbnbench.generators.gauss_newton.targets import TargetPower
+from gbnbench.generators.monitor import Monitor, refuse_all_but_progress
+from gbnbench.generators.spectral_control.limited_memory_bfgs import minimise
+from gbnbench.generators.spectral_control.named_profiles import of_the_plane
+from gbnbench.generators.spectral_control.ring_cost import RingCost, rings_below
+from gbnbench.generators.spectral_control.target_correlation import core_of
+
+HIGHEST = 2.0  # nu up to which a target is met by default, in the plane
+BARE = 0.1  # level of the target's pair correlation below which pairs are kept apart
+ENOUGH = 1e-10  # cost a point at which a set is at its target: rings within 1e-4 of it
+SUMS = 3  # of waves, an evaluation: amplitudes, and a gradient that costs two
+WORK = 5e12  # most operations of a set: some minutes
+
+
+@dataclass(frozen=True)
+class RingMeans(ABC):
+    """What the generators share that bring the ring means of the power to a target.
+
+    Attributes
+    ----------
+    highest : float or None
+        nu up to which the target is met; what is beyond follows from nothing. By default 2 in the plane.
+    core : float or None
+        Distance, in spacings, below which pairs repel; by default that up to which the pair correlation of
+        the target is below a tenth. 0 for none.
+    iterations : int
+        Most steps, >= 0.
+
+    Raises
+    ------
+    InputError
+        If a setting is out of range.
+    """
+
+    highest: float | None = None
+    core: float | None = None
+    iterations: int = 100
+
+    def __post_init__(self) -> None:
+        if self.highest is not None and not (math.isfinite(self.highest) and self.highest > 0):
+            raise InputError(f"highest must be positive and finite, in nu; got {self.highest}")
+        if self.core is not None and not (math.isfinite(self.core) and self.core >= 0):
+            raise InputError(f"core must be 0 or more and finite, in spacings; got {self.core}")
+        if self.iterations < 0:
+            raise InputError(f"iterations must be 0 or more; got {self.iterations}")
+
+    @abstractmethod
+    def profile(self, d: int) -> TargetPower:
+        """Target power as a function of nu in d dimensions."""
+
+    def highest_nu(self, d: int) -> float:
+        """Return the nu up to which the target is met in d dimensions."""
+        return of_the_plane(HIGHEST, d) if self.highest is None else self.highest
+
+    def refusal(self, n: int, d: int) -> str | None:
+        """Say why a set of n points in d dimensions would take too long.
+
+        Parameters
+        ----------
+        n, d : int
+            Points and dimension.
+
+        Returns
+        -------
+        str or None
+            The reason; None where it does not.
+        """
+        highest = self.highest_nu(d)
+        operations = SUMS * wave_sum_operations(n, d, largest_square(n, d, highest)) * max(self.iterations, 1)
+        if operations <= WORK:
+            return None
+        return (
+            f"n={n} points in d={d} up to nu={highest:.4g} are too much work: {operations:.2g} operations, "
+            f"of {WORK:.0e} at most; take fewer points, or lower highest or iterations"
+        )
+
+    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
+        """Draw one realization.
+
+        Parameters
+        ----------
+        n, d : int
+            Points and dimension.
+        rng : numpy.random.Generator
+            The stream that it is drawn from.
+
+        Returns
+        -------
+        (n, d) float64
+        """
+        one: FloatArray = self.draw(n, d, [rng], Monitor())[0]
+        return one
+
+    def draw(self, n: int, d: int, rngs: Sequence[np.random.Generator], monitor: Monitor) -> FloatArray:
+        """Draw one set from each stream. There is progress, but neither trace nor checkpoint.
+
+        Parameters
+        ----------
+        n, d : int
+            Points and dimension.
+        rngs : sequence of numpy.random.Generator
+            One for each set.
+        monitor : Monitor
+            Progress.
+
+        Returns
+        -------
+        (len(rngs), n, d) float64
+
+        Raises
+        ------
+        InputError
+            If a trace or a checkpoint is asked for, or the target is no power.
+        RefusalError
+            Where ``refusal`` has a reason.
+        """
+        refuse_all_but_progress(monitor, type(self).__name__)
+        if reason := self.refusal(n, d):
+            raise RefusalError(reason)
+        target, highest = self.profile(d), self.highest_nu(d)
+        side = math.pow(n, 1 / d)
+        core = core_of(target, d, highest, BARE) if self.core is None else self.core
+        cost = RingCost(rings_below(n, d, target, highest), core if core < side / 2 else 0.0)
+        sets = []
+        for k, rng in enumerate(rngs):
+            told = self._told(monitor, k, len(rngs))
+            end = minimise(cost, side * rng.random((n, d)), self.iterations, ENOUGH, told)
+            sets.append(wrap(end.x / side))
+        return np.stack(sets)
+
+    def _told(self, monitor: Monitor, k: int, sets: int) -> Callable[[int, float], None] | None:
+        """Progress of set k."""
+        progress = monitor.progress
+        if progress is None:
+            return None
+
+        def told(done: int, cost: float) -> None:
+            steps = k * self.iterations + done
+            progress(steps, sets * self.iterations, f"set {k + 1}, cost {cost:.1e} a point")
+
+        return told

@@ -1,0 +1,141 @@
+"""One run of an external program: its command filled in, its points read and checked, faults in words."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import re
+import shlex
+import signal
+import subprocess
+import tempfile
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from gbnbench.core.errors import GbnbenchError
+from gbnbench.core.process_end import cause_of_end
+from gbnbench.core.torus import FloatArray
+from gbnbench.io.points import load
+
+OUTPUT = "output"  # the placeholder of the file that is to be written
+
+
+def filled(command: Sequence[str], values: Mapping[str, str]) -> list[str]:
+    """Put values in the place of ``{name}`` in the words of a command; other braces stay.
+
+    Parameters
+    ----------
+    command : sequence of str
+        Words with placeholders.
+    values : mapping of str
+        Texts by name.
+
+    Returns
+    -------
+    list of str
+
+    Examples
+    --------
+    >>> filled(["awk", "{print}", "n={n}"], {"n": "16"})
+    ['awk', '{print}', 'n=16']
+    """
+    names = "|".join(map(re.escape, values))
+    return [re.sub(rf"\{{({names})\}}", lambda match: values[match[1]], word) for word in command]
+
+
+def run_program(
+    name: str,
+    command: Sequence[str],
+    values: Mapping[str, str],
+    n: int,
+    d: int,
+    *,
+    suffix: str,
+    timeout: float,
+) -> FloatArray:
+    """Run a program in a temporary folder and read its points.
+
+    Parameters
+    ----------
+    name : str
+        Of the generator, for messages.
+    command : sequence of str
+        Words with placeholders. No shell reads them.
+    values : mapping of str
+        What stands for the placeholders; ``{output}`` is a file in the folder. Without it in the command the
+        points are read from standard output.
+    n, d : int
+        Points that must come, and their dimension.
+    suffix : str
+        Of the file, without a dot.
+    timeout : float
+        Seconds after which the program is ended, and all that it started.
+
+    Returns
+    -------
+    (n, d) float64
+        In [0, 1).
+
+    Raises
+    ------
+    GbnbenchError
+        If the program cannot be started, fails, takes longer, or writes anything but n points of the torus.
+    """
+    with tempfile.TemporaryDirectory(prefix="gbnbench-", ignore_cleanup_errors=True) as place:
+        folder = Path(place) / "empty"
+        folder.mkdir()
+        file, said = folder / f"points.{suffix}", Path(place) / "standard-error"
+        words = filled(command, {**values, OUTPUT: str(file)})
+        into_file = words != filled(command, values)
+        points, printed = (file, Path(os.devnull)) if into_file else (Path(place) / file.name,) * 2
+        shown = shlex.join(words)
+        with said.open("wb") as errors, printed.open("wb") as out:
+            code = _ended(name, shown, words, folder, (out.fileno(), errors.fileno()), timeout)
+        if code != 0:
+            raise GbnbenchError(f"{name} drew no set: {shown}: {cause_of_end(code, said.read_bytes())}")
+        if not points.is_file():
+            raise GbnbenchError(f"{name} drew no set: {shown}: wrote no file {points.name}")
+        try:
+            x = load(points)
+        except GbnbenchError as error:
+            fault = str(error).replace(
+                f"{points.parent}{os.sep}", "" if into_file else "standard output, as "
+            )
+            raise GbnbenchError(f"{name} drew no set: {shown}: {fault}") from None
+        if not isinstance(x, np.ndarray) or x.shape != (n, d):
+            got = f"shape {x.shape}" if isinstance(x, np.ndarray) else f"{len(x)} sets of several sizes"
+            raise GbnbenchError(f"{name} drew no set of n={n}, d={d}: {shown}: wrote {got}")
+        return x
+
+
+def _ended(
+    name: str, shown: str, words: list[str], folder: Path, outputs: tuple[int, int], timeout: float
+) -> int:
+    """Run a command to its end; its exit code."""
+    try:
+        process = subprocess.Popen(
+            words, cwd=folder, stdin=subprocess.DEVNULL, stdout=outputs[0], stderr=outputs[1],
+            start_new_session=True,
+        )  # fmt: skip
+    except OSError as error:
+        raise GbnbenchError(f"{name} drew no set: {shown}: cannot be started: {error.strerror}") from None
+    try:
+        return process.wait(timeout)
+    except subprocess.TimeoutExpired:
+        raise GbnbenchError(
+            f"{name} drew no set: {shown}: was ended after {timeout:g} s; its timeout allows no more"
+        ) from None
+    finally:
+        if process.poll() is None:
+            _kill(process)
+
+
+def _kill(process: subprocess.Popen[bytes]) -> None:
+    """End a program, with all that it started where the system knows sessions."""
+    if hasattr(os, "killpg"):
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
+    process.kill()
+    process.wait()

@@ -1,0 +1,138 @@
+"""Centroidal Voronoi tessellations with a price on unequal areas (Chen, Yuan, Choi, Liu & Wang 2012)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.torus import FloatArray, wrap
+from gbnbench.generators.power_cells.diagram import PowerDiagram, power_diagram
+from gbnbench.generators.protocol import Family
+
+
+def energy_and_gradient(diagram: PowerDiagram, capacity: float) -> tuple[float, FloatArray]:
+    """Energy of a set by its Voronoi cells, and its gradient by the points.
+
+    Parameters
+    ----------
+    diagram : PowerDiagram
+        Voronoi cells of n points: a power diagram without weights.
+    capacity : float
+        Price of unequal areas, lambda below.
+
+    Returns
+    -------
+    energy : float
+        n times the sum over cells of the integral of |y - x|**2 and lambda (m - 1/n)**2, m being the area.
+    gradient : (n, 2) float64
+        Its derivative by the coordinates.
+
+    Notes
+    -----
+    The cells' sides need no derivative in the first sum, for on a side both cells are at one distance (Du et
+    al. 1999): it is -2 times the moment of the cell about its point. If point a moves by v, the side that it
+    shares with b, of length l and middle c, moves outwards by (c - a).v / |b - a| in the mean, so that
+    area goes over from b to a, which gives 2 lambda (m_a - m_b) l (c - a) / |b - a| a side.
+    """
+    mass, n = diagram.mass, len(diagram.mass)
+    a, b = diagram.edges.T
+    price = 4 * capacity * diagram.conductance * (mass[a] - mass[b])
+    pull = price[:, None] * diagram.ends.mean(axis=1)
+    sides = np.stack([np.bincount(a, pull[:, k], n) for k in range(2)], axis=1)
+    energy = diagram.energy.sum() + capacity * np.sum((mass - 1 / n) ** 2)
+    return float(n * energy), np.asarray(n * (sides - 2 * diagram.moment))
+
+
+@dataclass(frozen=True)
+class CapacityConstrainedVoronoi:
+    """Uniform points moved to lower the energy of a centroidal Voronoi tessellation of nearly equal areas.
+
+    Parameters
+    ----------
+    iterations : int
+        Steps of L-BFGS, >= 1.
+    capacity : float
+        Price of unequal areas, >= 0; 0 gives a centroidal Voronoi tessellation.
+
+    Raises
+    ------
+    InputError
+        If a setting is out of range.
+
+    Notes
+    -----
+    The energy is the sum over Voronoi cells of the integral of |y - x|**2 and of ``capacity`` times the
+    squared area, less what equal areas have. Both have the dimension of a squared area, so that the price is
+    a pure number. It is lowered by L-BFGS from uniform points, as in the publication. How far it is lowered,
+    and how dear unequal areas are, decides between order and evenness of areas; 130 steps at a price of 50
+    give the minimum distance, noise floor and peak that were measured on sets made by the method.
+
+    Cost: 0.9 CPU s for 1,024 points, 20 s for 16,384.
+
+    References
+    ----------
+    Chen, Yuan, Choi, Liu & Wang, "Variational blue noise sampling", IEEE Trans. Visualization and Computer
+    Graphics 18(10), 2012.
+
+    Examples
+    --------
+    >>> CapacityConstrainedVoronoi(iterations=5)(16, 2, np.random.default_rng(0)).shape
+    (16, 2)
+    """
+
+    name: ClassVar[str] = "capcvt"
+    summary: ClassVar[str] = (
+        "capacity-constrained centroidal Voronoi tessellation, continuous form (Chen et al. 2012)"
+    )
+    family: ClassVar[Family] = "cellular"
+    dimensions: ClassVar[tuple[int, int | None]] = (2, 2)
+    toroidal: ClassVar[bool] = True
+    reference: ClassVar[str] = "Chen, Yuan, Choi, Liu & Wang, 2012"
+    iterations: int = 130
+    capacity: float = 50.0
+
+    def __post_init__(self) -> None:
+        if self.iterations < 1:
+            raise InputError(f"iterations must be >= 1; got {self.iterations}")
+        if not 0 <= self.capacity < np.inf:
+            raise InputError(f"capacity must be >= 0 and finite; got {self.capacity}")
+
+    def refusal(self, n: int, d: int) -> str | None:  # noqa: ARG002 (the protocol's arguments)
+        """Say why not: d is other than 2.
+
+        Parameters
+        ----------
+        n : int
+            Points; any number will do.
+        d : int
+            Dimension.
+
+        Returns
+        -------
+        str or None
+            The reason; None for d = 2.
+        """
+        return None if d == 2 else f"capcvt has its gradient for cells of the plane; got d={d}, use d=2"
+
+    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
+        """Draw one realization, (n, 2) float64; RefusalError where ``refusal`` has a reason."""
+        if reason := self.refusal(n, d):
+            raise RefusalError(reason)
+        from scipy.optimize import minimize
+
+        def objective(places: NDArray[np.float64]) -> tuple[float, FloatArray]:
+            energy, gradient = energy_and_gradient(power_diagram(wrap(places.reshape(n, 2))), self.capacity)
+            return energy, gradient.ravel()
+
+        found = minimize(
+            objective,
+            rng.random(2 * n),
+            jac=True,
+            method="L-BFGS-B",
+            options={"maxiter": self.iterations, "maxfun": 20 * self.iterations, "ftol": 0.0, "gtol": 1e-9},
+        )
+        return wrap(found.x.reshape(n, 2))

@@ -1,0 +1,82 @@
+"""Blue noise through optimal transport: what its alternations and its breaking of regularity do."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from gbnbench.analysis.measures import measures
+from gbnbench.core.errors import InputError
+from gbnbench.core.torus import toroidal_distance, wrap
+from gbnbench.generators.power_cells.bnot import OptimalTransport
+from gbnbench.generators.power_cells.diagram import power_diagram
+from gbnbench.generators.power_cells.equal_areas import equal_areas
+from gbnbench.generators.power_cells.regularity import RELOCATED, break_regions, irregularity
+from gbnbench.generators.protocol import realization_rng
+from gbnbench.generators.registry import generate
+
+
+def test_the_cost_of_the_transport_falls_with_every_alternation() -> None:
+    cost = []
+    for k in range(6):
+        x = OptimalTransport(alternations=k)(100, 2, realization_rng(1, 0))
+        _, diagram = equal_areas(x, np.zeros(100), 1e-9)
+        cost.append(diagram.energy.sum())
+    assert np.all(np.diff(cost) < 0)
+
+
+def test_points_lie_at_centroids_of_equal_cells_in_the_end() -> None:
+    x = OptimalTransport(alternations=400)(20, 2, realization_rng(2, 0))
+    _, diagram = equal_areas(x, np.zeros(20), 1e-9)
+    assert np.linalg.norm(diagram.offset, axis=1).max() * np.sqrt(20) < 1e-3
+
+
+def test_no_alternations_leave_uniform_points() -> None:
+    x = generate("bnot", n=9, alternations=0, breaks=2)
+    assert np.array_equal(x, generate("random", n=9, d=2))
+
+
+def test_a_lattice_is_regular_and_uniform_points_are_not() -> None:
+    assert irregularity(power_diagram(generate("hexagonal", n=120))).max() < 1e-12
+    assert irregularity(power_diagram(generate("random", n=120))).min() > 2.4e-4
+
+
+def test_breaking_moves_regular_points_and_their_neighbours_alone() -> None:
+    x = generate("hexagonal", n=480, shift=False)
+    diagram = power_diagram(x)
+    regular = np.zeros(480, dtype=bool)
+    regular[[7, 200]] = True
+    moved = break_regions(x, diagram, regular, np.random.default_rng(0))
+    changed = np.flatnonzero((moved != x).any(axis=1))
+    sides = diagram.edges[diagram.conductance > 1e-9]
+    assert set(changed) == {7, 200, *sides[np.isin(sides[:, 0], [7, 200]), 1]}
+    neighbours = np.setdiff1d(changed, [7, 200])
+    assert toroidal_distance(moved, x)[neighbours].max() <= 480**-0.5 * (1 + 1e-12)
+    everywhere = break_regions(x, diagram, np.ones(480, dtype=bool), np.random.default_rng(0))
+    far = toroidal_distance(everywhere, wrap(x)) > 480**-0.5 * (1 + 1e-12)
+    assert 0.9 * RELOCATED <= far.sum() <= RELOCATED
+
+
+def test_regions_are_broken_until_none_are_regular() -> None:
+    long = OptimalTransport(alternations=60, breaks=0, regularity=1e-3)
+    broken = OptimalTransport(alternations=60, breaks=1, regularity=1e-3)
+    never = OptimalTransport(alternations=60, breaks=5, regularity=0)
+    x = long(64, 2, realization_rng(3, 0))
+    assert not np.array_equal(broken(64, 2, realization_rng(3, 0)), x)
+    assert np.array_equal(never(64, 2, realization_rng(3, 0)), x)
+
+
+@pytest.mark.parametrize("settings", [{"alternations": -1}, {"breaks": -1}, {"regularity": float("nan")}])
+def test_settings_out_of_range_are_refused(settings: dict[str, float]) -> None:
+    with pytest.raises(InputError, match="must be >= 0"):
+        OptimalTransport(**settings)  # type: ignore[arg-type]
+
+
+@pytest.mark.slow
+def test_breaking_keeps_a_long_run_from_crystallising() -> None:
+    """300 alternations either way; the bond order of two sets of 400 spreads by about .03."""
+    order = [
+        measures(generate("bnot", n=400, alternations=k, breaks=breaks, seed=1, realizations=2))["bond_order"]
+        for k, breaks in ((60, 4), (300, 0))
+    ]
+    assert order[0] < order[1] - 0.03

@@ -1,0 +1,140 @@
+"""Generators of installed packages: found lazily; what cannot be used is told with its package."""
+
+from __future__ import annotations
+
+import pickle
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import gbnbench
+from gbnbench.cli import run
+from gbnbench.core.errors import InputError
+from gbnbench.generators.registry import GENERATORS, find, generator_names
+from gbnbench.generators.third_parties.discovery import provenance, third_parties
+
+CLASS = """
+from dataclasses import dataclass
+from typing import ClassVar
+
+@dataclass(frozen=True)
+class Half:
+    '''Uniform points of a part of the torus.
+
+    Parameters
+    ----------
+    side : float
+        Share of each side.
+    '''
+
+    name: ClassVar[str] = {name!r}
+    summary: ClassVar[str] = "uniform points of a part of the torus"
+    side: float = 0.5
+
+    def refusal(self, n, d):
+        return None
+
+    def __call__(self, n, d, rng):
+        return self.side * rng.random((n, d))
+"""
+
+
+@pytest.fixture
+def install(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """Leave a package as an installer would: a module of this text, and entry points into it."""
+    count = 0
+
+    def package(name: str, text: str, *entries: str) -> None:
+        nonlocal count
+        count += 1
+        place = tmp_path / f"site{count}"
+        info = place / f"{name}-2.1.dist-info"
+        info.mkdir(parents=True)
+        (place / f"{name}.py").write_text(text)
+        (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: 2.1\n")
+        (info / "entry_points.txt").write_text("\n".join(["[gbnbench.generators]", *entries, ""]))
+        monkeypatch.syspath_prepend(str(place))
+        monkeypatch.delitem(sys.modules, name, raising=False)
+
+    return package
+
+
+def test_a_class_is_known_by_its_name(install) -> None:
+    install("halves_a", CLASS.format(name="half"), "half = halves_a:Half")
+    assert generator_names() == [*GENERATORS, "half"]
+    assert "halves_a" not in sys.modules, "names are listed without an import"
+    x = gbnbench.generate("half[side=0.25]", n=5, seed=1, realizations=2)
+    assert np.array_equal(x, 0.25 * gbnbench.generate("random", n=5, seed=1, realizations=2))
+    generator = find("half")
+    assert pickle.loads(pickle.dumps(generator)) == generator  # noqa: S301 - our own
+    assert provenance(type(generator)) == {"class": "halves_a.Half", "package": "halves_a 2.1"}
+    table = gbnbench.generator_table().set_index("name")
+    assert table.loc["half", ["family", "domain", "origin"]].tolist() == ["", "", "halves_a 2.1"]
+    assert np.isnan(table.cpu_seconds["half"])
+
+
+@pytest.mark.parametrize(
+    ("text", "entry", "said"),
+    [
+        (CLASS.format(name="gbn"), "gbn = {0}:Half", "gbnbench has one of that name"),
+        (CLASS.format(name="other"), "half = {0}:Half", "Half must have the name under which it is offered"),
+        ("import no_such_module", "half = {0}:Half", "ModuleNotFoundError: No module named 'no_such_module'"),
+        ("raise SystemExit('bye')", "half = {0}:Half", "its import failed: SystemExit: bye"),
+        ("Hal = 1", "half = {0}:Half", "AttributeError: module '{0}' has no attribute 'Half'"),
+        ("Half = 1", "half = {0}:Half", "it must be a class; got int"),
+        ("class Half: name = 'half'", "half = {0}:Half", "Half must be a frozen dataclass of its settings"),
+        (CLASS.format(name="half").replace("refusal", "refuse"), "half = {0}:Half", "Half lacks refusal"),
+        (CLASS.format(name="half").replace("__call__", "call"), "half = {0}:Half", "Half lacks __call__"),
+        (CLASS.format(name="half").replace("= 0.5", ""), "half = {0}:Half", "each setting needs a default"),
+        (CLASS.format(name="half").replace("side:", "seed:"), "half = {0}:Half", "Half has seed: rename it"),
+    ],
+)
+def test_what_cannot_be_used_is_told_and_costs_only_itself(
+    install,
+    request: pytest.FixtureRequest,
+    capsys: pytest.CaptureFixture[str],
+    text: str,
+    entry: str,
+    said: str,
+) -> None:
+    module = f"broken_{abs(hash(request.node.name))}"
+    install("halves_b", CLASS.format(name="sound"), "sound = halves_b:Half")
+    install(module, text, entry.format(module))
+    found, faults = third_parties(GENERATORS)
+    assert list(found) == ["sound"]
+    (fault,) = faults
+    name = entry.partition(" ")[0]
+    assert fault.startswith(f"generator {name!r} of the package {module} 2.1 cannot be used: ")
+    assert said.format(module) in fault
+    with pytest.warns(UserWarning, match=f"the package {module} 2.1"):
+        assert "sound" in set(gbnbench.generator_table().name)
+    assert run(["generators"]) == 0
+    out, err = capsys.readouterr()
+    assert "halves_b 2.1" in out
+    assert err == f"gbnbench: warning: {fault}\n"
+    if name not in GENERATORS:
+        with pytest.raises(InputError, match=f"the package {module} 2.1 cannot be used"):
+            gbnbench.generate(name, n=4)
+
+
+def test_of_two_packages_with_one_name_the_first_is_taken(install) -> None:
+    install("halves_d", CLASS.format(name="half"), "half = halves_d:Half")
+    install("halves_c", CLASS.format(name="half"), "half = halves_c:Half")
+    found, (fault,) = third_parties(GENERATORS)
+    assert found["half"].origin == "halves_c 2.1"
+    assert fault.endswith("halves_d 2.1 cannot be used: halves_c 2.1 has one of that name")
+    assert type(find("half")) is found["half"].kind
+
+
+def test_gbnbenchs_own_are_found_without_a_search_of_packages() -> None:
+    script = (
+        "import sys, importlib.metadata as m\n"
+        "def never(**_): raise AssertionError('searched')\n"
+        "m.entry_points = never\n"
+        "import gbnbench; gbnbench.generate('random', n=4)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
