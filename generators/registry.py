@@ -23,8 +23,10 @@ from gbnbench.generators.direct.sobol import Sobol
 from gbnbench.generators.direct.uniform import Uniform
 from gbnbench.generators.fpo.generator import FarthestPoint
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
+from gbnbench.generators.kernel_based.electrostatic import Electrostatic
 from gbnbench.generators.kernel_based.kernel_density import KernelDensityModel
 from gbnbench.generators.kernel_based.kernel_energy import KernelEnergy
+from gbnbench.generators.kernel_based.particle_hydrodynamics import ParticleHydrodynamics
 from gbnbench.generators.kernel_based.void_and_cluster import VoidAndCluster
 from gbnbench.generators.kind_check import check_setting_names, of_instance
 from gbnbench.generators.lattices.hexagonal import Hexagonal
@@ -39,6 +41,7 @@ from gbnbench.generators.low_discrepancy.rank1_lattice import Rank1Lattice
 from gbnbench.generators.monitor import Monitor, MonitoredGenerator, refuse_all_but_progress
 from gbnbench.generators.power_cells.bnot import OptimalTransport
 from gbnbench.generators.protocol import Generator, ListedGenerator, checked_draw, realization_rng
+from gbnbench.generators.sliced.generator import Sliced
 from gbnbench.generators.spectral_control.deep import Deep
 from gbnbench.generators.spectral_control.single_peak import SinglePeak
 from gbnbench.generators.spectral_control.staircase import Staircase
@@ -74,9 +77,12 @@ GENERATORS: dict[str, type[ListedGenerator]] = {
     "capcvt": CapacityConstrainedVoronoi,
     "ccvt": CapacityConstrained,
     "fpo": FarthestPoint,
+    "sliced": Sliced,
     "voidcluster": VoidAndCluster,
     "kdm": KernelDensityModel,
     "kernelenergy": KernelEnergy,
+    "electrostatic": Electrostatic,
+    "sph": ParticleHydrodynamics,
     "gbn": GaussianBlueNoise,
     "deep": Deep,
     "stealthy": Stealthy,

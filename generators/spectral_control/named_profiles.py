@@ -35,7 +35,19 @@ def widest_step(d: int) -> float:
 
 
 def of_the_plane(nu: float, d: int) -> float:
-    """Scale a frequency of the plane to d dimensions as the widest step scales."""
+    """Scale a frequency of the plane to d dimensions as the widest step scales.
+
+    Parameters
+    ----------
+    nu : float
+        In the plane.
+    d : int
+        Dimension.
+
+    Returns
+    -------
+    float
+    """
     return nu * widest_step(d) / widest_step(2)
 
 

@@ -57,7 +57,17 @@ class Rings:
 
 
 def ring_width(n: int, d: int) -> float:
-    """Return the width of rings in |f|: 1, in one dimension sqrt(n), for frequencies enough to average."""
+    """Return the width of rings in |f|: 1, in one dimension sqrt(n), for frequencies enough to average.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+
+    Returns
+    -------
+    float
+    """
     return max(1.0, math.pow(n, 1 / d - 0.5))
 
 

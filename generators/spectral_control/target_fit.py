@@ -1,4 +1,4 @@
-"""How near the ring means of the power of point sets are to a target."""
+"""The deviation of the ring means of the power of point sets from a target."""
 
 from __future__ import annotations
 

@@ -21,6 +21,8 @@ QUICK: dict[str, dict[str, Any]] = {
     "gbn": {"gradients": 20},
     "kdm": {"iterations": 3},
     "kernelenergy": {"gradients": 10},
+    "electrostatic": {"iterations": 10},
+    "sliced": {"iterations": 20},
 }
 SIZES = (16, 15, 27)
 

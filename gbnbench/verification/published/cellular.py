@@ -9,6 +9,8 @@ from gbnbench.verification.published_figure import PublishedFigure
 BNOT = "de Goes, Breeden, Ostromoukhov & Desbrun, Blue noise through optimal transport, SIGGRAPH Asia 2012"
 BNOT_SETS = "measured on ten sets published by the deepsampling project"
 CAPCVT = "measured on a set made by the method of Chen et al., Variational blue noise sampling, 2012"
+CCVT = "measured on sets made by the method of Balzer, Schlömer & Deussen, SIGGRAPH 2009"
+SLICED = "measured on 107 sets made by the program of Paulin et al., Sliced optimal transport sampling, 2020"
 FPO = "Schlömer, Heck & Deussen, Farthest-point optimized point sets, HPG 2011"
 
 CELLULAR = (
@@ -55,10 +57,26 @@ CELLULAR = (
         "capcvt", "peak", "5.2", 4.5, 6.0, "one set, and a tenth more or fewer steps are a twelfth", CAPCVT,
     ),
     PublishedFigure(
+        "ccvt", "mean_distance", ".872", 0.855, 0.880, "its samples a point are unknown", CCVT, sets=1,
+    ),
+    PublishedFigure(
+        "ccvt", "effective_nyquist", ".860", 0.83, 0.87, "2,048 samples a point give .860", CCVT, sets=1,
+    ),
+    PublishedFigure(
+        "ccvt", "oscillations", "2.01", 1.65, 2.15, "2,048 samples a point give 2.05", CCVT, sets=1,
+    ),
+    PublishedFigure(
         "fpo", "min_distance", "at least .925", 0.925, math.inf, "the method stops at this distance", FPO
     ),
     PublishedFigure(
         "fpo", "noise_floor", "7.9e-3", 6.3e-3, 9.9e-3, "a quarter: a few dozen frequencies a set",
         "measured on sets by the authors' method",
+    ),
+    PublishedFigure(
+        "sliced", "noise_floor", "1.6e-3", 3e-4, 1.9e-3,
+        "it falls as one over the directions a step; those of these sets are not known", SLICED, sets=3,
+    ),
+    PublishedFigure(
+        "sliced", "power_at_1", "1.2e-4", 0.0, 2.4e-4, "likewise; less is no disagreement", SLICED, sets=3,
     ),
 )  # fmt: skip

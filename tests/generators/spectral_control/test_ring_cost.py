@@ -21,14 +21,14 @@ PEAK = PeakProfile(0.7, 0.2, 0.05)
 @pytest.mark.parametrize("target", [StepProfile(0.4), PEAK])
 @pytest.mark.parametrize("core", [0.0, 0.6])
 def test_the_gradient_is_the_slope_of_the_cost(n, d, target, core):
-    """Central differences over 2e-3 spacings: waves are single, so that the cost errs by 1e-6."""
+    """Central differences over 5e-3 spacings: waves are single, so that the cost errs by 1e-6."""
     rng = np.random.default_rng(0)
     u = n ** (1 / d) * rng.random((n, d))
     cost = RingCost(rings_below(n, d, target, 1.5), core)
     way = rng.standard_normal((n, d))
-    step = 2e-3 / np.abs(way).max()
+    step = 5e-3 / np.abs(way).max()
     slope = (cost(u + step * way)[0] - cost(u - step * way)[0]) / (2 * step)
-    assert np.sum(cost(u)[1] * way) == pytest.approx(slope, rel=1e-2, abs=2e-3)
+    assert np.sum(cost(u)[1] * way) == pytest.approx(slope, rel=3e-2, abs=3e-3)
 
 
 def test_the_cost_is_that_of_the_periodogram():

@@ -1,0 +1,43 @@
+"""Published figures of sets that aim at a spectrum: step and stair blue noise."""
+
+from __future__ import annotations
+
+from gbnbench.analysis.measures import measures
+from gbnbench.core.torus import FloatArray
+from gbnbench.verification.published_figure import PublishedFigure
+
+STEP = "Heck, Schlömer & Deussen, Blue noise sampling with controlled aliasing, ACM Trans. Graph. 32(3), 2013"
+STEP_SETS = "measured on sets published by the deepsampling project"
+
+
+def oscillations_of_one_set(x: FloatArray) -> float:
+    """Oscillations of a single set: over several together, chance takes part of them away."""
+    return float(measures(x)["oscillations"])
+
+
+SPECTRAL = (
+    PublishedFigure(
+        "step", "min_distance", ".23", 0.20, 0.26, "the least distances of sets spread by .02", STEP,
+    ),
+    PublishedFigure(
+        "step", "mean_distance", ".65", 0.635, 0.655,
+        "the spread over sets is .003; published to two digits", STEP,
+    ),
+    PublishedFigure("step", "bond_order", ".36", 0.345, 0.375, "the spread over sets is .01", STEP),
+    PublishedFigure(
+        "step", "effective_nyquist", ".570", 0.5645, 0.5755, "it is found in steps of .005", STEP,
+    ),
+    PublishedFigure(
+        "step", oscillations_of_one_set, ".11 to .15", 0.10, 0.20,
+        "the spread over sets is .03; ring means are flat, shells within them as scattered as noise", STEP,
+    ),
+    PublishedFigure(
+        "step", "noise_floor", "6.9e-3", 0.0, 6.0e-3, "at or below the published floor", STEP_SETS,
+    ),
+    PublishedFigure(
+        "step", "power_at_1", "5e-5 to 7e-5", 0.0, 7e-5, "at or below the published power", STEP_SETS,
+    ),
+    PublishedFigure(
+        "staircase", "power_at_1", "2.5e-3 to 9e-3", 0.0, 9e-3, "at or below the published power", STEP_SETS,
+    ),
+)  # fmt: skip

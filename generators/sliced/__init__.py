@@ -1,0 +1,1 @@
+"""Sliced optimal transport: points moved along random directions until projections are evenly spread."""
