@@ -46,7 +46,7 @@ def circumcentres(corners: FloatArray) -> FloatArray:
 
 
 def flattest(corners: FloatArray) -> float:
-    """Return the least d! volume / side**d of simplices, (m, d + 1, d), by their sides at the first corner."""
+    """Return the least d! volume / side**d of simplices, (m, d + 1, d), by sides at the first corner."""
     sides = corners[:, 1:] - corners[:, :1]
     longest = np.sqrt(np.sum(sides * sides, axis=2).max(axis=1))
     return float(np.min(np.abs(np.linalg.det(sides)) / longest ** sides.shape[1], initial=np.inf))
@@ -84,7 +84,7 @@ def cell_moments(
     """
     d = tiled.shape[1]
     corners = tiled[simplices]
-    centre = {(k,): corners[:, k] for k in range(d + 1)}
+    centre: dict[tuple[int, ...], FloatArray] = {(k,): corners[:, k] for k in range(d + 1)}
     for size in range(2, d + 2):
         for face in combinations(range(d + 1), size):
             centre[face] = circumcentres(corners[:, list(face)])
