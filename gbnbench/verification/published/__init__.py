@@ -9,8 +9,4 @@ from gbnbench.verification.published.low_discrepancy import LOW_DISCREPANCY
 from gbnbench.verification.published.spectral import SPECTRAL
 from gbnbench.verification.published_figure import PublishedFigure
 
-<<<<<<< HEAD
-PUBLISHED: tuple[PublishedFigure, ...] = (*DIRECT, *LOW_DISCREPANCY, *CELLULAR, *KERNEL_BASED)
-=======
 PUBLISHED: tuple[PublishedFigure, ...] = (*DIRECT, *LOW_DISCREPANCY, *CELLULAR, *KERNEL_BASED, *SPECTRAL)
->>>>>>> main
