@@ -13,7 +13,7 @@ from gbnbench.benchmarks.claims.claim import BESIDE, UNTRIED, ClaimRow, holds, r
 from gbnbench.benchmarks.claims.sets import FAST, PAPER, SetCache
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gauss_newton.modes import bound_coordinates, edge_binding
-from gbnbench.generators.spectral_control.stealthy import band_power
+from gbnbench.generators.spectral_control.empty_band import band_power
 
 
 def counted(_: SetCache) -> Iterator[ClaimRow]:

@@ -16,7 +16,7 @@ from gbnbench.generators.lattices.regular_grid import grid_corners
 from gbnbench.generators.protocol import Family
 
 PLAIN = 64  # points drawn from all their candidates, before cells pay
-CELLS_A_POINT = 48
+CELLS_A_POINT = 64
 LOWER = 0.9  # the aim, when no candidate was as far
 WATCH = 0.85  # of the aim: cells whose bound is above are looked through at every step
 MOST_POINTS = 65_536

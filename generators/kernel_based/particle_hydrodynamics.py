@@ -145,6 +145,7 @@ def pressure_acceleration(x: FloatArray, rest: float, support: float) -> FloatAr
     pressure = np.maximum(density - rest * density.mean(), 0) / density**2
     slope = 3 * SPIKY[d] / support ** (d + 1) * (1 - r) ** 2
     force = ((pressure[i] + pressure[j]) * slope / np.maximum(r, 1e-12))[:, None] * apart
-    return np.stack(
-        [np.bincount(i, force[:, a], n) - np.bincount(j, force[:, a], n) for a in range(d)], axis=1
-    )
+    total = np.empty_like(x)
+    for axis in range(d):
+        total[:, axis] = np.bincount(i, force[:, axis], n) - np.bincount(j, force[:, axis], n)
+    return total

@@ -89,7 +89,7 @@ class ProgressiveMultiJitter:
     Notes
     -----
     The sequence is doubled time and again. From 4**k points on, the new point of a cell of the grid of 4**k
-    comes into the subquadrant opposite to the old one; from 2 4**k on, into one of the two that are left by a
+    comes into the subquadrant opposite to the old one; from 2 4**k on, into one of the two left, by a
     coin for each cell, then into the other. With its subquadrant a point's strata on both axes are given: the
     digits are those that the old points leave to it (``missing_digits``), which the paper finds by trial, and
     its place in the stratum is uniform. The paper's variant that chooses among candidates by distance is not

@@ -19,10 +19,14 @@ QUICK: dict[str, dict[str, Any]] = {
     "capcvt": {"iterations": 10},
     "ccvt": {"samples": 16},
     "gbn": {"gradients": 20},
+    "progressivegbn": {"gradients": 20},
+    "oztireli": {"iterations": 3},
+    "sph": {"iterations": 20},
     "kdm": {"iterations": 3},
     "kernelenergy": {"gradients": 10},
     "electrostatic": {"iterations": 10},
     "sliced": {"iterations": 20},
+    **{name: {"iterations": 4} for name in ("step", "peak", "staircase", "targeted")},
 }
 SIZES = (16, 15, 27)
 

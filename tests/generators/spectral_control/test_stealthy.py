@@ -12,7 +12,8 @@ from gbnbench.generators.gauss_newton.modes import edge_binding
 from gbnbench.generators.monitor import Monitor
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.generators.registry import generate
-from gbnbench.generators.spectral_control.stealthy import Stealthy, band_power
+from gbnbench.generators.spectral_control.empty_band import band_power
+from gbnbench.generators.spectral_control.stealthy import Stealthy
 
 
 def below(x, edge):
@@ -107,7 +108,34 @@ def test_a_band_that_is_not_reached_is_never_returned():
 
 
 @pytest.mark.parametrize(
-    "settings", [{"edge": 0.0}, {"edge": np.nan}, {"gradients": -1}, {"most": -1}, {"power": 0.0}]
+    ("n", "d", "edge", "core"), [(256, 2, None, 0.8), (150, 3, None, 0.8), (64, 1, 0.2, 0.7)]
+)
+def test_a_core_keeps_points_apart_and_the_band_empty(n, d, edge, core):
+    from scipy.spatial import cKDTree
+
+    x = Stealthy(edge=edge, core=core)(n, d, realization_rng(3, 0))
+    assert below(x, edge_binding(0.6, d) if edge is None else edge)[0].max() < 1e-26
+    nearest = cKDTree(x, boxsize=np.ones(d)).query(x, k=2)[0][:, 1].min()
+    assert nearest * n ** (1 / d) >= core
+
+
+def test_half_the_plane_is_covered_where_two_thirds_were_published():
+    """Kim & Torquato cover at most 0.67 of the plane at chi = 0.45; a core of 0.8 spacings covers 0.50."""
+    edge = edge_binding(0.9, 2)
+    x = Stealthy(edge=edge, core=0.8)(200, 2, realization_rng(0, 0))
+    assert below(x, edge)[0].max() < 1e-26
+
+
+def test_a_core_that_is_not_reached_is_refused():
+    with pytest.raises(RefusalError, match=r"n=36 points in d=2 .* no farther apart than .* core=1.05"):
+        Stealthy(edge=0.6, core=1.05)(36, 2, realization_rng(0, 0))
+    with pytest.raises(InputError, match="a core needs method=newton"):
+        Stealthy(core=0.5, method="harmonics")
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [{"core": -1.0}, {"edge": 0.0}, {"edge": np.nan}, {"gradients": -1}, {"most": -1}, {"power": 0.0}],
 )
 def test_settings_out_of_range_are_refused(settings):
     with pytest.raises(InputError, match=next(iter(settings))):
