@@ -46,7 +46,6 @@ def circumcentres(corners: FloatArray) -> FloatArray:
 
 
 def flattest(corners: FloatArray) -> float:
-    """Return the least d! volume / side**d of simplices, (m, d + 1, d), by sides at the first corner."""
     """Return the least d! volume / side**d of simplices, (m, d + 1, d), by the sides at the first corner."""
     sides = corners[:, 1:] - corners[:, :1]
     longest = np.sqrt(np.einsum("mia,mia->mi", sides, sides).max(axis=1))

@@ -1,5 +1,4 @@
 """Centroidal Voronoi tessellations on the torus, by Lloyd's method or L-BFGS (Liu et al. 2009)."""
-"""Centroidal Voronoi tessellations by Lloyd's method or L-BFGS (Lloyd 1982; Liu et al. 2009)."""
 
 from __future__ import annotations
 
