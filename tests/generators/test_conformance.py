@@ -26,6 +26,7 @@ QUICK: dict[str, dict[str, Any]] = {
     "kernelenergy": {"gradients": 10},
     "electrostatic": {"iterations": 10},
     "sliced": {"iterations": 20},
+    **{name: {"iterations": 4} for name in ("step", "peak", "staircase", "targeted")},
 }
 SIZES = (16, 15, 27)
 
