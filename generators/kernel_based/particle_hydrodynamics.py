@@ -31,7 +31,8 @@ class ParticleHydrodynamics:
         Density at which the pressure is none, in mean densities of the particles, 0 to 1: 0.9 gives sets as
         capacity constraints do, lower ones approach the order of Lloyd's method.
     iterations : int
-        Time steps, >= 0.
+        Time steps; 0 takes 200, or 6.25 times the box's side in spacings where that is more, in 2D
+        above n = 1,024: what sound needs to go across and a little back.
     support : float
         Radius of the kernels in spacings, 1.5 to 6.
 
@@ -68,7 +69,7 @@ class ParticleHydrodynamics:
     toroidal: ClassVar[bool] = True
     reference: ClassVar[str] = "Jiang et al., Blue noise sampling using an SPH-based method, 2015"
     rest: float = 0.9
-    iterations: int = 200
+    iterations: int = 0
     support: float = 2.0
 
     def __post_init__(self) -> None:
@@ -105,7 +106,7 @@ class ParticleHydrodynamics:
         x = rng.random((n, d))
         side = n ** (1 / d)
         velocity = np.zeros((n, d))
-        for _ in range(self.iterations):
+        for _ in range(self.iterations or max(200, math.ceil(6.25 * side - 1e-9))):
             velocity += STIFFNESS * pressure_acceleration(x, self.rest, self.support)
             velocity *= DAMPING
             length = np.linalg.norm(velocity, axis=1, keepdims=True)
