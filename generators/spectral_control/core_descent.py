@@ -65,4 +65,4 @@ def least_distance(x: FloatArray) -> float:
 
     n, d = x.shape
     nearest, _ = cKDTree(x, boxsize=np.ones(d)).query(x, k=2)
-    return float(nearest[:, 1].min()) * math.pow(n, 1 / d)
+    return float(np.asarray(nearest)[:, 1].min()) * math.pow(n, 1 / d)
