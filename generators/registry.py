@@ -23,8 +23,12 @@ from gbnbench.generators.direct.sobol import Sobol
 from gbnbench.generators.direct.uniform import Uniform
 from gbnbench.generators.fpo.generator import FarthestPoint
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
+from gbnbench.generators.kernel_based.electrostatic import Electrostatic
 from gbnbench.generators.kernel_based.kernel_density import KernelDensityModel
 from gbnbench.generators.kernel_based.kernel_energy import KernelEnergy
+from gbnbench.generators.kernel_based.particle_hydrodynamics import ParticleHydrodynamics
+from gbnbench.generators.kernel_based.progressive_gbn import ProgressiveGaussianBlueNoise
+from gbnbench.generators.kernel_based.spectral_sampling import SpectralSampling
 from gbnbench.generators.kernel_based.void_and_cluster import VoidAndCluster
 from gbnbench.generators.kind_check import check_setting_names, of_instance
 from gbnbench.generators.lattices.hexagonal import Hexagonal
@@ -79,7 +83,11 @@ GENERATORS: dict[str, type[ListedGenerator]] = {
     "voidcluster": VoidAndCluster,
     "kdm": KernelDensityModel,
     "kernelenergy": KernelEnergy,
+    "electrostatic": Electrostatic,
+    "sph": ParticleHydrodynamics,
+    "oztireli": SpectralSampling,
     "gbn": GaussianBlueNoise,
+    "progressivegbn": ProgressiveGaussianBlueNoise,
     "deep": Deep,
     "stealthy": Stealthy,
     "step": Step,

@@ -9,6 +9,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from gbnbench.core.number_text import number
+from gbnbench.core.readable_text import display_width, left
 from gbnbench.core.text_table import aligned
 from gbnbench.generators.listing import OWN, GeneratorEntry, cost_machine, record
 
@@ -129,19 +130,24 @@ def verified_lines(found: Sequence[Verified]) -> Iterator[str]:
     Yields
     ------
     str
-        A line each, then how many agree, then the reasons of failures.
+        A line each, ours agreeing if it lies between "from" and "to"; then how many agree, then the reasons
+        of failures.
     """
-    yield from aligned(
-        ("", "generator", "measure", "published", "ours", "agrees from", "to", "why so far apart", "source"),
-        [
-            (
-                "ok" if one.agrees else "▼ no", one.figure.generator, one.figure.measure_name,
-                one.figure.published, number(one.ours), number(one.figure.low), number(one.figure.high),
-                one.figure.reason, one.figure.source,
-            )
-            for one in found
-        ],
+    lines = list(
+        aligned(
+            ("", "generator", "measure", "published", "ours", "from", "to"),
+            [
+                (
+                    "ok" if one.agrees else "▼ no", one.figure.generator, one.figure.measure_name,
+                    one.figure.published, number(one.ours), number(one.figure.low), number(one.figure.high),
+                )
+                for one in found
+            ],
+        )
     )  # fmt: skip
+    width = max(map(display_width, lines))
+    for line, reason in zip(lines, ("why so far", *(one.figure.reason for one in found)), strict=True):
+        yield f"{left(line, width)}  {reason}"
     agreeing = sum(one.agrees for one in found)
     yield f"{agreeing} of {len(found)} published figures agree"
     yield from dict.fromkeys(f"{one.figure.generator}: {one.failure}" for one in found if one.failure)

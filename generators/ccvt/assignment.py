@@ -56,7 +56,7 @@ def share_out(sites: FloatArray, samples: FloatArray, rng: np.random.Generator) 
     left = rng.permutation(len(samples))
     while len(left):  # each round fills at least one site
         free = np.flatnonzero(full < capacity)
-        nearest = free[cKDTree(sites[free], boxsize=[1.0, 1.0]).query(samples[left])[1]]
+        nearest = free[cKDTree(sites[free], boxsize=np.ones(2)).query(samples[left])[1]]
         order = np.argsort(nearest, kind="stable")
         nearest, left = nearest[order], left[order]
         place = np.arange(len(left)) - np.searchsorted(nearest, nearest) + full[nearest]

@@ -16,9 +16,9 @@ from gbnbench.generators.lattices.regular_grid import grid_corners
 from gbnbench.generators.protocol import Family
 
 PLAIN = 64  # points drawn from all their candidates, before cells pay
-CELLS_A_POINT = 48
-AIM = 0.95  # of the last point's distance: candidates that cannot be as far are not drawn at first
-LOWER = 0.9  # the aim, when none was as far
+CELLS_A_POINT = 64
+LOWER = 0.9  # the aim, when no candidate was as far
+WATCH = 0.85  # of the aim: cells whose bound is above are looked through at every step
 MOST_POINTS = 65_536
 MOST_CELL_DIMENSIONS = 4
 
@@ -136,7 +136,7 @@ class Nearest:
         -------
         (k,) float64
         """
-        if self.count - self._in_tree > 16 + self._in_tree // 16:
+        if self.count - self._in_tree > 16 + self._in_tree // 256:
             self._tree = toroidal_tree(self.x[: self.count])
             self._in_tree = self.count
         found: FloatArray = np.full(len(y), np.inf)
@@ -166,7 +166,8 @@ class Bounds:
         self.corners = grid_corners(self.side, d)
         self.half = 0.5 * math.sqrt(d) / self.side
         self.high = points.distances((self.corners + 0.5) / self.side) + self.half
-        self.aim = AIM * float(self.high.max())
+        self.last = float(self.high.max())
+        self.watched_aim = math.inf
         reach = min(math.ceil(float(self.high.max()) * self.side) + 1, (self.side - 1) // 2)
         self.stencil = grid_corners(2 * reach + 1, d).astype(np.int64) - reach
         self.strides = self.side ** np.arange(d - 1, -1, -1)
@@ -185,12 +186,18 @@ class Bounds:
         -------
         (d,) float64
         """
-        aim, left = self.aim, len(self.high)
+        # bounds never rise: all above an aim are among those watched as long as these have a lower one
+        aim = (1 - 2 / math.sqrt(self.points.count)) * self.last
+        if aim < self.watched_aim:
+            self.watched_aim = WATCH * aim
+            self.watched = np.flatnonzero(self.high > self.watched_aim)
         best, farthest = self.corners[0], -1.0
-        above = np.inf
-        while farthest <= aim and count:
-            here = np.flatnonzero((self.high > aim) & (self.high <= above))
-            inside = int(rng.binomial(count, min(len(here) / left, 1.0))) if left else count
+        above, left = math.inf, len(self.high)
+        while count and farthest <= above:
+            cells = self.watched if aim >= self.watched_aim else np.arange(len(self.high))
+            bound = self.high[cells]
+            here = cells[(bound > aim) & (bound <= above)]
+            inside = int(rng.binomial(count, len(here) / left)) if len(here) < left else count
             if inside:
                 candidates = self._draw(here, inside, rng)
                 distance = self.points.distances(candidates)
@@ -199,7 +206,7 @@ class Bounds:
                     best, farthest = candidates[first], float(distance[first])
             count, left = count - inside, left - len(here)
             aim, above = LOWER * aim if aim > self.half else -1.0, aim
-        self.aim = AIM * farthest
+        self.last = farthest
         return np.asarray(best)
 
     def lower(self, point: FloatArray) -> None:

@@ -36,7 +36,7 @@ class DartThrowing:
     -----
     The first n darts that stand. Where no room is left for the n-th, or the attempts are spent, the radius is
     made smaller by a hundredth and the throwing goes on (McCool & Fiume 1992): with the default this happens
-    in 1D, where .7476 is all that fits, to a few points, and from d = 8.
+    in 1D, where .7476 is all that fits, to a few points, and from 4D on, to .72 or more.
 
     Darts are thrown only at cells that no single disc covers, which are halved as they grow fewer (Ebeida et
     al. 2012). Every dart left out would be refused, so that the sets are those of plain dart throwing on the

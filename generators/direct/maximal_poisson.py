@@ -18,7 +18,7 @@ from gbnbench.generators.direct.poisson_disk import (
 from gbnbench.generators.protocol import Family
 
 MOST_DIMENSIONS = 4
-MOST_POINTS_4D = 8192
+MOST_POINTS_4D = 2048
 DRAWS = 100  # saturated sets to begin with, at most
 HALVINGS = 50  # of the interval of the radius
 GIVES_WAY = (0.01, 0.03, 0.1, 0.3)  # by how much of it the radius is lowered, one after another

@@ -205,8 +205,12 @@ def throw_darts(
         if not len(cells.corners):
             return x, True
         count = max(16, int(DARTS_A_CELL * len(cells.corners)))
-        x = np.concatenate([x, in_turn(cells.throw(count, rng), x, radius)])[:most]
-        if len(cells.corners) * 2**d <= max(MOST_CELLS_A_POINT * most, MOST_CELLS):
+        stood = in_turn(cells.throw(count, rng), x, radius)
+        x = np.concatenate([x, stood])[:most]
+        few = len(cells.corners) * 2**d <= max(MOST_CELLS_A_POINT * most, MOST_CELLS)
+        if few or (
+            not len(stood) and darts_a_point == math.inf
+        ):  # where no dart stands, cells must be smaller
             cells, levels = cells.split(), levels + 1
         thrown += count
     return x, levels == LEVELS

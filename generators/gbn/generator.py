@@ -107,8 +107,7 @@ class GaussianBlueNoise:
                 f"iterations count the steps of method=descent, gradients those of nesterov; got both "
                 f"method=nesterov and iterations={self.iterations}"
             )
-        unused = self.gradients != GaussianBlueNoise.gradients
-        if self.method == "descent" and not self.iterations and unused:
+        if self.method == "descent" and not self.iterations and self.gradients != GaussianBlueNoise.gradients:
             raise InputError(
                 "gradients count evaluations of Nesterov's method; for the paper's descent say iterations, "
                 f"got gradients={self.gradients}"

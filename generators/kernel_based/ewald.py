@@ -70,7 +70,7 @@ class EwaldEnergy:
         from scipy.spatial import cKDTree
 
         energy, gradient = self._far(x)
-        pairs = cKDTree(x, boxsize=1.0).query_pairs(self.cut / self.side, output_type="ndarray")
+        pairs = cKDTree(x, boxsize=np.ones(self.d)).query_pairs(self.cut / self.side, output_type="ndarray")
         i, j = pairs[:, 0], pairs[:, 1]
         apart = x[i] - x[j]
         apart = (apart - np.round(apart)) * self.side

@@ -171,7 +171,7 @@ def initial_points(raster: DensityRaster, rng: np.random.Generator) -> FloatArra
     while len(chosen) < raster.n:
         chosen.append(int(raster.lack.argmax()))
         raster.add(places[chosen[-1:]].astype(np.float64))
-    return places[chosen].astype(np.float64)
+    return np.asarray(places[chosen], np.float64)
 
 
 def split_points(x: FloatArray, raster: DensityRaster, rng: np.random.Generator) -> FloatArray:
@@ -193,6 +193,7 @@ def split_points(x: FloatArray, raster: DensityRaster, rng: np.random.Generator)
     """
     parts = np.repeat(x, 2**raster.d, axis=0)
     parts = parts[np.sort(rng.permutation(len(parts))[: raster.n])]
-    scattered = (parts + SCATTER * raster.spacing * rng.standard_normal(parts.shape)) % raster.side
+    scattered: FloatArray = parts + SCATTER * raster.spacing * rng.standard_normal(parts.shape)
+    scattered %= raster.side
     raster.add(scattered)
     return scattered

@@ -152,5 +152,6 @@ def minimise(energy: MeshEnergy | EwaldEnergy, x: FloatArray, gradients: int) ->
         return value, gradient.ravel()
 
     options = {"maxfun": gradients, "maxiter": gradients, "maxcor": 20, "ftol": 0.0, "gtol": 1e-12}
-    found = minimize(flat, (x * side).ravel(), jac=True, method="L-BFGS-B", options=options)
+    start = (x * side).ravel()
+    found = minimize(flat, start, jac=True, method="L-BFGS-B", options=options)  # type: ignore[call-overload]
     return wrap(found.x.reshape(x.shape) / side)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray
@@ -101,15 +102,49 @@ class BlueNets:
         m = n.bit_length() - 1
         y = random_net(m, rng)
         if m:
-            energy = GaussianEnergy(m, self.sigma)
-            for _ in range(self.iterations):
-                improved = 0
-                for level in rng.permutation(m):
-                    pairs = exchangeable_pairs(y, int(level))
-                    better = energy.change(y, pairs) < -1e-12
-                    improved += int(better.sum())
-                    made = pairs[better & (rng.random(len(pairs)) < CHANCE)]
-                    y[made] = y[made[:, ::-1]]
-                if not improved:
-                    break
+            y = self.optimised(y, rng)
         return (np.stack([np.arange(n), y], axis=1) + rng.random((n, 2))) / n
+
+    def optimised(self, y: NDArray[np.int64], rng: np.random.Generator) -> NDArray[np.int64]:
+        """Make exchanges that lower the energy.
+
+        Parameters
+        ----------
+        y : (2**m,) int64
+            A net, stratum of y by that of x, m >= 1.
+        rng : Generator
+            Of the order of levels and of the coins.
+
+        Returns
+        -------
+        (2**m,) int64
+            A net of lower energy.
+
+        Notes
+        -----
+        An exchange is judged again only if a point within reach has moved since it was, or the coin fell
+        against it.
+        """
+        y, n, m = y.copy(), len(y), len(y).bit_length() - 1
+        energy = GaussianEnergy(m, self.sigma)
+        moved_at, judged_at = np.zeros(n, dtype=np.int64), np.full(m, -1)
+        time = 0
+        for _ in range(self.iterations):
+            judged_better = False
+            for level in rng.permutation(m):
+                time += 1
+                pairs = exchangeable_pairs(y, int(level))
+                cells = energy.cell(pairs, y[pairs])
+                pairs = pairs[(moved_at[cells] >= judged_at[level]).any(axis=1)]
+                better = pairs[energy.change(y, pairs) < -1e-12]
+                judged_better = judged_better or len(better) > 0
+                made = better[rng.random(len(better)) < CHANCE]
+                before = energy.cell(made, y[made])
+                moved_at[energy.cell(better, y[better])] = time
+                y[made] = y[made[:, ::-1]]
+                after = energy.cell(made, y[made])
+                moved_at[energy.around(np.concatenate([before, after]).reshape(-1))] = time
+                judged_at[level] = time
+            if not judged_better:
+                break
+        return y

@@ -82,13 +82,45 @@ class GaussianEnergy:
         self.gaussian: FloatArray = np.exp(-(offset**2) / (2 * sigma**2 * n)).sum(axis=1)
         self.n, self.x_bits = n, (m + 1) // 2
         self.y_bits = m - self.x_bits
-        reach = int(np.ceil(REACH * sigma * np.sqrt(2))) + 1
+        # in cells of the grid that holds a point each; one more, for exchanges move points as far as that
+        self.x_reach, self.y_reach = (
+            int(np.ceil(REACH * sigma * 2**bits / np.sqrt(n))) + 1 for bits in (self.x_bits, self.y_bits)
+        )
         steps = [
             np.arange(2**bits) if 2 * reach + 1 >= 2**bits else np.arange(-reach, reach + 1)
-            for bits in (self.x_bits, self.y_bits)
+            for bits, reach in ((self.x_bits, self.x_reach), (self.y_bits, self.y_reach))
         ]
-        self.reach = reach
         self.x_step, self.y_step = (part.reshape(-1) for part in np.meshgrid(*steps, indexing="ij"))
+
+    def cell(self, x: NDArray[np.int64], y: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Return the number of a point's cell in a grid whose cells hold a point each.
+
+        Parameters
+        ----------
+        x, y : (k,) int64
+            Strata.
+
+        Returns
+        -------
+        (k,) int64
+        """
+        return np.asarray(((x >> self.y_bits) << self.y_bits) | (y >> self.x_bits))
+
+    def around(self, cell: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Return the cells within reach of others.
+
+        Parameters
+        ----------
+        cell : (k,) int64
+            Numbers of cells.
+
+        Returns
+        -------
+        (k, cells within reach) int64
+        """
+        x_cell = ((cell >> self.y_bits)[:, None] + self.x_step) & (2**self.x_bits - 1)
+        y_cell = ((cell & (2**self.y_bits - 1))[:, None] + self.y_step) & (2**self.y_bits - 1)
+        return np.asarray((x_cell << self.y_bits) | y_cell)
 
     def change(self, y: NDArray[np.int64], pairs: NDArray[np.intp]) -> FloatArray:
         """Compute what the energy gains if a pair exchanges its y, for each pair alone.
@@ -110,21 +142,21 @@ class GaussianEnergy:
         With g the Gaussian of an axis, the sum over the other points of
         (g(x_i - x) - g(x_j - x)) (g(y_j - y) - g(y_i - y)): the two differ in nothing else.
         """
-        m, mask = self.x_bits + self.y_bits, self.n - 1
-        owner = np.empty(self.n, dtype=np.int64)  # of the cells of a grid that holds a point each
-        column, row = np.arange(self.n) >> (m - self.x_bits), y >> (m - self.y_bits)
-        owner[(column << self.y_bits) | row] = np.arange(self.n)
+        mask = self.n - 1
+        owner = np.empty(self.n, dtype=np.int64)
+        owner[self.cell(np.arange(self.n), y)] = np.arange(self.n)
         total = np.zeros(len(pairs))
         i, j = pairs.T
+        column, row = np.divmod(self.cell(np.arange(self.n), y), 2**self.y_bits)
         for here, other in ((i, j), (j, i)):
-            x_cell = (column[here, None] + self.x_step) & (2**self.x_bits - 1)
-            y_cell = (row[here, None] + self.y_step) & (2**self.y_bits - 1)
-            near = owner[(x_cell << self.y_bits) | y_cell]
+            around = self.around(self.cell(here, y[here]))
+            x_cell, y_cell = around >> self.y_bits, around & (2**self.y_bits - 1)
+            near = owner[around]
             counted = (near != i[:, None]) & (near != j[:, None])
             if here is j:  # those in reach of both are counted once
                 counted &= ~(
-                    self._in_reach(x_cell, column[other], self.x_bits)
-                    & self._in_reach(y_cell, row[other], self.y_bits)
+                    _in_reach(x_cell, column[other], self.x_bits, self.x_reach)
+                    & _in_reach(y_cell, row[other], self.y_bits, self.y_reach)
                 )
             g = self.gaussian
             by_x = g[(i[:, None] - near) & mask] - g[(j[:, None] - near) & mask]
@@ -132,6 +164,7 @@ class GaussianEnergy:
             total += np.einsum("kp,kp,kp->k", by_x, by_y, counted)
         return total
 
-    def _in_reach(self, cell: NDArray[np.int64], of: NDArray[np.int64], bits: int) -> NDArray[np.bool_]:
-        """Tell which cells of an axis a stencil round others holds."""
-        return np.asarray(((cell - of[:, None] + self.reach) & (2**bits - 1)) <= 2 * self.reach)
+
+def _in_reach(cell: NDArray[np.int64], of: NDArray[np.int64], bits: int, reach: int) -> NDArray[np.bool_]:
+    """Tell which cells of an axis a stencil round others holds."""
+    return np.asarray(((cell - of[:, None] + reach) & (2**bits - 1)) <= 2 * reach)

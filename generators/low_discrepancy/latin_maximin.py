@@ -12,7 +12,7 @@ from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import Family
 
-PARTNERS = 32  # tried at a step
+PARTNERS = 24  # tried at a step
 MOST_POINTS = 8192
 
 
@@ -35,7 +35,7 @@ class LatinMaximin:
     Notes
     -----
     phi_p = (sum over pairs of distance**-p)**(1/p) on the torus is to be low. A step takes the point with the
-    largest share of the sum, on a random axis, and 32 random others, and makes the exchange of the two
+    largest share of the sum, on a random axis, and 24 random others, and makes the exchange of the two
     coordinates that lowers the sum most, if one does; a point that finds none is left alone for as many steps
     as there are points. Morris & Mitchell exchange random pairs and anneal; choosing the critical point is of
     Joseph & Hung (2008). All points have the same uniform place in their strata, so that distances are those
@@ -152,16 +152,16 @@ class LatinMaximin:
     def _power(self, square: FloatArray) -> FloatArray:
         """Raise squared distances to -p/2, infinite for none."""
         with np.errstate(divide="ignore"):
-            inverse = 1 / square
-        result, exponent = np.ones_like(inverse), self.power
-        if exponent % 2:
-            result, exponent = np.sqrt(inverse), exponent - 1
-        factor, exponent = inverse, exponent // 2
-        while exponent:  # powers of two, far quicker than a general power
+            factor = 1 / square
+        exponent = self.power // 2
+        result = np.sqrt(factor) if self.power % 2 else None
+        while exponent:  # squares of squares, far quicker than a general power
             if exponent % 2:
-                result = result * factor
-            factor, exponent = factor * factor, exponent // 2
-        return result
+                result = factor.copy() if result is None else result * factor
+            exponent //= 2
+            if exponent:
+                factor *= factor
+        return np.asarray(result)
 
     def _shares(self, strata: NDArray[np.int64], square: FloatArray, i: int) -> FloatArray:
         """Terms of the sum that a point takes part in, by the other point."""

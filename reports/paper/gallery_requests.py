@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from gbnbench.generators.listing import MeasuredCost, measured_costs
 from gbnbench.generators.registry import GENERATORS
 from gbnbench.reports.paper.data import ComparisonRequest
 from gbnbench.reports.paper.figure import FigureOptions
 from gbnbench.reports.paper.method_styles import GENERATOR_NAMES, NAMES
+
+LONG = 10.0  # CPU seconds a set of 1,024 points
 
 
 def size(options: FigureOptions) -> int:
@@ -89,11 +92,17 @@ def method_requests(options: FigureOptions, methods: Iterable[str]) -> dict[str,
         Method -> request, for the methods that have either.
     """
     made = {
-        method: ComparisonRequest((name,), (size(options),), (2,), sets(options))
+        method: ComparisonRequest((name,), (size(options),), (2,), _affordable_sets(options, name))
         for method in methods
         if method not in options.sets and (name := generator_of(options, method))
     }
     return {**made, **user_set_requests(options, methods)}
+
+
+def _affordable_sets(options: FigureOptions, name: str) -> int:
+    """Return the number of sets of a method of others: a tenth of the usual where one takes long."""
+    cost = measured_costs().get(name, MeasuredCost()).cpu_seconds
+    return max(2, sets(options) // 10) if cost > LONG else sets(options)
 
 
 def user_set_requests(options: FigureOptions, methods: Iterable[str]) -> dict[str, ComparisonRequest]:

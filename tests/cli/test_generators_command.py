@@ -55,12 +55,12 @@ def test_a_family_alone_and_as_json(capsys: Capture) -> None:
 
 
 def test_a_generator_is_described(capsys: Capture) -> None:
-    assert run(["generators", "lloyd[iterations=50]"]) == 0
+    assert run(["generators", "fpo[sweeps=50]"]) == 0
     out = capsys.readouterr().out
-    assert "  iterations = 50  (whole number; default 200)\n    Most steps, >= 0.\n" in out
-    assert "  tolerance = 0.001  (number)\n" in out
-    assert "d = 4  none: d must be 1, 2 or 3 for Lloyd's method" in out
-    assert "IEEE Trans. Information Theory" in out
+    assert "  sweeps = 50  (whole number; default 1000)\n    Most sweeps from one start;" in out
+    assert "  gain = 0.002  (number)\n" in out
+    assert "d = 4  none: fpo works on 2D Delaunay triangulations" in out
+    assert "Schlömer, Heck & Deussen" in out
     assert run(["generators", "jittered"]) == 0
     out = capsys.readouterr().out
     assert "It has no settings." in out
@@ -68,14 +68,14 @@ def test_a_generator_is_described(capsys: Capture) -> None:
 
 
 def test_a_description_as_json(capsys: Capture) -> None:
-    assert run(["generators", "lloyd[iterations=50]", "--json"]) == 0
+    assert run(["generators", "fpo[target=0.9]", "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
-    assert told["name"] == "lloyd"
+    assert told["name"] == "fpo"
     assert told["settings"][0] == {
-        "name": "iterations", "type": "whole number", "default": 200, "value": 50,
-        "meaning": "Most steps, >= 0.",
+        "name": "target", "type": "number", "default": 0.925, "value": 0.9,
+        "meaning": "Minimum distance to reach, in densest spacings d_hex.",
     }  # fmt: skip
-    assert [served["d"] for served in told["serves"] if served["n"]] == [1, 2, 3]
+    assert [served["d"] for served in told["serves"] if served["n"]] == [2]
 
 
 @pytest.mark.parametrize(
@@ -89,7 +89,7 @@ def test_a_description_as_json(capsys: Capture) -> None:
         (["lloyd", "-n", "64"], "-n and -d are those of a picture"),
         (["-o", "x.png"], "--out goes with the name of a generator, or with --verify"),
         (["lloyd", "-o", "x.txt"], "pictures are written as .png, .pdf; got '.txt'"),
-        (["lloyd", "-o", "x.png", "-d", "5"], "d must be 1, 2 or 3 for Lloyd's method"),
+        (["fpo", "-o", "x.png", "-d", "5"], "fpo works on 2D Delaunay triangulations"),
         (["--verify", "-o", "x.txt"], "the table is written as .md; got '.txt'"),
         (["--verify", "--only", "fpoo"], "no generator of gbnbench is named 'fpoo'; did you mean 'fpo'?"),
         (["--verify", "--only", "grid", "--family", "cellular"], "no published figure is held here of that"),

@@ -15,13 +15,18 @@ from gbnbench.generators.protocol import FAMILIES, Generator, ListedGenerator, r
 from gbnbench.generators.registry import GENERATORS, find, generate
 
 QUICK: dict[str, dict[str, Any]] = {
-    "lloyd": {"iterations": 4},
+    "lloyd": {"iterations": 1, "method": "lloyd"},
     "capcvt": {"iterations": 10},
     "ccvt": {"samples": 16},
     "gbn": {"gradients": 20},
+    "progressivegbn": {"gradients": 20},
+    "oztireli": {"iterations": 3},
+    "sph": {"iterations": 20},
     "kdm": {"iterations": 3},
     "kernelenergy": {"gradients": 10},
+    "electrostatic": {"iterations": 10},
     "sliced": {"iterations": 20},
+    **{name: {"iterations": 4} for name in ("step", "peak", "staircase", "targeted")},
 }
 SIZES = (16, 15, 27)
 

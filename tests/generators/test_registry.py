@@ -38,7 +38,7 @@ def test_name_may_hold_settings() -> None:
         ({"name": "lloyd[iterations=-3]", "n": 4}, "iterations must be >= 0; got -3"),
         (
             {"name": "lloyd", "n": 4, "itrations": 4},
-            "did you mean 'iterations'.*iterations=200, tolerance=0.001",
+            "did you mean 'iterations'.*iterations=none, tolerance=0.001",
         ),
         ({"name": "random", "n": 0}, "n must be a whole number >= 1; got 0"),
         ({"name": "random", "n": 4.5}, "n must be a whole number >= 1; got 4.5"),

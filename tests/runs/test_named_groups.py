@@ -10,7 +10,7 @@ import pytest
 import gbnbench
 from gbnbench.api.source_arguments import as_sources
 from gbnbench.cli import run
-from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.errors import InputError
 from gbnbench.generators.registry import GENERATORS
 from gbnbench.runs.named_groups import PAPER, expanded
 from gbnbench.runs.sources import resolve
@@ -48,8 +48,6 @@ def test_what_is_no_group_is_told() -> None:
         resolve(["family:celular"], [16], [2], 1)
     with pytest.raises(InputError, match="no preset is named 'peper'; did you mean 'paper'"):
         resolve(["preset:peper"], [16], [2], 1)
-    with pytest.raises(RefusalError, match="hexagonal at n=7, d=3"):
-        resolve(["hexagonal", "family:lattice"], [7], [3], 1)
     with pytest.raises(InputError, match="family:lattice is several generators"):
         as_sources({"mine": "family:lattice"}, 16, 2, 1)
 

@@ -9,6 +9,7 @@ from gbnbench.verification.published_figure import PublishedFigure
 BNOT = "de Goes, Breeden, Ostromoukhov & Desbrun, Blue noise through optimal transport, SIGGRAPH Asia 2012"
 BNOT_SETS = "measured on ten sets published by the deepsampling project"
 CAPCVT = "measured on a set made by the method of Chen et al., Variational blue noise sampling, 2012"
+CCVT = "measured on sets made by the method of Balzer, Schlömer & Deussen, SIGGRAPH 2009"
 SLICED = "measured on 107 sets made by the program of Paulin et al., Sliced optimal transport sampling, 2020"
 FPO = "Schlömer, Heck & Deussen, Farthest-point optimized point sets, HPG 2011"
 
@@ -54,6 +55,15 @@ CELLULAR = (
     ),
     PublishedFigure(
         "capcvt", "peak", "5.2", 4.5, 6.0, "one set, and a tenth more or fewer steps are a twelfth", CAPCVT,
+    ),
+    PublishedFigure(
+        "ccvt", "mean_distance", ".872", 0.855, 0.880, "its samples a point are unknown", CCVT, sets=1,
+    ),
+    PublishedFigure(
+        "ccvt", "effective_nyquist", ".860", 0.83, 0.87, "2,048 samples a point give .860", CCVT, sets=1,
+    ),
+    PublishedFigure(
+        "ccvt", "oscillations", "2.01", 1.65, 2.15, "2,048 samples a point give 2.05", CCVT, sets=1,
     ),
     PublishedFigure(
         "fpo", "min_distance", "at least .925", 0.925, math.inf, "the method stops at this distance", FPO

@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 
 from gbnbench.analysis.measures import measures
+from gbnbench.analysis.spatial.discrepancy import discrepancies
+from gbnbench.analysis.spatial.discrepancy_kernels import Discrepancy
 from gbnbench.generators.low_discrepancy.hammersley import primes, radical_inverse
 from gbnbench.generators.low_discrepancy.kronecker import generalised_golden_ratio
 from gbnbench.generators.low_discrepancy.rank1_lattice import best_generator, korobov_vectors, merits
@@ -129,3 +131,15 @@ def test_limits_are_refused() -> None:
     assert "nearest is 1048576" in str(find("rank1").refusal(2**20 + 1, 2))
     assert "d=21" in str(find("rank1").refusal(8, 21))
     assert "d=101" in str(find("kronecker").refusal(8, 101))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["sobol", "pmj02", "bluenets[iterations=5]", "hammersley", "rank1"])
+@pytest.mark.parametrize("kind", ["L2-star", "L2-periodic"])
+def test_discrepancy_falls_like_sqrt_log_n_over_n(name: str, kind: Discrepancy) -> None:
+    """From 64 to 4,096 points by 64 / sqrt(2) = 45, random points by 8; a quarter is left to four sets."""
+    small, large = (
+        np.sqrt(np.mean(discrepancies(generate(name, n=n, d=2, realizations=4), [kind])[kind] ** 2))
+        for n in (64, 4096)
+    )
+    assert small / large == pytest.approx(64 / np.sqrt(2), rel=0.25)

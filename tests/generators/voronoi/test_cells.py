@@ -11,8 +11,7 @@ from gbnbench.generators.voronoi.cells import move_to_centroids, toroidal_cells
 from tests.oracles.neighbours import nearest_by_tiling
 
 
-@pytest.mark.parametrize("d", [1, 2, 3])
-@pytest.mark.parametrize("n", [1, 2, 3, 5, 17, 150])
+@pytest.mark.parametrize(("n", "d"), [(n, d) for d in (1, 2, 3) for n in (1, 2, 3, 5, 17, 150)] + [(6, 4)])
 def test_cells_fill_the_torus_and_do_not_depend_on_the_border(n: int, d: int) -> None:
     x = generate("random", n=n, d=d, seed=n)
     cells, whole = toroidal_cells(x), toroidal_cells(x, 1.0)
@@ -34,7 +33,8 @@ def test_clustered_points_widen_the_border() -> None:
 
 
 @pytest.mark.parametrize(
-    ("n", "d", "side"), [(1, 2, 200), (2, 2, 200), (6, 2, 300), (40, 2, 300), (2, 3, 40), (7, 3, 40)]
+    ("n", "d", "side"),
+    [(1, 2, 200), (2, 2, 200), (6, 2, 300), (40, 2, 300), (2, 3, 40), (7, 3, 40), (6, 4, 14)],
 )
 def test_cells_are_those_of_a_fine_grid_of_probes(n: int, d: int, side: int) -> None:
     x = generate("random", n=n, d=d, seed=3)
@@ -74,7 +74,7 @@ def test_body_centred_cubic_moment_is_the_known_one() -> None:
     assert cells.energy.sum() * 2 ** (2 / 3) / 3 == pytest.approx(19 / (192 * 2 ** (1 / 3)), rel=1e-12)
 
 
-@pytest.mark.parametrize("d", [1, 2, 3])
+@pytest.mark.parametrize("d", [1, 2, 3, 4])
 def test_coincident_points_are_refused(d: int) -> None:
     x = generate("random", n=12, d=d)
     x[5] = x[2]
@@ -82,6 +82,14 @@ def test_coincident_points_are_refused(d: int) -> None:
         toroidal_cells(x)
 
 
-def test_four_dimensions_are_refused() -> None:
-    with pytest.raises(RefusalError, match="d must be 1, 2 or 3"):
-        toroidal_cells(np.zeros((3, 4)))
+def test_checkerboard_lattice_in_4d_has_its_known_moment() -> None:
+    """Conway & Sloane, Table 2.3: D4 has 13 / (120 sqrt 2) a dimension; its flat simplices cost some 1e-5."""
+    x = np.array([[0.1, 0.2, 0.3, 0.4], [0.6, 0.7, 0.8, 0.9]])
+    cells = toroidal_cells(x)
+    assert np.allclose(cells.volume, 0.5, rtol=1e-4)
+    assert cells.energy.sum() * 2**0.5 / 4 == pytest.approx(13 / (120 * np.sqrt(2)), rel=1e-4)
+
+
+def test_five_dimensions_are_refused() -> None:
+    with pytest.raises(RefusalError, match="d must be 1, 2, 3 or 4"):
+        toroidal_cells(np.zeros((3, 5)))

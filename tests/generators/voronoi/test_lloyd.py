@@ -22,7 +22,7 @@ def test_energy_never_rises_and_steps_are_those_of_the_whole_tiling(n: int, d: i
         energy.append(cells.energy.sum())
         x = move_to_centroids(x, cells)
     assert np.all(np.diff(energy) <= 1e-15)
-    made = Lloyd(iterations=12, tolerance=0)(n, d, realization_rng(1, 0))
+    made = Lloyd(iterations=12, tolerance=0, method="lloyd")(n, d, realization_rng(1, 0))
     assert np.abs((made - x + 0.5) % 1 - 0.5).max() < 1e-12
 
 
@@ -53,6 +53,27 @@ def test_small_sets_come_to_rest(n: int, d: int) -> None:
 def test_evens_out_the_gaps_in_one_dimension() -> None:
     x = np.sort(generate("lloyd", n=12, d=1, iterations=3000, tolerance=0)[:, 0])
     assert np.allclose(np.diff(x, append=x[0] + 1), 1 / 12, atol=1e-12)
+
+
+@pytest.mark.parametrize(("n", "d", "method"), [(40, 2, "lbfgs"), (12, 3, "auto"), (20, 1, "lbfgs")])
+def test_the_quasi_newton_method_comes_to_rest_at_centroids_too(n: int, d: int, method: str) -> None:
+    x = generate("lloyd", n=n, d=d, method=method, iterations=500, tolerance=1e-6)
+    assert np.linalg.norm(toroidal_cells(x).offset, axis=1).max() < 1e-6 * spacing(n, d)
+
+
+@pytest.mark.slow
+def test_thirty_quasi_newton_steps_lower_the_energy_as_far_as_a_hundred_of_lloyds() -> None:
+    by = {
+        method: toroidal_cells(generate("lloyd", n=150, d=3, method=method, iterations=steps)).energy.sum()
+        for method, steps in (("lbfgs", 30), ("lloyd", 100))
+    }
+    assert by["lbfgs"] < 1.002 * by["lloyd"]
+
+
+def test_four_dimensions_are_served() -> None:
+    """Between D4's 0.0766 a dimension and the cube's 0.0833 (Conway & Sloane, Table 2.3)."""
+    x = generate("lloyd", n=8, d=4, iterations=8)
+    assert 0.0766 < toroidal_cells(x).energy.sum() * 8**0.5 / 4 < 0.0833
 
 
 def test_reaches_the_moment_of_good_tessellations() -> None:

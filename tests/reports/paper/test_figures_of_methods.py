@@ -20,7 +20,7 @@ from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.cli import gbnbench
 from gbnbench.execution.progress import Progress
 from gbnbench.reports import style
-from gbnbench.reports.paper import figure_12, gallery_requests, radial_axes, wording
+from gbnbench.reports.paper import figure_12, gallery_requests, wording
 from gbnbench.reports.paper.data import folder_name, obtain
 from gbnbench.reports.paper.figure import Drawing, FigureOptions
 from gbnbench.reports.paper.method_columns import user_columns
@@ -244,14 +244,3 @@ def test_sets_of_another_size_are_taken_where_there_are_none_of_this_one(tmp_pat
     assert [c.source.n for c in user_columns({"kdm": run}, ("kdm",), 100)] == [50]
     only_solid = type(run)({}, tuple(s for s in run.sources if s.d == 3))
     assert user_columns({"kdm": only_solid}, ("kdm",), 20) == []
-
-
-@pytest.mark.parametrize(
-    ("low", "high", "ticks", "marks"),
-    [(1e-10, 100, 7, range(-10, 3, 2)), (1e-3, 30, 7, range(-3, 2)), (1e-32, 100, 5, range(-32, 1, 8))],
-)
-def test_log_axes_have_few_ticks_and_always_that_of_white_noise(low, high, ticks, marks):
-    ax = Figure().subplots()
-    radial_axes.log_power(ax, low, high, ticks)
-    assert ax.get_yticks() == pytest.approx([10.0**k for k in marks])
-    assert 1.0 in ax.get_yticks()

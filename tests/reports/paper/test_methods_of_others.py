@@ -9,6 +9,7 @@ import pytest
 from click.testing import CliRunner
 
 from gbnbench.cli import gbnbench
+from gbnbench.generators.listing import MeasuredCost
 from gbnbench.generators.registry import GENERATORS
 from gbnbench.reports.paper import gallery_requests, wording
 from gbnbench.reports.paper.data import ComparisonRequest
@@ -41,6 +42,16 @@ def test_sets_come_before_a_generator_and_what_has_neither_is_told(stand_ins: No
     note = "KDM and VnC of the paper are left out: no generator here makes them and no sets were given"
     assert wording.missing_sets_note(plain, METHODS).startswith(note)
     assert wording.missing_sets_note(plain, ("bnot",)) == ""
+
+
+def test_a_method_that_takes_long_is_shown_by_fewer_sets(
+    stand_ins: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    costs = {"jittered": MeasuredCost(60.0)}
+    monkeypatch.setattr(gallery_requests, "measured_costs", lambda: costs)
+    for scale, count in (("tiny", 2), ("quick", 2), ("full", 100)):
+        requests = gallery_requests.method_requests(FigureOptions(scale), ("bnot",))
+        assert requests["bnot"].realizations == count
 
 
 def test_every_figure_knows_a_method_by_one_generator() -> None:

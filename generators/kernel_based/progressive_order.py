@@ -1,0 +1,157 @@
+"""Orders of a point set all of whose prefixes are evenly spread: void-and-cluster ranks of given points."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gbnbench.core.errors import InputError
+from gbnbench.core.torus import FloatArray, check_points
+
+SWEEPS = 20  # over the chosen points, of exchanges with points left out
+LEAST_GAIN = 1e-9
+
+
+def progressive_order(x: ArrayLike, sigma: float = 1.0) -> NDArray[np.intp]:
+    """Order points so that every prefix is spread as evenly as a choice among them can be.
+
+    Parameters
+    ----------
+    x : (n, d) float64
+        Points on the unit torus.
+    sigma : float
+        Width of the Gaussian on the points of a prefix, in spacings of that prefix, 0.2 to 2.
+
+    Returns
+    -------
+    (n,) intp
+        Indices of the points, first to last: ``x[order[:m]]`` is the prefix of m points.
+
+    Raises
+    ------
+    InputError
+        If x is no single set of points of the torus, or sigma out of its range.
+
+    Notes
+    -----
+    Of the set half is kept, of the half a quarter, and so on, each time by taking out the tightest clusters
+    (Ulichney 1993) and then by exchanging a kept point with one left out where that lowers the sum over pairs
+    of Gaussians, until no exchange does. What lies between two halvings comes in the order of largest voids.
+    Costs n**2: 0.5 CPU seconds at n = 1,024.
+
+    Examples
+    --------
+    >>> order = progressive_order([[0.0], [0.01], [0.25], [0.5], [0.75], [0.76], [0.87]])
+    >>> bool(abs(order[0] - order[1]) > 1)
+    True
+    """
+    points = check_points(x)
+    if points.ndim != 2:
+        raise InputError(f"x must be one set, (n, d); got shape {points.shape}")
+    if not 0.2 <= sigma <= 2:
+        raise InputError(f"sigma must be 0.2 to 2 spacings; got {sigma}")
+    n, d = points.shape
+    kept = np.arange(n)
+    tail: list[NDArray[np.intp]] = []
+    while len(kept) > 1:
+        size = len(kept) // 2
+        inside = _half(points[kept], size, sigma * size ** (-1 / d))
+        middle = sigma * (math.sqrt(2) * size) ** (-1 / d)
+        tail.insert(0, kept[_by_voids(points[kept], inside, middle)])
+        kept = kept[inside]
+    return np.concatenate([kept, *tail])
+
+
+def prefix_noise_floors(x: ArrayLike, sizes: Sequence[int]) -> FloatArray:
+    """Measure the noise floors of prefixes of an ordered set: the mean of P over 0 < nu <= 0.25.
+
+    Parameters
+    ----------
+    x : (n, d) float64
+        Points on the unit torus, in order.
+    sizes : sequence of int
+        Lengths of the prefixes, 1 to n.
+
+    Returns
+    -------
+    (len(sizes),) float64
+        nan where a prefix is too small to have a frequency in the band.
+
+    Raises
+    ------
+    InputError
+        If x is no single set, or a size out of its range.
+
+    Examples
+    --------
+    >>> prefix_noise_floors(np.arange(32)[:, None] / 32, [32]) < 1e-20
+    array([ True])
+    """
+    points = check_points(x)
+    if points.ndim != 2:
+        raise InputError(f"x must be one set, (n, d); got shape {points.shape}")
+    n, d = points.shape
+    floors = np.full(len(sizes), np.nan)
+    for k, size in enumerate(sizes):
+        if not 1 <= size <= n:
+            raise InputError(f"sizes must be 1 to {n}; got {size}")
+        edge = 0.25 * size ** (1 / d)
+        reach = np.arange(-math.floor(edge), math.floor(edge) + 1)
+        f = np.stack(np.meshgrid(*[reach] * d, indexing="ij"), axis=-1).reshape(-1, d)
+        square = np.sum(f**2, axis=1)
+        f = f[(square > 0) & (square <= edge**2)]
+        if len(f):
+            waves = np.exp(-2j * math.pi * (points[:size] @ f.T))
+            floors[k] = np.mean(np.abs(waves.sum(axis=0)) ** 2) / size
+    return floors
+
+
+def _gaussians(x: FloatArray, point: FloatArray, width: float) -> FloatArray:
+    """Periodised Gaussian of one point at all points, width in box sides."""
+    apart = x - point
+    apart -= np.round(apart)
+    most = max(math.ceil(6 * width - 0.5), 0)
+    if most == 0:
+        return np.asarray(np.exp(np.sum(apart**2, axis=1) / (-2 * width**2)))
+    images = [np.exp((apart + turn) ** 2 / (-2 * width**2)) for turn in range(-most, most + 1)]
+    return np.asarray(np.prod(np.sum(images, axis=0), axis=1))
+
+
+def _half(x: FloatArray, size: int, width: float) -> NDArray[np.bool_]:
+    """Choose so many points with a small sum over pairs of Gaussians."""
+    inside = np.ones(len(x), bool)
+    energy = np.sum([_gaussians(x, point, width) for point in x], axis=0)
+    for _ in range(len(x) - size):
+        cluster = int(np.where(inside, energy, -np.inf).argmax())
+        inside[cluster] = False
+        energy -= _gaussians(x, x[cluster], width)
+    own = float(_gaussians(x[:1], x[0], width)[0])
+    for _ in range(SWEEPS):
+        exchanged = 0
+        for index in np.flatnonzero(inside):
+            gaussian = _gaussians(x, x[index], width)
+            without = energy - gaussian
+            void = int(np.where(inside, np.inf, without).argmin())
+            if without[void] < energy[index] - own - LEAST_GAIN:
+                inside[index], inside[void] = False, True
+                energy = without + _gaussians(x, x[void], width)
+                exchanged += 1
+        if not exchanged:
+            break
+    return inside
+
+
+def _by_voids(x: FloatArray, inside: NDArray[np.bool_], width: float) -> NDArray[np.intp]:
+    """Order the points left out, each the largest void of those inside and before it."""
+    energy = np.sum([_gaussians(x, point, width) for point in x[inside]], axis=0)
+    energy[inside] = np.inf
+    order = []
+    for _ in range(int(np.count_nonzero(~inside))):
+        void = int(energy.argmin())
+        order.append(void)
+        energy += _gaussians(x, x[void], width)
+        energy[void] = np.inf
+    return np.array(order, np.intp)
