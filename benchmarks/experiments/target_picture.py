@@ -22,7 +22,18 @@ NAMED = ("step", "peak", "staircase")
 
 
 def ring_means(x: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Mean power of sets over rings of |f| one unit wide, and their nu."""
+    """Average the power of sets over rings of |f| one unit wide.
+
+    Parameters
+    ----------
+    x : (realizations, n, 2) float64
+        Points.
+
+    Returns
+    -------
+    nu, power : (rings,) float64
+        Of each ring.
+    """
     shells = radial(periodogram(x, FMAX))
     ring = np.rint(shells.nu * N**0.5).astype(np.int64)
     count = np.maximum(np.bincount(ring, shells.count), 1)
@@ -32,7 +43,15 @@ def ring_means(x: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def main(path: Path, profiles: list[str]) -> None:
-    """Draw the picture into a file: points, their spectrum, ring means with the target; one column each."""
+    """Draw the picture into a file: points, their spectrum, ring means with the target; one column each.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    profiles : list of str
+        Files of targets besides the named ones.
+    """
     from matplotlib.figure import Figure
 
     targets = [*NAMED, *profiles]
