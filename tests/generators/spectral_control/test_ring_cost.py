@@ -17,11 +17,13 @@ from gbnbench.generators.spectral_control.target_fit import target_fit
 PEAK = PeakProfile(0.7, 0.2, 0.05)
 
 
-@pytest.mark.parametrize(("n", "d"), [(40, 1), (40, 2), (30, 3)])
+@pytest.mark.parametrize(("n", "d", "core"), [(40, 1, 0.0), (40, 2, 0.0), (40, 2, 0.6), (30, 3, 0.6)])
 @pytest.mark.parametrize("target", [StepProfile(0.4), PEAK])
-@pytest.mark.parametrize("core", [0.0, 0.6])
 def test_the_gradient_is_the_slope_of_the_cost(n, d, target, core):
-    """Central differences over 5e-3 spacings: waves are single, so that the cost errs by 1e-6."""
+    """Central differences over 5e-3 spacings: waves are single, so that the cost errs by 1e-6.
+
+    The core has a kink where two points meet, which on a line some do within a step: none is tried there.
+    """
     rng = np.random.default_rng(0)
     u = n ** (1 / d) * rng.random((n, d))
     cost = RingCost(rings_below(n, d, target, 1.5), core)
