@@ -146,7 +146,7 @@ def find(text: str, **settings: object) -> Generator:
     Examples
     --------
     >>> find("lloyd[iterations=50]", tolerance=0)
-    Lloyd(iterations=50, tolerance=0.0)
+    Lloyd(iterations=50, tolerance=0.0, method='auto')
     """
     name, inside = parse(text)
     kind = kind_named(name)

@@ -95,7 +95,7 @@ def configure(kind: type[T], settings: Mapping[str, object]) -> T:
     --------
     >>> from gbnbench.generators.voronoi.lloyd import Lloyd
     >>> configure(Lloyd, {"iterations": "50"})
-    Lloyd(iterations=50, tolerance=0.001)
+    Lloyd(iterations=50, tolerance=0.001, method='auto')
     """
     hints = typing.get_type_hints(kind)
     fields = {field.name: field for field in _fields(kind)}
