@@ -47,14 +47,16 @@ CELLULAR = (
         "bnot", "valence6", ".581", 0.55, 0.61, "the spread over sets is .015", BNOT_SETS,
     ),
     PublishedFigure(
-        "capcvt", "min_distance", ".751", 0.72, 0.79, "the price was chosen for it; the least of 1,024 distances", CAPCVT,
+        "capcvt", "min_distance", ".751", 0.72, 0.79,
+        "the price was chosen for it; the least of 1,024 distances", CAPCVT,
     ),
     PublishedFigure(
         "capcvt", "noise_floor", "1.2e-4", 0.9e-4, 1.6e-4,
         "the price was chosen for it; a few dozen frequencies: a third", CAPCVT,
     ),
     PublishedFigure(
-        "capcvt", "peak", "5.2", 4.5, 6.0, "the price was chosen for it; a tenth more steps are a twelfth", CAPCVT,
+        "capcvt", "peak", "5.2", 4.5, 6.0,
+        "the price was chosen for it; a tenth more steps are a twelfth", CAPCVT,
     ),
     PublishedFigure(
         "ccvt", "mean_distance", ".872", 0.855, 0.880, "its samples a point are unknown", CCVT, sets=1,
