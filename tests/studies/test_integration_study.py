@@ -164,6 +164,7 @@ def test_a_family_that_has_none_in_a_dimension_is_refused_before_any_work(tmp_pa
         variance(np.zeros((4, 500)), "half-space")
 
 
+@pytest.mark.slow
 def test_a_dimension_without_integrands_of_a_family_is_skipped_and_said(tmp_path):
     made = study(
         tmp_path / "run", ("random",), d=(2, 50), n=(4, 8), integrands=("gaussians", "half-space"),

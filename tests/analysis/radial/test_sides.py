@@ -48,6 +48,7 @@ def test_uniform_points_are_isotropic_in_every_box(sides: tuple[float, ...], set
     assert abs(np.mean(found) + 10 * math.log10(sets)) < 4 * error + 0.1
 
 
+@pytest.mark.slow
 def test_a_rectangle_called_a_square_shows_anisotropy_and_none_when_its_sides_are_told() -> None:
     n, sets = 300, 12
     x = np.stack(

@@ -67,6 +67,7 @@ def test_the_cheaper_product_is_made():
         assert isinstance(gram_product(x, below, WaveSums(x, below.f)), kind)
 
 
+@pytest.mark.slow
 def test_bits_do_not_depend_on_the_number_of_threads():
     program = """
 import hashlib, numpy as np

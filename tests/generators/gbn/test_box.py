@@ -76,6 +76,7 @@ def test_the_pull_is_the_slope_of_its_potential():
         assert gradient[:, a] == pytest.approx(difference / (2 * step), abs=1e-8)
 
 
+@pytest.mark.slow
 def test_the_domains_energy_is_that_of_a_fine_grid_of_points():
     v = (np.arange(4000) + 0.5) * 3 / 4000
     direct = np.exp(-((v[:, None] - v) ** 2) / (2 * 0.7**2)).sum() * (3 / 4000) ** 2

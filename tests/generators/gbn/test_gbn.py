@@ -147,6 +147,7 @@ def test_steps_are_stable_in_small_boxes_of_high_dimension():
     assert power.mean() < 1e-9
 
 
+@pytest.mark.slow
 def test_float_forces_reach_what_double_does():
     """The excess energy is noisy in float; that must not shorten the step."""
     x = GaussianBlueNoise(gradients=900, precision="float")(256, 2, realization_rng(0, 0))

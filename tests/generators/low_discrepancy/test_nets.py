@@ -75,6 +75,7 @@ def test_exchanges_keep_the_net(m: int) -> None:
         assert net_quality(as_points(y)) == 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("m", "sigma"), [(1, 0.5), (5, 0.5), (6, 1.0), (7, 0.7)])
 def test_the_change_is_that_of_the_energy_summed_anew(m: int, sigma: float) -> None:
     """What lies beyond four standard deviations is left out: exp(-8) of each of some pairs."""

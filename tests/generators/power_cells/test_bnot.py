@@ -57,6 +57,7 @@ def test_breaking_moves_regular_points_and_their_neighbours_alone() -> None:
     assert 0.9 * RELOCATED <= far.sum() <= RELOCATED
 
 
+@pytest.mark.slow
 def test_regions_are_broken_until_none_are_regular() -> None:
     long = OptimalTransport(alternations=60, breaks=0, regularity=1e-3)
     broken = OptimalTransport(alternations=60, breaks=1, regularity=1e-3)

@@ -126,6 +126,7 @@ def test_half_the_plane_is_covered_where_two_thirds_were_published():
     assert below(x, edge)[0].max() < 1e-26
 
 
+@pytest.mark.slow
 def test_a_core_that_is_not_reached_is_refused():
     with pytest.raises(RefusalError, match=r"n=36 points in d=2 .* no farther apart than .* core=1.05"):
         Stealthy(edge=0.6, core=1.05)(36, 2, realization_rng(0, 0))

@@ -34,6 +34,7 @@ def test_the_gradient_is_that_of_finite_differences(n: int, capacity: float) -> 
         assert gradient[k, axis] == pytest.approx(slope, abs=1e-7 * (1 + capacity))
 
 
+@pytest.mark.slow
 def test_the_energy_falls_with_the_steps() -> None:
     energy = [
         energy_and_gradient(power_diagram(generate("capcvt", n=100, iterations=k, seed=1)), 50.0)[0]
@@ -42,6 +43,7 @@ def test_the_energy_falls_with_the_steps() -> None:
     assert np.all(np.diff(energy) < 0)
 
 
+@pytest.mark.slow
 def test_a_dearer_capacity_makes_areas_more_equal() -> None:
     deviation = [
         power_diagram(generate("capcvt", n=200, iterations=60, capacity=price, seed=2)).mass.std() * 200

@@ -70,6 +70,7 @@ def test_thirty_quasi_newton_steps_lower_the_energy_as_far_as_a_hundred_of_lloyd
     assert by["lbfgs"] < 1.002 * by["lloyd"]
 
 
+@pytest.mark.slow
 def test_four_dimensions_are_served() -> None:
     """Between D4's 0.0766 a dimension and the cube's 0.0833 (Conway & Sloane, Table 2.3)."""
     x = generate("lloyd", n=8, d=4, iterations=8)
