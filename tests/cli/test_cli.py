@@ -91,7 +91,7 @@ def test_bad_use_is_one_line_and_exit_2(tmp_path: Path) -> None:
     (tmp_path / "thesis").mkdir()
     (tmp_path / "thesis" / "thesis.tex").write_text("x")
     for arguments, words in (
-        (["compare", "randm"], "did you mean random?"),
+        (["compare", "randm"], "did you mean random or"),
         (["compare", "jittered", "-n", "50"], "nearest is 49"),
         (["compare", "random", "-n", "64,x"], "whole numbers parted by commas"),
         (["compare", "random", "--out", "thesis"], "not empty and is not a run"),
