@@ -37,7 +37,7 @@ WIDE, LEAST_WIDE, WIDE_TOGETHER = 2.0, 1.9, ((1e-14, 2.0), (5e-14, 8.0))
 
 
 def transform(
-    x: FloatArray, strengths: Any, modes: tuple[int, ...], tolerance: float, upsampling: float, threads: int
+    x: FloatArray, strengths: Any, modes: tuple[int, ...], tolerance: float, upsampling: float
 ) -> Any:
     """Transform points by ducc0, which chooses its kernel and upsampling by a model of its own.
 
@@ -53,7 +53,7 @@ def transform(
         coord=x,
         forward=True,
         epsilon=tolerance,
-        nthreads=threads,
+        nthreads=1,
         out=np.empty(modes, np.complex128),
         periodicity=1.0,
         **({"sigma_min": LEAST_WIDE} if upsampling >= WIDE else {}),

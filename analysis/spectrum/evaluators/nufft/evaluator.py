@@ -115,8 +115,7 @@ class NonuniformFFT(Evaluator):
         together = self._together(sets, n, d, fmax)
 
         def one_set(one: FloatArray, w: FloatArray | None) -> tuple[FloatArray, Errors]:
-            threads = 1 if together > 1 else None
-            power = nufft_power(self.transformer, one, fmax, self.tolerance, w, threads, half=half)
+            power = nufft_power(self.transformer, one, fmax, self.tolerance, w, half=half)
             return power, nufft_errors(self.transformer, n, d, fmax, self.tolerance, w)
 
         return set_by_set(x, weights, one_set, mean=mean, together=together)

@@ -24,7 +24,7 @@ NARROW, WIDE = Upsampling(1.25, 1e-7, together=((1.0, 1e5),)), Upsampling(2.0)
 
 
 def transform(
-    x: FloatArray, strengths: Any, modes: tuple[int, ...], tolerance: float, upsampling: float, threads: int
+    x: FloatArray, strengths: Any, modes: tuple[int, ...], tolerance: float, upsampling: float
 ) -> Any:
     """Transform points by FINUFFT, whose own choice of upsampling hardly depends on the sizes.
 
@@ -40,7 +40,7 @@ def transform(
         modes if len(modes) > 1 else max(modes),
         eps=tolerance,
         isign=-1,
-        nthreads=threads,
+        nthreads=1,
         upsampfac=upsampling,
     )
 

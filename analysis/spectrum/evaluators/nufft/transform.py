@@ -19,7 +19,6 @@ from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray, fixed_point
 
 LIBRARIES = (DUCC0, FINUFFT)  # the first is the faster one
-ALONE = 0.01  # seconds below which one thread is faster than several
 REMEDY = "pip install gbnbench[fast] (ducc0), or pip install finufft"
 
 
@@ -34,7 +33,6 @@ def nufft_power(
     fmax: int,
     tolerance: float,
     weights: FloatArray | None = None,
-    threads: int | None = None,
     *,
     half: bool = False,
 ) -> FloatArray:
@@ -52,9 +50,6 @@ def nufft_power(
         The library's relative error, up to 0.1; ``nufft_tolerance`` finds it from an error of sqrt(power).
     weights : (n,) float64, optional
         A weight for each point, 1 without.
-    threads : int, optional
-        Threads of the library. If not given, one for transforms of less than 10 ms, where more threads cost
-        more than they gain, and otherwise as many as there are cores.
     half : bool
         Only the half with f_0 >= 0.
 
@@ -83,8 +78,6 @@ def nufft_power(
         raise InputError(f"{library.name} is not installed here: {REMEDY}, or ask for an exact method")
     base = 2 * fmax + 1
     scaled = np.ones(n) if weights is None else weights / np.abs(weights).max()
-    if threads is None:
-        threads = 1 if layout.seconds < ALONE else 0
     modes = (fmax + 1 if layout.halved else base, *(base,) * (d - 1))
     try:
         amplitude = library.transform(
@@ -93,7 +86,6 @@ def nufft_power(
             modes,
             tolerance,
             layout.upsampling.factor,
-            threads,
         )
     except (RuntimeError, MemoryError) as error:
         raise InputError(

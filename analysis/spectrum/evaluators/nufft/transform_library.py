@@ -13,9 +13,10 @@ from gbnbench.core.torus import FloatArray
 DIMENSIONS = 3  # both libraries have transforms up to this dimension
 LOOSEST = 1e-1  # tolerance up to which errors follow it
 
-Transform = Callable[[FloatArray, Any, tuple[int, ...], float, float, int], Any]
-"""From x - rint(x) (n, d), complex strengths (n,), modes on each axis, tolerance, upsampling factor and
-threads (0 for all) to complex amplitudes, of which that of the zero mode is at modes // 2 on each axis."""
+Transform = Callable[[FloatArray, Any, tuple[int, ...], float, float], Any]
+"""From x - rint(x) (n, d), complex strengths (n,), modes on each axis, tolerance and upsampling factor to
+complex amplitudes, of which that of the zero mode is at modes // 2 on each axis. It takes one thread, since
+several add in no fixed order, so that the last digits would differ from call to call."""
 
 
 Magnification = tuple[tuple[float, float], ...]

@@ -42,7 +42,7 @@ def test_scattered_points_are_as_typical_and_within_the_bound(library, n, d, fma
     for weighted in (False, True):
         weights = heavy(n) if weighted else None
         f, exact = truth(n, d, fmax, 0, 40, weighted=weighted)
-        cube = nufft_power(library, x, fmax, tolerance, weights, threads=1)
+        cube = nufft_power(library, x, fmax, tolerance, weights)
         assert cube.shape == (2 * fmax + 1,) * d
         met = np.abs(at(cube, f, fmax) - exact).astype(float)
         errors = nufft_errors(library, n, d, fmax, tolerance, weights)
@@ -63,11 +63,11 @@ def test_coincident_clustered_and_lattice_points_are_within_a_bound_that_is_not_
     largest = 0.0
     for seed in range(3):
         same = np.repeat(points(1, d, seed), n, axis=0)
-        met = np.abs(np.sqrt(nufft_power(library, same, fmax, tolerance, threads=1)) - np.sqrt(n))
+        met = np.abs(np.sqrt(nufft_power(library, same, fmax, tolerance)) - np.sqrt(n))
         largest = max(largest, float(met.max()))
     f, sets = hard_sets(n, d, fmax)
     for x, exact in sets:
-        met = np.abs(at(nufft_power(library, x, fmax, tolerance, threads=1), f, fmax) - exact)
+        met = np.abs(at(nufft_power(library, x, fmax, tolerance), f, fmax) - exact)
         largest = max(largest, float(met.max()))
     assert largest <= bound
     assert bound <= SLACK * largest

@@ -55,7 +55,7 @@ def test_expected_seconds_are_of_the_right_order(library, n, d, fmax):
     taken = []
     for _ in range(8):
         began = time.process_time()
-        nufft_power(library, x, fmax, 1e-9, threads=1)
+        nufft_power(library, x, fmax, 1e-9)
         taken.append(time.process_time() - began)
     assert 0.05 < min(taken) / nufft_seconds(library, n, d, fmax, 1e-9) < 20
 
@@ -104,7 +104,7 @@ def test_means_over_realizations_and_weights_are_the_truth_on_one_core_and_on_se
     evaluator = NonuniformFFT("double", 1e-6, alone)
     powers, _ = evaluator.cube(x, 9, None, half=False, mean=False)
     for one, power in zip(x, powers, strict=True):
-        assert np.array_equal(power, nufft_power(alone, one, 9, 1e-6, threads=1))
+        assert np.array_equal(power, nufft_power(alone, one, 9, 1e-6))
 
 
 @each_library
