@@ -13,10 +13,12 @@ from gbnbench.benchmarks.claims import (
     half_space,
     high_dimensions,
     integrals,
+    kernel_methods,
     kernels,
     long_descent,
     periodic_kernel,
     profile,
+    rival_times,
     spectra,
     steps,
 )
@@ -26,11 +28,12 @@ PACKAGE = "gbnbench.benchmarks.claims"
 
 MEASURES: dict[str, Measure] = {
     "families": profile.families,
-    "fpo-exponent": profile.farthest_points,
+    "fpo-exponent": kernel_methods.farthest_points,
+    "kernel-profiles": kernel_methods.profiles,
     "eq-19": profile.profile,
     "eq-7": profile.convention,
     "weight": profile.weight,
-    "floor-kernel": profile.kernel_floor,
+    "floor-kernel": kernel_methods.floors,
     "floor-bnot": profile.bnot_floor,
     "below": profile.below,
     "peak": profile.summit,
@@ -42,6 +45,7 @@ MEASURES: dict[str, Measure] = {
     "million": long_descent.million,
     "deterministic": long_descent.repeated,
     "hessian": long_descent.singular,
+    "discrete": kernel_methods.discrete,
     "dims-faster": high_dimensions.dimensions,
     "high-d": high_dimensions.high,
     "sigma": kernels.widths,
@@ -79,9 +83,7 @@ MEASURES: dict[str, Measure] = {
     "linear-d": complexity.by_dimension,
     "titan": complexity.titan,
     "large": complexity.large,
-    "kernel-profiles": untried("profiles of KDM, VnC and BlueNets"),
-    "discrete": untried("floors of VnC and BlueNets"),
-    "bnot-time": untried("times of BNOT and KDM"),
+    "bnot-time": rival_times.times,
     "adaptive": untried("adaptive sets and reconstructions"),
 }
 
