@@ -19,8 +19,8 @@ MOST_PIXELS = 1 << 27  # of a density
 class Density:
     """How many points are wanted where, up to a factor.
 
-    Pixel (i, j) is the square from i to i + 1 along the first axis and from j to j + 1 along the second, all of
-    one density. Positions are in pixels, in the order of the array's axes: rows first.
+    Pixel (i, j) is the square from i to i + 1 along the first axis and from j to j + 1 along the second, all
+    of one density. Positions are in pixels, in the order of the array's axes: rows first.
 
     Attributes
     ----------
@@ -47,6 +47,13 @@ class Density:
         """Scale the density to points a pixel, so that it adds up to n."""
         scaled: FloatArray = self.values * (n / self.values.sum())
         return scaled
+
+    def finer(self, parts: int) -> Density:
+        """Cut every pixel into equal parts along each axis."""
+        values = self.values
+        for a in range(self.d if parts > 1 else 0):
+            values = np.repeat(values, parts, axis=a)
+        return Density(values, self.toroidal)
 
 
 def as_density(values: ArrayLike, *, toroidal: bool = False) -> Density:

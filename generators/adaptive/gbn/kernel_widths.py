@@ -1,26 +1,28 @@
 """How wide each kernel is: a field of the density, in place of the paper's shaping factors.
 
-The paper's Algorithm 2 gives each point a shaping factor from its neighbours' kernels, one step of a fixed-point
-iteration a move, so that the energy which is descended changes on the way. Here the width s is a field: s(x) is
-where the density, averaged over a Gaussian of width c s, would give uniform points just this width,
+The paper's Algorithm 2 gives each point a shaping factor from its neighbours' kernels, one step of a
+fixed-point iteration a move, so that the energy which is descended changes on the way. Here the width s is a
+field: s(x) is where the density, averaged over a Gaussian of width c s, would give uniform points just this
+width,
 
     2 s^2 (rho * G_cs / 1 * G_cs)(x)^(2/d) = sigma^2,
 
-1 being the domain. The left side grows with s, so there is one root, in empty regions too; at a constant density
-s is that of the uniform method. Its slope enters the gradient.
+1 being the domain. The left side grows with s, so there is one root, in empty regions too; at a constant
+density s is that of the uniform method. Its slope enters the gradient.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from scipy import ndimage
 
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density
-from gbnbench.generators.adaptive.smoothing import padded_grid
+from gbnbench.generators.adaptive.gbn.smoothing import padded_grid
 
 LADDER = 2**0.25  # ratio of the widths that are tried
 MARGIN = 0.25  # pixels around a bounded field over its longest side
@@ -71,9 +73,7 @@ def kernel_widths(density: Density, n: int, sigma: float, smoothing: float) -> K
     log_width = np.full(density.shape, math.nan)
     before = np.empty(0)
     while np.isnan(log_width).any():
-        mean = grid.inside(
-            grid.sampled(grid.smoothed(spectrum, (smoothing * width) ** 2), grid.padded)
-        )
+        mean = grid.inside(grid.sampled(grid.smoothed(spectrum, (smoothing * width) ** 2), grid.padded))
         mean = np.maximum(mean / _share_inside(grid.shape, grid.padded, margin, smoothing * width), 1e-300)
         reached = 2 / d * np.log(mean) + math.log(2 * width**2 / sigma**2)
         new = np.isnan(log_width) & (reached >= 0)
@@ -86,13 +86,13 @@ def kernel_widths(density: Density, n: int, sigma: float, smoothing: float) -> K
         if width > WIDEST * longest:
             log_width[np.isnan(log_width)] = math.log(width)
         width *= LADDER
-    mode, pad = ("grid-wrap", "wrap") if density.toroidal else ("mirror", "reflect")
+    mode: Literal["grid-wrap", "mirror"] = "grid-wrap" if density.toroidal else "mirror"
     spline = log_width
     for a, size in enumerate(density.shape):
         if size > 1:
             spline = ndimage.spline_filter1d(spline, 3, axis=a, mode=mode)
     # NumPy reflects an axis of one pixel onto itself.
-    return KernelWidths(log_width, np.pad(spline, BORDER, mode=pad))  # type: ignore[call-overload]
+    return KernelWidths(log_width, np.pad(spline, BORDER, "wrap" if density.toroidal else "reflect"))
 
 
 def _share_inside(

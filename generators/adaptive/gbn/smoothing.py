@@ -36,7 +36,7 @@ class PaddedGrid:
         """Transform a field on the pixels; the last axis keeps its half."""
         whole = np.zeros(self.padded)
         whole[tuple(slice(self.margin, self.margin + size) for size in self.shape)] = field
-        return fft.rfftn(whole, workers=-1)  # type: ignore[no-any-return]
+        return fft.rfftn(whole, workers=-1)
 
     def smoothed(self, spectrum: ComplexArray, variance: float) -> ComplexArray:
         """Multiply a spectrum with that of a Gaussian of unit mass.
@@ -85,7 +85,7 @@ class PaddedGrid:
                 if a < axes - 1:
                     spectrum = _spread(spectrum, k, count, a)
         found = fft.irfftn(spectrum, counts, workers=-1)
-        return found * (math.prod(counts) / math.prod(self.padded))  # type: ignore[no-any-return]
+        return found * (math.prod(counts) / math.prod(self.padded))
 
     def inside(self, padded: FloatArray) -> FloatArray:
         """Cut the margin off a field on all padded pixels."""

@@ -1,4 +1,4 @@
-"""Points sorted by the width of their kernels and by cells, so that the near ones are a few runs of the list."""
+"""Points sorted by the width of their kernels and by cells, so that near ones are a few runs of the list."""
 
 from __future__ import annotations
 

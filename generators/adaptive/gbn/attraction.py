@@ -1,9 +1,9 @@
-"""What attracts the points: the density, smoothed by a part of the kernels' own width, at several resolutions.
+"""What attracts the points: the density, smoothed by part of the kernels' width, at several resolutions.
 
-The energy is E = 1/2 integral of (A - T)^2, where A sums the points' Gaussians. T spreads each pixel's share of
-points over a Gaussian of variance (t s)^2 + 1/12, s being the kernels' width there and 1/12 the variance of a
-square pixel. At t = 1 a set that has the density leaves nothing to be gained (the method is faithful); near 0
-pixels are points, edges are sharpened, and points gather in clumps.
+The energy is E = 1/2 integral of (A - T)^2, where A sums the points' Gaussians. T spreads each pixel's share
+of points over a Gaussian of variance (t s)^2 + 1/12, s being the kernels' width there and 1/12 the variance
+of a square pixel. At t = 1 a set that has the density leaves nothing to be gained (the method is faithful);
+near 0 pixels are points, edges are sharpened, and points gather in clumps.
 """
 
 from __future__ import annotations
@@ -15,10 +15,11 @@ import numpy as np
 
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density
-from gbnbench.generators.adaptive.kernel_widths import LADDER, KernelWidths
-from gbnbench.generators.adaptive.smoothing import PaddedGrid, padded_grid
+from gbnbench.generators.adaptive.gbn.kernel_widths import LADDER, KernelWidths
+from gbnbench.generators.adaptive.gbn.smoothing import PaddedGrid, padded_grid
 
 PIXEL = 1 / 12  # variance of a pixel's square along an axis
+LEAST_ROOM = 64  # pixels beyond the border that any image may have; larger ones up to half their longest side
 TAILS = 5.0  # widths of a Gaussian for which there is room beyond the border
 
 
@@ -60,7 +61,8 @@ def attraction_levels(
     part : float
         t.
     resolution : float
-        Width of a kernel over the cells of its level, at least: a level's error is exp(-pi^2 resolution^2 / 2).
+        Width of a kernel over the cells of its level, at least: a level's error is exp(-pi^2 resolution^2 /
+        2).
     reach : float
         Standard deviations after which a Gaussian ends.
 
@@ -74,7 +76,7 @@ def attraction_levels(
     margin = 0
     if not density.toroidal:
         spread = part * float(np.exp(widths.log_width[inked].max()))
-        margin = max(4, min(math.ceil(TAILS * spread), max(density.shape) // 2))
+        margin = max(4, min(math.ceil(TAILS * spread), max(LEAST_ROOM, max(density.shape) // 2)))
     grid = padded_grid(density.shape, margin)
     spectrum = _spread_spectrum(grid, density.of_points(n), widths.log_width, inked, part)
     levels, j = [], 0

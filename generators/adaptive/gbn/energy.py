@@ -1,12 +1,12 @@
 """The energy of an adaptive set, and its gradient: E = 1/2 integral of (A - T)^2, up to a constant.
 
-A(x) = sum over points of a Gaussian of unit mass and variance s(x_k)^2, s being a field (kernel_widths.py), T what
-the density spreads (attraction.py). With G of unit mass,
+A(x) sums a Gaussian of unit mass and variance s(x_k)^2 for each point, s being a field (kernel_widths.py); T
+is what the density spreads (attraction.py). With G of unit mass,
 
     E = 1/2 sum over k, l of G(x_k - x_l; s_k^2 + s_l^2) - sum over k of (G_{s_k^2} * T)(x_k),
 
-k = l included. These are Eq. 28 to 32 of Ahmed, Ren & Wonka (2022) with a_k = sigma^2 / (2 s_k^2), but for the
-factor of a kernel's mass; their variance, Eq. 29 and 47, is 2 E.
+k = l included. These are Eq. 28 to 32 of Ahmed, Ren & Wonka (2022) with a_k = sigma^2 / (2 s_k^2), but for
+the factor of a kernel's mass; their variance, Eq. 29 and 47, is 2 E.
 """
 
 from __future__ import annotations
@@ -18,15 +18,15 @@ import numpy as np
 
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
-from gbnbench.generators.adaptive.attraction import attraction_levels
 from gbnbench.generators.adaptive.density import Density
-from gbnbench.generators.adaptive.kernel_widths import BORDER, kernel_widths
-from gbnbench.generators.adaptive.neighbour_grid import neighbour_grid
+from gbnbench.generators.adaptive.gbn.attraction import attraction_levels
+from gbnbench.generators.adaptive.gbn.kernel_widths import BORDER, kernel_widths
+from gbnbench.generators.adaptive.gbn.neighbour_grid import neighbour_grid
 from gbnbench.opencl import Runtime
 
 PACKAGE = "gbnbench.generators"
-# Standard deviations after which a Gaussian ends, exp(-reach^2 / 2), and widths of a kernel over its level's cells,
-# exp(-pi^2 resolution^2 / 2): 3e-7 in float, 1e-15 in double.
+# Standard deviations after which a Gaussian ends, exp(-reach^2 / 2), and widths of a kernel over its level's
+# cells, exp(-pi^2 resolution^2 / 2): 3e-7 in float, 1e-15 in double.
 REACH = {"float": 5.5, "double": 8.3}
 RESOLUTION = {"float": 1.75, "double": 2.65}
 CHUNK = 16  # points that a work-item of a CPU sums for
@@ -109,8 +109,8 @@ class AdaptiveEnergy:
         wide = -(-int(max(lines)) // lanes) * lanes
         if wide > WIDEST_LINE:
             raise InputError(
-                f"kernels reach over {wide} cells, {WIDEST_LINE} at most: the density has too few pixels along "
-                "one axis for kernels this wide"
+                f"kernels reach over {wide} cells, {WIDEST_LINE} at most: the density has too few pixels "
+                "along one axis for kernels this wide"
             )
         offsets = np.cumsum([0, *(level.values.size for level in levels)])
         flat = np.zeros(int(offsets[-1]) + lanes, self._real)
@@ -136,7 +136,9 @@ class AdaptiveEnergy:
         files = ("/vector.cl", "/exp2.cl")
         self._program_of_widths = runtime.program(PACKAGE, ("/vector.cl", "adaptive_widths.cl"), defines)
         self._program_of_pairs = runtime.program(PACKAGE, (*files, "adaptive_pairs.cl"), defines)
-        self._program_of_pull = runtime.program(PACKAGE, (*files, "adaptive_pull.cl"), {**defines, "WIDE": wide})
+        self._program_of_pull = runtime.program(
+            PACKAGE, (*files, "adaptive_pull.cl"), {**defines, "WIDE": wide}
+        )
         self._found = runtime.empty((d + 2) * n * np.dtype(self._real).itemsize)
 
     def widths(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
