@@ -18,7 +18,7 @@ from gbnbench.opencl import runtime
 SIGMA, SMOOTHING = 0.9, 0.5
 SIDES = {2: (53, 68), 3: (23, 27, 25)}  # of the density, in pixels
 STEP = 1e-5  # pixels, of differences
-ALLOWED = {"double": 1e-7, "float": 1e-4}  # over the largest component
+ALLOWED = {"double": 1e-8, "float": 1e-4}  # over the largest component
 
 
 def adaptive_gradient(n: int, d: int, precision: str) -> Iterator[Check]:

@@ -77,19 +77,19 @@ def attraction_levels(
     """
     inked = density.values > 0
     on_ink = float(np.exp(widths.log_width[inked].max()))
-    # T's tails, and those of its coarsest level, must not come back from the other side.
-    tail = reach * math.hypot(part * on_ink, on_ink / resolution)
+    # The transform's ends meet: a kernel at one border must not see what is spread at the other one.
+    apart = reach * on_ink * math.hypot(1, part)
     room = max(LEAST_ROOM, max(density.shape) // 2)
-    margin = 0 if density.toroidal else max(4, min(math.ceil(tail), room))
+    margin = 0 if density.toroidal else max(4, min(math.ceil(apart / 2), room))
     grid = padded_grid(density.shape, margin)
-    most = math.inf if density.toroidal else margin / reach  # width of what is spread
-    log_width = np.minimum(widths.log_width[inked], math.log(most / part) if part > 0 else math.inf)
+    most = math.inf if density.toroidal else 2 * margin / (reach * math.hypot(1, part))
+    log_width = np.minimum(widths.log_width[inked], math.log(most))
     spectrum = _spread_spectrum(grid, density.of_points(n), log_width, inked, part)
     largest = BEYOND_INK * on_ink
     levels: list[Level] = []
     while True:
         scale = 2.0 ** len(levels)
-        last = resolution * 2 * scale > largest or 2 * scale > most
+        last = resolution * 2 * scale > min(largest, most)
         counts = tuple(math.ceil(size / scale) for size in grid.padded)
         variance = scale**2 if levels else 0.0
         values = grid.sampled(grid.smoothed(spectrum, variance) if levels else spectrum, counts)
@@ -97,7 +97,7 @@ def attraction_levels(
         widest = largest if last else resolution * 2 * scale
         # Around a point at the border, as far as the widest kernel of the level reaches.
         beyond = [math.ceil(reach * math.sqrt(widest**2 - variance) / c) + 2 for c in cell.tolist()]
-        values = np.pad(values, [(b, b) for b in beyond], "wrap" if density.toroidal else "constant")
+        values = np.pad(values, [(b, b) for b in beyond], "wrap")
         levels.append(Level(cell, variance, (0.5 - np.array(beyond)) * cell - margin, values, max(beyond)))
         if last:
             return tuple(levels)
