@@ -92,6 +92,7 @@ PLANTS = {
     "a pixel's pull": Plant(
         "adaptive_pull.cl", "squares += SUM_OF", "squares -= SUM_OF", "adaptive gradient"
     ),
+    "a sum's last lanes": Plant("kernel_sums.cl", "(to - l) ? g", "(to - l + 1) ? g", "sums of kernels"),
     "an integrand's term": Plant(
         "gaussians.cl", "* c + shape[power]", "* c - shape[power]", "integrand, gaussians"
     ),

@@ -22,7 +22,7 @@ from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import AXES
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.shell_spectrum import shells
 from gbnbench.core.torus import FloatArray, displacement
-from gbnbench.doctor.adaptive_gradient import adaptive_gradient
+from gbnbench.doctor.adaptive_sets import adaptive_gradient, sums_of_kernels
 from gbnbench.doctor.check import Check
 from gbnbench.doctor.numpy_references import (
     numpy_box_gradient,
@@ -194,6 +194,8 @@ def planned_checks(quick: bool, device: Device) -> list[tuple[KernelChecks, tupl
             *((_box, case) for case in (QUICK_BOXES if quick else BOXES)),
             *((adaptive_gradient, case) for case in ADAPTIVE),
         ]
+        if precision == "float":
+            work.extend((sums_of_kernels, case) for case in ADAPTIVE)
         if precision == "double":
             work.extend((_integrands, case) for case in (QUICK_INTEGRANDS if quick else INTEGRANDS))
             work.extend((_pairs, case) for case in (QUICK_PAIRS if quick else PAIRS))

@@ -17,11 +17,11 @@ from typing import Any
 import numpy as np
 
 from gbnbench.core.errors import InputError
+from gbnbench.core.neighbour_grid import neighbour_grid
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density
 from gbnbench.generators.adaptive.gbn.attraction import attraction_levels
 from gbnbench.generators.adaptive.gbn.kernel_widths import BORDER, kernel_widths
-from gbnbench.generators.adaptive.gbn.neighbour_grid import neighbour_grid
 from gbnbench.opencl import Runtime
 
 PACKAGE = "gbnbench.generators"

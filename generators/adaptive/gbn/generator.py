@@ -103,7 +103,8 @@ class AdaptiveGaussianBlueNoise:
     def _parts(self, density: Density, n: int) -> int:
         """Parts of a pixel's side that make pixels finer than the narrowest kernel."""
         narrowest = self.sigma / math.sqrt(2) / float(density.of_points(n).max()) ** (1 / density.d)
-        return math.ceil(RESOLUTION[self.precision] / narrowest)
+        parts: int = math.ceil(RESOLUTION[self.precision] / narrowest)
+        return parts
 
     def __call__(
         self, density: Density, n: int, rng: np.random.Generator, told: Told | None = None

@@ -1,4 +1,4 @@
-"""A check of the kernels of adaptive Gaussian blue noise: their gradient against a plain sum over pixels."""
+"""Checks of the kernels of adaptive sets: their gradient, and sums of kernels, against plain sums."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from scipy import ndimage
 
+from gbnbench.analysis.reconstruction.kernel_sums import kernel_sums
 from gbnbench.core.torus import FloatArray
 from gbnbench.doctor.check import Check
 from gbnbench.generators.adaptive.density import Density, as_density
@@ -19,6 +20,7 @@ SIGMA, SMOOTHING = 0.9, 0.5
 SIDES = {2: (53, 68), 3: (23, 27, 25)}  # of the density, in pixels
 STEP = 1e-5  # pixels, of differences
 ALLOWED = {"double": 1e-8, "float": 1e-4}  # over the largest component
+ALLOWED_SUM = 1e-5  # of terms of at most 1
 
 
 def adaptive_gradient(n: int, d: int, precision: str) -> Iterator[Check]:
@@ -45,6 +47,29 @@ def adaptive_gradient(n: int, d: int, precision: str) -> Iterator[Check]:
     expected = numpy_adaptive_gradient(x, density)
     error = float(np.max(np.abs(energy(x).gradient - expected)) / np.max(np.abs(expected)))
     yield Check("adaptive gradient", f"n={n} d={d}", precision, error, ALLOWED[precision])
+
+
+def sums_of_kernels(n: int, d: int, precision: str) -> Iterator[Check]:
+    """Try the sums that a reconstruction takes.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension, 2 or 3.
+    precision : {"double", "float"}
+        For the report; the sums are always in float.
+
+    Yields
+    ------
+    Check
+    """
+    rng = np.random.default_rng(n)
+    points, places = rng.random((n, d)) * 30, rng.random((2 * n, d)) * 40 - 5
+    weights, variances = rng.random(n), np.exp(2 * rng.normal(size=n))
+    square = ((places[:, None] - points) ** 2).sum(axis=2)
+    expected = (weights * np.exp(-square / (2 * variances))).sum(axis=1)
+    error = float(np.max(np.abs(kernel_sums(places, points, weights, variances) - expected)))
+    yield Check("sums of kernels", f"n={n} d={d}", precision, error, ALLOWED_SUM)
 
 
 def numpy_adaptive_gradient(x: FloatArray, density: Density) -> FloatArray:
