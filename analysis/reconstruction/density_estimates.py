@@ -96,7 +96,7 @@ def reconstructed_density(
 
 
 def _centres(side: int, count: int) -> FloatArray:
-    centres: FloatArray = (np.arange(count) + 0.5) * (side / count)
+    centres: FloatArray = (np.arange(count, dtype=np.float64) + 0.5) * (side / count)
     return centres
 
 

@@ -1,4 +1,4 @@
-"""How near a reconstructed image comes to the one that was sampled: PSNR and SSIM."""
+"""Quality of a reconstructed image beside the one that was sampled: PSNR and SSIM."""
 
 from __future__ import annotations
 

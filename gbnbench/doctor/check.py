@@ -1,4 +1,4 @@
-"""What one check of a kernel found."""
+"""The finding of one check of a kernel."""
 
 from __future__ import annotations
 

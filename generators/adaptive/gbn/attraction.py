@@ -1,4 +1,4 @@
-"""What attracts the points: the density, smoothed by part of the kernels' width, at several resolutions.
+"""The pull on the points: the density, smoothed by part of the kernels' width, at several resolutions.
 
 The energy is E = 1/2 integral of (A - T)^2, where A sums the points' Gaussians. T spreads each pixel's share
 of points over a Gaussian of variance (t s)^2 + 1/12, s being the kernels' width there and 1/12 the variance
