@@ -16,6 +16,7 @@ from gbnbench.generators.low_discrepancy.dyadic_net import (
     random_net,
 )
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.strata import placed_in_strata
 
 MOST_BITS = 16
 CHANCE = 0.5  # that an exchange which lowers the energy is made
@@ -103,7 +104,7 @@ class BlueNets:
         y = random_net(m, rng)
         if m:
             y = self.optimised(y, rng)
-        return (np.stack([np.arange(n), y], axis=1) + rng.random((n, 2))) / n
+        return placed_in_strata(np.stack([np.arange(n), y], axis=1), rng.random((n, 2)), n)
 
     def optimised(self, y: NDArray[np.int64], rng: np.random.Generator) -> NDArray[np.int64]:
         """Make exchanges that lower the energy.

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.strata import placed_in_strata
 
 PARTNERS = 24  # tried at a step
 MOST_POINTS = 8192
@@ -96,8 +97,7 @@ class LatinMaximin:
         strata = rng.permuted(np.tile(np.arange(n), (d, 1)), axis=1)
         if d > 1 and n > 2:
             strata = self.optimised(strata, rng)
-        x = (strata.T + rng.random(d)) / n
-        return np.ascontiguousarray(np.minimum(x, 1 - 2.0**-53))
+        return placed_in_strata(np.ascontiguousarray(strata.T), rng.random(d), n)
 
     def optimised(self, strata: NDArray[np.int64], rng: np.random.Generator) -> NDArray[np.int64]:
         """Make exchanges that lower phi_p.

@@ -73,8 +73,8 @@ def doubled(net: NDArray[np.int64], m: int, rng: np.random.Generator) -> NDArray
     bits = (m + 1) // 2
     digits = net >> (BITS - bits)
     if m % 2:  # each cell of 2**(m - 1) holds two points, at opposite corners: the others are taken in turn
-        way = np.tile(rng.integers(0, 2, size=2 ** (m - 1)), 2)
-        digits = digits ^ np.stack([way, 1 - way])
+        way = int(rng.integers(0, 2))
+        digits = digits ^ np.array([[way], [1 - way]])
     x = missing_digits(digits[0], bits, digits[1], net, m)
     y = missing_digits(digits[1], bits, digits[0], net[::-1], m)
     free = BITS - m - 1
@@ -84,16 +84,23 @@ def doubled(net: NDArray[np.int64], m: int, rng: np.random.Generator) -> NDArray
 
 @dataclass(frozen=True)
 class ProgressiveMultiJitter:
-    """First n points of a pmj02 sequence, each prefix of 2**m points a (0, m, 2)-net in base 2.
+    """First n points of a pmj02 sequence, a (0, 2)-sequence in base 2.
+
+    Every 2**m points from a multiple of 2**m on are a (0, m, 2)-net: all prefixes of 2**m points, and what
+    stands between them.
 
     Notes
     -----
     The sequence is doubled time and again. From 4**k points on, the new point of a cell of the grid of 4**k
-    comes into the subquadrant opposite to the old one; from 2 4**k on, into one of the two left, by a
-    coin for each cell, then into the other. With its subquadrant a point's strata on both axes are given: the
-    digits are those that the old points leave to it (``missing_digits``), which the paper finds by trial, and
-    its place in the stratum is uniform. The paper's variant that chooses among candidates by distance is not
-    made.
+    comes into the subquadrant opposite to the old one; from 2 4**k on, into one of the two left, then into
+    the other. With its subquadrant a point's strata on both axes are given: the digits are those that the old
+    points leave to it (``missing_digits``), which the paper finds by trial, and its place in the stratum is
+    uniform.
+
+    Which of the two comes first is one coin for all cells, which is what makes a (0, 2)-sequence (Helmer et
+    al. 2021). A coin for each cell, as in the paper's first algorithm, makes nets of the prefixes alone, and
+    the paper itself balances these choices between the powers of four. Its variant that chooses among
+    candidates by distance is not made.
 
     References
     ----------
