@@ -12,6 +12,7 @@ import numpy as np
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.ranges import too_many
 
 MOST_DIMENSIONS = 100  # beyond, the ratio is so near 1 that axes follow one another
 MOST_POINTS = 2**32
@@ -62,8 +63,8 @@ class Kronecker:
     -----
     alpha = (phi**-1, phi**-2, ..., phi**-d), where phi**(d + 1) = phi + 1. In 1D these are the multiples of
     the golden ratio, whose gaps have at most three lengths. Any prefix is such a set, on the torus. Multiples
-    are counted in whole units of 2**-64, and cut to 53 digits: every coordinate is within 2**-52 of its place,
-    however far the sequence.
+    are counted in whole units of 2**-64, and cut to 53 digits: every coordinate is within 2**-52 of its
+    place, however far the sequence.
 
     References
     ----------
@@ -103,9 +104,7 @@ class Kronecker:
             return (
                 f"d must be at most {MOST_DIMENSIONS} for the R_d sequence, whose axes grow alike; got d={d}"
             )
-        if n > MOST_POINTS:
-            return f"n must be at most 2**32 for the R_d sequence; got n={n}, nearest is {MOST_POINTS}"
-        return None
+        return too_many(n, MOST_POINTS, "for the R_d sequence")
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
@@ -114,5 +113,6 @@ class Kronecker:
         i = np.arange(1, n + 1, dtype=np.uint64)[:, None]
         alpha, rest = np.array(steps(d), dtype=np.uint64).T
         start = rng.random(d) if self.shift else np.full(d, 0.5)
-        turned = (start * 2.0**64).astype(np.uint64) + i * alpha + (i * rest >> np.uint64(32))  # modulo 2**64
+        # modulo 2**64, which are a turn
+        turned = (start * 2.0**64).astype(np.uint64) + i * alpha + (i * rest >> np.uint64(32))
         return np.asarray((turned >> np.uint64(11)) * 2.0**-53, dtype=np.float64)

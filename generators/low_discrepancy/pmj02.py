@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.ranges import too_many
 
 BITS = 53  # of a coordinate
 MOST_BITS = 24  # log2 of the most points
@@ -137,9 +138,7 @@ class ProgressiveMultiJitter:
         """
         if d != 2:
             return f"pmj02 is a sequence in the plane; got d={d}, use d=2"
-        if n > 2**MOST_BITS:
-            return f"n must be at most 2**{MOST_BITS} for pmj02; got n={n}, nearest is {2**MOST_BITS}"
-        return None
+        return too_many(n, 2**MOST_BITS, "for pmj02")
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, 2) float64; RefusalError where ``refusal`` has a reason."""

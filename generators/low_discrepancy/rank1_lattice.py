@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.ranges import too_many
 
 Criterion = Literal["p2", "distance"]
 MOST_POINTS = 2**20  # products of two residues are exact in int64, and the search takes seconds
@@ -180,9 +181,7 @@ class Rank1Lattice:
         """
         if d > MOST_DIMENSIONS:
             return f"d must be at most {MOST_DIMENSIONS} for the search of rank-1 lattices; got d={d}"
-        if n > MOST_POINTS:
-            return f"n must be at most 2**20 for a search of lattices; got n={n}, nearest is {MOST_POINTS}"
-        return None
+        return too_many(n, MOST_POINTS, "for a search of lattices")
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""

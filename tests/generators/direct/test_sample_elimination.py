@@ -44,7 +44,13 @@ def test_halves_of_a_progressive_order_are_eliminations() -> None:
         assert np.array_equal(np.sort(kept), np.arange(n))
 
 
-@pytest.mark.parametrize("settings", [{"inputs": 1}, {"alpha": 0}, {"beta": 1.1}, {"gamma": -1}])
+@pytest.mark.parametrize(
+    "settings",
+    [
+        *({"inputs": 1}, {"alpha": 0}, {"beta": 1.1}, {"gamma": -1}, {"beta": float("nan")}),
+        *({"inputs": 1e6}, {"alpha": float("inf")}, {"gamma": float("inf")}),
+    ],
+)
 def test_settings_out_of_range_are_refused(settings: dict[str, float]) -> None:
     with pytest.raises(InputError, match=next(iter(settings))):
         SampleElimination(**settings)

@@ -118,6 +118,6 @@ def test_sizes_and_settings_are_refused() -> None:
     assert "nearest is 1024" in str(BlueNets().refusal(1000, 2))
     assert "nearest is 512" in str(BlueNets().refusal(700, 2))
     assert "nearest is 65536" in str(BlueNets().refusal(2**17, 2))
-    for settings in ({"sigma": 0.1}, {"iterations": -1}):
+    for settings in ({"sigma": 0.1}, {"sigma": float("nan")}, {"iterations": -1}):
         with pytest.raises(InputError, match=next(iter(settings))):
             BlueNets(**settings)  # type: ignore[arg-type]
