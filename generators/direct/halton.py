@@ -59,7 +59,7 @@ class Halton:
         """
         if d <= MOST_DIMENSIONS:
             return None
-        return f"d must be at most {MOST_DIMENSIONS} for Halton points, whose permutations fill memory; got d={d}"
+        return f"d must be at most {MOST_DIMENSIONS} for Halton points and their permutations; got d={d}"
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
