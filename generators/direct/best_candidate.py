@@ -20,7 +20,7 @@ PLAIN = 64  # points drawn from all their candidates, before cells pay
 CELLS_A_POINT = 64
 LOWER = 0.9  # the aim, when no candidate was as far
 WATCH = 0.85  # of the aim: cells whose bound is above are looked through at every step
-MOST_POINTS = 65_536
+MOST_POINTS, MOST_POINTS_ALL_DRAWN = 65_536, 4096  # at one candidate a point: a minute or two
 MOST_CANDIDATES = 1000
 MOST_CELL_DIMENSIONS = 4
 
@@ -85,8 +85,8 @@ class BestCandidate:
         str or None
             The reason, with the nearest numbers that can; None where they can.
         """
-        plain = max(1, int(4096 / math.sqrt(self.candidates * d / 5)))
-        most = MOST_POINTS if d <= MOST_CELL_DIMENSIONS else plain
+        most = MOST_POINTS if d <= MOST_CELL_DIMENSIONS else MOST_POINTS_ALL_DRAWN / math.sqrt(d / 5)
+        most = max(1, int(most / math.sqrt(self.candidates)))
         return too_many(n, most, f"for best candidates, {self.candidates} a point, in d={d}")
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:

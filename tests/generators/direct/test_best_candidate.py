@@ -60,6 +60,7 @@ def test_candidates_out_of_range_are_refused(candidates: int) -> None:
         BestCandidate(candidates)
 
 
-def test_the_most_points_fall_with_the_candidates_that_are_all_drawn() -> None:
+def test_the_most_points_fall_with_the_candidates() -> None:
     assert "nearest is 4096" in str(BestCandidate().refusal(5000, 5))
     assert "nearest is 409" in str(BestCandidate(100).refusal(5000, 5))
+    assert "nearest is 6553" in str(BestCandidate(100).refusal(65_536, 2))
