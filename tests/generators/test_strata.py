@@ -1,4 +1,4 @@
-"""Strata hold their points whatever is drawn: the ends of a stratum are where rounding would carry them out."""
+"""Strata hold their points whatever is drawn: at their ends, rounding would carry points out."""
 
 from __future__ import annotations
 
