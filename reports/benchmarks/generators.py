@@ -19,8 +19,8 @@ from gbnbench.reports import layout, style
 MARKERS = "ovsD^P"
 HIGH, LONG = 0.026, 12  # of a name: share of the axis, and factor of time
 CAPTION = (
-    "Mean power up to nu = 0.25 of one set of {n:,} points in 2D, white noise being 1, over CPU seconds of one "
-    "thread. Right: the same between {low:g} and 2. Below 1e-29 only rounding is left. The floor is one "
+    "Mean power up to nu = 0.25 of one set of {n:,} points in 2D, white noise being 1, over CPU seconds of "
+    "one thread. Right: the same between {low:g} and 2. Below 1e-29 only rounding is left. The floor is one "
     "measure of several: sets of fpo and others that keep points apart have high ones."
 )
 LOW = 1e-5
