@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
 from gbnbench.analysis.radial.profile_measures import exponential_fit
 from gbnbench.benchmarks.claims.claim import BESIDE, NO, PARTLY, ClaimRow, holds, reported
 from gbnbench.benchmarks.claims.sets import FAST, MILLION, PAPER, DrawnSets, SetCache
-from gbnbench.core.results.measures import Measures
 from gbnbench.generators.gbn import kernel
 from gbnbench.generators.gbn.kernel_profile import theta
 
@@ -125,12 +124,12 @@ def weight(_: SetCache) -> Iterator[ClaimRow]:
     )
 
 
-def family(measures: Measures) -> str:
+def family(measures: Mapping[str, float]) -> str:
     """Tell which of the two profiles fits sets better.
 
     Parameters
     ----------
-    measures : Measures
+    measures : mapping of str to float
         Of the sets.
 
     Returns

@@ -46,7 +46,17 @@ Cells = dict[str, str]
 
 
 def draw(name: str, n: int, d: int, answer: Connection) -> None:
-    """Send the cells of a drawn set, or why there is none; the system ends a process beyond its time."""
+    """Send the cells of a drawn set; the system ends a process beyond its time.
+
+    Parameters
+    ----------
+    name : str
+        The generator.
+    n, d : int
+        Points and dimension.
+    answer : Connection
+        Receives the cells that hold numbers.
+    """
     resource.setrlimit(resource.RLIMIT_CPU, (LIMIT, LIMIT))
     small = min(n, SMALL)
     if GENERATORS[name]().refusal(small, d) is None:
@@ -112,7 +122,15 @@ def read(path: Path) -> dict[Key, Cells]:
 
 
 def write(path: Path, table: Mapping[Key, Cells]) -> None:
-    """Write the table whole, in the order of cases and of the registry."""
+    """Write the table whole, in the order of cases and of the registry.
+
+    Parameters
+    ----------
+    path : Path
+        Of the table.
+    table : mapping
+        Rows by n, d and generator.
+    """
     text = io.StringIO()
     writer: csv.DictWriter[str] = csv.DictWriter(text, COLUMNS, lineterminator="\n")
     writer.writeheader()
