@@ -16,9 +16,7 @@ from gbnbench.generators.low_discrepancy.dyadic_net import GaussianEnergy, excha
 from gbnbench.generators.registry import generate
 
 SAME_WIDTH = ((4, 0.0625), (8, 0.015625), (16, 0.00390625))  # pixels a spacing, and the share of ones with it
-SETTLED = (
-    1e-11  # gain of a swap, in heights of the kernel, that counts as none; rounding of the sums is below
-)
+SETTLED = 1e-11  # gain in heights of the kernel that counts as none; rounding of the sums is below
 
 
 def discrete(sets: SetCache) -> Iterator[ClaimRow]:

@@ -1,4 +1,4 @@
-"""Claims about profiles and floors of other kernel-based methods: KDM, void and cluster and more (Sec. 3.2)."""
+"""Claims about profiles and floors of other kernel-based methods: KDM, VnC, BlueNets and more (Sec. 3.2)."""
 
 from __future__ import annotations
 
@@ -21,8 +21,6 @@ OTHERS = {
 DRAWN = ("vnc", "kdm")  # with which Fig. 1(g) compares
 KDM_WIDTH = math.sqrt(0.5 / math.pi)  # spacings: its kernel is exp(-pi r^2)
 VNC_WIDTH = 1.5  # pixels
-    1e-11  # gain of a swap, in heights of the kernel, that counts as none; rounding of the sums is below
-)
 
 
 def draw(sets: SetCache, name: str) -> DrawnSets:

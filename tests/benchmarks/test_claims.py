@@ -149,13 +149,9 @@ def test_delaunay_neighbours_in_any_dimension():
 
 
 def test_discrete_methods_stop_where_no_swap_gains():
-    assert (
-        discrete_methods.swap_gain("voidcluster[sigma=4,share=0.0625,initial=0.0625,shift=false]", 4, 64)
-        < 1e-11
-    )
-    assert (
-        discrete_methods.swap_gain("voidcluster[sigma=4,share=0.0625,initial=0.5,shift=false]", 4, 64) > 1e-3
-    )
+    pattern = "voidcluster[sigma=4,share=0.0625,initial={},shift=false]"
+    assert discrete_methods.swap_gain(pattern.format(0.0625), 4, 64) < 1e-11
+    assert discrete_methods.swap_gain(pattern.format(0.5), 4, 64) > 1e-3
     assert discrete_methods.exchanges_left(1.0, 64) == 0
     assert discrete_methods.exchanges_left(1.0, 64, iterations=0) > 10
 
