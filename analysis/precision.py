@@ -13,7 +13,10 @@ from gbnbench.core.errors import DeviceError, InputError
 from gbnbench.core.torus import FloatArray, fixed_point
 from gbnbench.opencl import Program, Runtime, devices_present, runtime
 
-SUM_POINTS = 128  # points that a lane sums in registers before these sums are added up in double
+SUM_POINTS = 128  # points that a lane sums in registers, at most, before these sums are added up in double
+SUM_BYTES = (
+    4096  # of these in a vector's lanes, so that the tables of a product's rows stay in the first cache
+)
 PACKAGE = "gbnbench.analysis"
 PrecisionName = Literal["double", "float"]
 
@@ -45,6 +48,11 @@ class Precision:
     def real(self) -> type[np.floating[Any]]:
         """Type of tables and of sums in registers."""
         return np.float64 if self.double else np.float32
+
+    @property
+    def sum_points(self) -> int:
+        """Points that a lane sums in registers before these sums are added up in double."""
+        return min(SUM_POINTS, SUM_BYTES // (self.lanes * np.dtype(self.real).itemsize))
 
     @property
     def turn(self) -> type[np.unsignedinteger[Any]]:
@@ -100,7 +108,7 @@ def _program(p: Precision, files: tuple[str, ...], defines: tuple[tuple[str, obj
         "DOUBLE": int(p.double),
         "LANES": p.lanes,
         "SUM": "double" if p.sum is np.float64 else "float",
-        "SUM_POINTS": SUM_POINTS,
+        "SUM_POINTS": p.sum_points,
         **dict(defines),
     }
     return p.runtime.program(PACKAGE, ("/vector.cl", "/turns.cl", *files), definitions)

@@ -18,7 +18,8 @@ INLINE void tabulate(__global const TURN *x, __global const REAL *weight, const 
                      const uint weight_stride, __global const TURN *multiple, __global const uint *code,
                      __global const uint *groups, __global REAL *leading_table, const ulong leading_size,
                      __global REAL *trailing_table, const ulong trailing_size, const uint begin,
-                     const uint length, const uint splits, const uint k, const uint which, const uint slot)
+                     const uint length, const uint pitch, const uint splits, const uint k, const uint which,
+                     const uint slot)
 {
     const uint set = slot / splits;
     const uint point = begin + slot % splits * length + k;
@@ -64,14 +65,14 @@ INLINE void tabulate(__global const TURN *x, __global const REAL *weight, const 
         SPREAD(su * cv + cu * sv, out + LANES + row, 2 * LANES);
         if (++row == LANES) {
             row = 0;
-            out += (ulong)length * 2 * LANES;
+            out += (ulong)pitch * 2 * LANES;
         }
 #else
         STOREV(cu * cv - su * sv, out, 2 * LANES * row);
         STOREV(su * cv + cu * sv, out, 2 * LANES * row + LANES);
         if (++row == width) {
             row = 0;
-            out += (ulong)length * 2 * width;
+            out += (ulong)pitch * 2 * width;
         }
 #endif
     }
@@ -81,11 +82,12 @@ __kernel void tables(__global const TURN *x, __global const REAL *weight, const 
                      const uint weight_stride, __global const TURN *multiple,
                      __global const uint *code, __global const uint *groups, const uint first_group,
                      __global REAL *leading_table, const ulong leading_size, __global REAL *trailing_table,
-                     const ulong trailing_size, const uint begin, const uint length, const uint splits)
+                     const ulong trailing_size, const uint begin, const uint length, const uint pitch,
+                     const uint splits)
 {
     const uint k = get_global_id(0) * LANES;
     if (k >= length) return;
     tabulate(x, weight, stride, dim, weight_stride, multiple, code, groups, leading_table, leading_size,
-             trailing_table, trailing_size, begin, length, splits, k, first_group + get_global_id(1),
+             trailing_table, trailing_size, begin, length, pitch, splits, k, first_group + get_global_id(1),
              get_global_id(2));
 }

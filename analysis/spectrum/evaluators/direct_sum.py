@@ -8,7 +8,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.analysis.precision import SUM_POINTS, Precision, padded
+from gbnbench.analysis.precision import Precision, padded
 from gbnbench.analysis.spectrum.error_model import (
     Coordinates,
     Errors,
@@ -127,7 +127,7 @@ def run_length(p: Precision, m: int, n: int) -> int:
     """
     device = p.runtime.device
     items = device.compute_units * (ITEMS if device.is_cpu else GPU_ITEMS)
-    runs = max(1, min(-(-items // m), -(-n // (SUM_POINTS * p.lanes))))
+    runs = max(1, min(-(-items // m), -(-n // (p.sum_points * p.lanes))))
     return padded(-(-n // runs), p.lanes)
 
 
@@ -152,7 +152,7 @@ def listed_errors(p: Precision, n: int, largest: int, length: int, at: Coordinat
     Errors
     """
     beyond = p.lanes.bit_length() + 2 + -(-n // length)
-    in_registers = min(SUM_POINTS, -(-length // p.lanes))
+    in_registers = min(p.sum_points, -(-length // p.lanes))
     return sum_errors(
         p.name, "double" if p.sum is np.float64 else "float", at, largest, 0, in_registers, beyond
     )

@@ -142,7 +142,7 @@ class FrequencyTables:
         """
         small = () if folded or self.width > 1 else ("small_cube.cl",)
         return self.p.program(
-            *("tables.cl", "product.cl", "power.cl", *small),
+            *("tables.cl", "lane_sums.cl", "product.cl", "power.cl", *small),
             ROWS=self.rows,
             COLUMNS=self.width,
             ENTRIES=self.entries,
@@ -155,9 +155,9 @@ class FrequencyTables:
         """Build the kernel of tables in the layout that spread.cl reads."""
         return self.p.program("tables.cl", ENTRIES=self.entries, BY_POINT=1)
 
-    def table_sizes(self, length: int) -> tuple[int, int]:
-        """Count the numbers in a slot's leading and trailing table, for a slot of ``length`` points."""
-        return self.tiles * self.rows * length * 2, self.columns * length * 2
+    def table_sizes(self, pitch: int) -> tuple[int, int]:
+        """Count the numbers in a slot's leading and trailing table, of ``pitch`` points a tile."""
+        return self.tiles * self.rows * pitch * 2, self.columns * pitch * 2
 
     def tabulate(
         self,
@@ -209,6 +209,7 @@ class FrequencyTables:
             np.uint64(sizes[1]),
             np.uint32(begin),
             np.uint32(slots.length),
+            np.uint32(slots.pitch),
             np.uint32(slots.splits),
         )
 

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.analysis.precision import SUM_POINTS, Precision, padded
+from gbnbench.analysis.precision import Precision, padded
 from gbnbench.analysis.spectrum.error_model import Coordinates, Errors, sum_errors
 from gbnbench.analysis.spectrum.evaluators.frequency_group import Group
 from gbnbench.analysis.spectrum.evaluators.frequency_tables import (
@@ -72,10 +72,10 @@ class TwoGroupProduct:
         rows, columns = self.frequencies.tiles * self.frequencies.rows, self.frequencies.columns
         self.slots = choose_slots(p, n, sets, rows, columns)
         self.stride = padded(n, self.slots.span)
-        compensated = self.slots.sums(n, p.lanes) > COMPENSATED_FROM
+        compensated = self.slots.sums(n, p) > COMPENSATED_FROM
         self._bounds = self.frequencies.all_columns if bounds is None else p.runtime.upload(bounds)
         self.program = self.frequencies.program(compensated)
-        self.sizes = self.frequencies.table_sizes(self.slots.length)
+        self.sizes = self.frequencies.table_sizes(self.slots.pitch)
         real, total = np.dtype(p.real).itemsize, np.dtype(p.sum).itemsize
         of_tables = [size * self.slots.count * real for size in self.sizes]
         of_amplitudes = self.slots.count * rows * columns * (8 if compensated else 4) * total
@@ -163,6 +163,7 @@ class TwoGroupProduct:
                 self.tables,
                 self.sizes,
                 self.slots.length,
+                self.slots.pitch,
                 sets * self.slots.splits,
             ),
             bounds=self._bounds,
@@ -192,9 +193,9 @@ def product_errors(p: Precision, n: int, slots: Slots, fmax: int, at: Coordinate
     -------
     Errors
     """
-    sums = slots.sums(n, p.lanes)
-    beyond = p.lanes.bit_length() + (2 if sums > COMPENSATED_FROM else sums) + slots.splits
-    in_registers = min(SUM_POINTS, -(-slots.length // p.lanes))
+    sums = slots.sums(n, p)
+    beyond = (2 if sums > COMPENSATED_FROM else sums) + slots.splits
+    in_registers = min(p.sum_points, -(-slots.length // p.lanes)) + p.lanes.bit_length()
     return sum_errors(p.name, "double" if p.sum is np.float64 else "float", at, fmax, 3, in_registers, beyond)
 
 
