@@ -14,9 +14,7 @@ from gbnbench.core.torus import FloatArray, fixed_point
 from gbnbench.opencl import Program, Runtime, devices_present, runtime
 
 SUM_POINTS = 128  # points that a lane sums in registers, at most, before these sums are added up in double
-SUM_BYTES = (
-    4096  # of these in a vector's lanes, so that the tables of a product's rows stay in the first cache
-)
+SUM_BYTES = 4096  # of these in all lanes, so that the rows' tables of a product stay in the first cache
 PACKAGE = "gbnbench.analysis"
 PrecisionName = Literal["double", "float"]
 
