@@ -24,6 +24,7 @@ from gbnbench.analysis.spectrum.evaluators.frequency_tables import (
 )
 from gbnbench.analysis.spectrum.evaluators.point_slots import COMPENSATED_FROM, Slots, choose_slots
 from gbnbench.analysis.spectrum.evaluators.table_product import multiply
+from gbnbench.analysis.spectrum.evaluators.turn_rows import TurnRows
 from gbnbench.core.torus import FloatArray
 
 
@@ -86,6 +87,8 @@ class TwoGroupProduct:
             # the memory held, since denormals take a processor a hundred cycles each.
             p.runtime.clear(self.tables[0], of_tables[0])
         self.amplitude = p.runtime.empty(of_amplitudes)
+        self._turns = TurnRows(p, min(sets, self.slots.sets), n, d, self.stride)
+        self.nbytes += self._turns.nbytes
 
     def batches(self, x: FloatArray, weights: FloatArray | None = None) -> Iterator[tuple[int, int]]:
         """Evaluate the amplitudes of one batch of sets after another, and leave each on the device.
@@ -114,6 +117,7 @@ class TwoGroupProduct:
                 )
                 self.multiply(count, again=begin > 0)
             yield first, count
+            self.p.runtime.finish()  # before the next points take the place of these, or nothing holds them
 
     def upload(self, x: FloatArray, weights: FloatArray | None) -> DevicePoints:
         """Upload a batch of sets.
@@ -129,7 +133,8 @@ class TwoGroupProduct:
         -------
         DevicePoints
         """
-        turns = self.p.runtime.upload(self.p.turns(x, self.stride))
+        self._turns(x)
+        turns = self._turns.buffer
         if weights is None:
             return DevicePoints(turns, self._ones, self.stride, 0)
         own = self._upload_weights(weights)
