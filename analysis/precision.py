@@ -95,6 +95,8 @@ class Precision:
             Fractions of a turn in units of 2^-64 or 2^-32; 0 beyond the last point.
         """
         sets, n, d = x.shape
+        if stride == n:
+            return np.ascontiguousarray(fixed_point(x, 64 if self.double else 32).transpose(0, 2, 1))
         rows = np.zeros((sets, d, stride), self.turn)
         rows[:, :, :n] = fixed_point(x, rows.itemsize * 8).transpose(0, 2, 1)
         return rows

@@ -1,4 +1,5 @@
-/* Sums G(m) = sum_k w_k prod_a W(m_a - M_a x_ka) at the nodes of a real grid on AXES axes, 1 to 3.
+/* Sums G(m) = sum_k w_k prod_a W(m_a - M_a x_ka) at the nodes of a real grid on AXES axes, 2 or 3; line_spread.cl
+ * takes one axis, with the window of these.
  *
  * W is the window (kaiser_bessel.py) on WIDTH cells, given in each cell as an even and an odd polynomial of the
  * place less 1/2: the values of the lower cells are their sums, those of the upper ones, mirrored, their differences.
@@ -121,6 +122,7 @@ static void give(__global REAL *restrict part, __global REAL *restrict sum, cons
     }
 }
 
+#if AXES > 1
 /* Carries the points of a set to a band of its grid: `grid`, which is cleared, with `part` beside it for runs. */
 static void spread_band(const uint set, const uint band, __global const TURN *turns, const uint stride,
                         __global const REAL *weight, const uint weight_stride, __global const uint *starts,
@@ -128,12 +130,8 @@ static void spread_band(const uint set, const uint band, __global const TURN *tu
                         const uint rows_a_band, const uint row_length, __constant REAL *terms,
                         __global REAL *grid, __global REAL *part)
 {
-#if AXES == 1
-    const uint first_row = 0, end_row = 1;
-#else
     const uint first_row = band * rows_a_band;
     const uint end_row = first_row + rows_a_band < nodes ? first_row + rows_a_band : nodes;
-#endif
     const ulong plane = AXES == 3 ? (ulong)(nodes + WIDTH) * row_length : row_length;
     const ulong count = (end_row - first_row) * plane;
     __global const uint *start = starts + set * (bands + 1);
@@ -141,23 +139,15 @@ static void spread_band(const uint set, const uint band, __global const TURN *tu
     clear(grid, count);
     if (runs > 1) clear(into, count);
     for (uint run = 0; run < runs; run++) {
-        /* Where there is one axis, windows are folded back from the row's end and a band has no neighbour. */
-        for (uint before = 0; before < (AXES > 1 ? 2 : 1); before++) {
+        for (uint before = 0; before < 2; before++) {
             const uint from_band = (band + (before ? bands - 1 : 0)) % bands;
             const int shift = before && band == 0 ? (int)nodes : 0;
             for (uint k = start[from_band] + run; k < start[from_band + 1]; k += runs) {
                 __global const TURN *turn = turns + (ulong)set * AXES * stride + k;
                 REAL place;
                 const uint cell = cell_of(turn[0], nodes, &place);
-#if AXES > 1
                 if (before && (int)cell - shift + WIDTH <= (int)first_row) continue;
-#endif
                 const REAL w = weight[(ulong)set * weight_stride + k];
-#if AXES == 1
-                WINDOW(x, place)
-                __global REAL *at = into + cell;
-                ADD_ROW(w, x, at);
-#else
                 REAL leading[WIDTH];
 #if AXES == 2
                 REAL along;
@@ -193,7 +183,6 @@ static void spread_band(const uint set, const uint band, __global const TURN *tu
                     }
                 }
 #endif
-#endif
             }
         }
         if (runs > 1) {
@@ -212,7 +201,8 @@ __kernel void grid_spread(__global const TURN *turns, const uint stride, __globa
 {
     const uint band = get_global_id(0), set = get_global_id(1);
     const ulong plane = AXES == 3 ? (ulong)(nodes + WIDTH) * row_length : row_length;
-    const ulong begin = set * grid_size + (AXES == 1 ? 0 : band * rows_a_band * plane);
+    const ulong begin = set * grid_size + band * rows_a_band * plane;
     spread_band(set, band, turns, stride, weight, weight_stride, starts, bands, runs, means[set], nodes,
                 rows_a_band, row_length, terms, grids + begin, parts + begin);
 }
+#endif

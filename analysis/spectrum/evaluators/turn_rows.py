@@ -1,4 +1,4 @@
-"""Coordinates as fixed-point turns, in rows that are kept: new memory costs more than what is written to it."""
+"""Coordinates as fixed-point turns, in rows that are kept: new memory costs more than filling it."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class TurnRows:
         self.nbytes = self.rows.nbytes * (1 if self._cpu else 2) + self._reals.nbytes
 
     def __call__(self, x: FloatArray) -> None:
-        """Write the turns of a batch, as ``torus.fixed_point`` gives them, when no kernel reads the last ones.
+        """Write the turns of a batch, as ``torus.fixed_point`` gives them; no kernel may read the last ones.
 
         Parameters
         ----------
