@@ -5,6 +5,34 @@
  * a row of `parts` of its own; rows less a run's mean are then added up in the grid, so that the rounding of a
  * node's sum grows with the points of a run and the number of runs. WIDTH cells beyond the end are folded back.
  */
+#if WIDTH == 2 * LANES /* half a window is a vector */
+#define BEGIN_LINE(v, s)                                                                                     \
+    REALV v##_even = LOADV(terms, 0), v##_odd = LOADV(terms, LANES);                                         \
+    const REAL v##_square = s * s;
+#define ADD_LINE_TERM(v, t)                                                                                  \
+    v##_even = v##_even * v##_square + LOADV(terms, WIDTH * t);                                              \
+    v##_odd = v##_odd * v##_square + LOADV(terms, WIDTH * t + LANES);
+#if LANES == 8
+#define REVERSED(v) (v).s76543210
+#else
+#define REVERSED(v) (v).s3210
+#endif
+#define ADD_LINE(by, v, s, p)                                                                                \
+    {                                                                                                        \
+        const REALV odd = v##_odd * s;                                                                       \
+        STOREV(LOADV(p, 0) + (v##_even + odd) * by, p, 0);                                                   \
+        STOREV(LOADV(p, LANES) + REVERSED(v##_even - odd) * by, p, LANES);                                   \
+    }
+#else
+#define BEGIN_LINE BEGIN
+#define ADD_LINE_TERM ADD_TERM
+#define ADD_LINE(by, v, s, p)                                                                                \
+    {                                                                                                        \
+        MIRROR(v, s)                                                                                         \
+        ADD_ROW(by, v, p);                                                                                   \
+    }
+#endif
+
 static __global REAL *row_of(const uint cell, const uint runs, __global uint *taken, __global REAL *parts,
                              const uint row_length)
 {
@@ -34,20 +62,21 @@ __kernel void line_spread(__global const TURN *turns, const uint stride, __globa
     for (; k + 1 < stride; k += 2) {
         REAL place, other;
         const uint cell = cell_of(turn[k], nodes, &place), next = cell_of(turn[k + 1], nodes, &other);
-        TWO_WINDOWS(x, place, y, other)
-        const REAL by = w[k], with = w[k + 1];
+        BEGIN_LINE(x, place)
+        BEGIN_LINE(y, other)
+        for (uint t = 1; t < TERMS; t++) { ADD_LINE_TERM(x, t) ADD_LINE_TERM(y, t) }
         __global REAL *at = row_of(cell, runs, taken, parts, row_length) + cell;
-        ADD_ROW(by, x, at);
+        ADD_LINE(w[k], x, place, at)
         at = row_of(next, runs, taken, parts, row_length) + next;
-        ADD_ROW(with, y, at);
+        ADD_LINE(w[k + 1], y, other, at)
     }
     if (k < stride) {
         REAL place;
         const uint cell = cell_of(turn[k], nodes, &place);
-        WINDOW(x, place)
-        const REAL by = w[k];
+        BEGIN_LINE(x, place)
+        for (uint t = 1; t < TERMS; t++) { ADD_LINE_TERM(x, t) }
         __global REAL *at = row_of(cell, runs, taken, parts, row_length) + cell;
-        ADD_ROW(by, x, at);
+        ADD_LINE(w[k], x, place, at)
     }
     for (uint run = 0; run < runs; run++) fold(parts + (ulong)run * row_length, 1, row_length, nodes, row_length);
     if (runs > 1)
