@@ -29,9 +29,9 @@ from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest
 from gbnbench.core.memory import memory_limit
 from gbnbench.core.torus import FloatArray
 
-# Narrow multiply-adds (work_model.py) that take as long as a point on each axis, a node that it reaches, in the
-# cache and beyond it, a node and level of the transform, a power, and a call. Fitted to the CPU times of 38
-# cubes on one Intel core, n = 16 to 16,384 and F = 4 to 4,096 in 1D to 3D: 8 in 10 are within 15%.
+# Narrow multiply-adds (work_model.py) that take as long as a point on each axis, a node that it reaches, in
+# the cache and beyond it, a node and level of the transform, a power, and a call. Fitted to the CPU times of
+# 38 cubes on one Intel core, n = 16 to 16,384 and F = 4 to 4,096 in 1D to 3D: 8 in 10 are within 15%.
 POINT, REACHED, FAR_REACHED, LEVEL, WRITTEN, SET_UP = 610.0, 7.6, 10.9, 4.9, 78.0, 3.5e6
 LINE_POINT, LINE_SET_UP = 530.0, 2.7e6  # of a point and of a call on a line; fitted to 30 spectra there
 PLANE_LEVEL = 3.6  # of a node and level in the plane, powers included; fitted to 34 cubes there
