@@ -19,7 +19,7 @@ from gbnbench.analysis.spectrum.error_model import (
 from gbnbench.analysis.spectrum.evaluators.device_evaluator import DeviceEvaluator
 from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
 from gbnbench.analysis.spectrum.evaluators.two_group_product import norms_of
-from gbnbench.analysis.spectrum.evaluators.work_model import COSINE, SET_UP, device_cost
+from gbnbench.analysis.spectrum.evaluators.work_model import COSINE, SET_UP, device_cost, narrow
 from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest
 from gbnbench.core.torus import FloatArray
 
@@ -37,7 +37,7 @@ class DirectSum(DeviceEvaluator):
 
     def work(self, request: SpectrumRequest) -> float:
         """Count the sines and cosines, and the set-up."""
-        return super().work(request) + SET_UP
+        return super().work(request) + narrow(self.on_device) * SET_UP
 
     def cost(self, request: SpectrumRequest) -> EvaluationCost:
         """Estimate the sum's cost on the device."""

@@ -2,7 +2,7 @@
 
 The constants were measured on CPUs. They count the work for each point on a pair of a leading and a trailing
 frequency, the work on the tables, and what is done once with each point and each power. What is no product of
-vectors gains nothing of wide ones: it is counted in narrow multiply-adds, those of vectors of 32 bytes, two of
+vectors gains nothing of wide ones: it is counted in narrow multiply-adds, those of 32 bytes, two of
 which pass in one of 64.
 """
 
