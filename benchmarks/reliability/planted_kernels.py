@@ -91,7 +91,7 @@ PLANTS = {
         "adaptive_pairs.cl", "v + LOADV(variances, l)", "v + v", "adaptive gradient"
     ),
     "a pixel's pull": Plant(
-        "adaptive_pull.cl", "squares += SUM_OF", "squares -= SUM_OF", "adaptive gradient"
+        "adaptive_pull.cl", "squares += part_xx", "squares -= part_xx", "adaptive gradient"
     ),
     "a sum's last lanes": Plant("kernel_sums.cl", "(to - l) ? g", "(to - l + 1) ? g", "sums of kernels"),
     "an integrand's term": Plant(
