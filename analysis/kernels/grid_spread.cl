@@ -54,6 +54,8 @@ static uint cell_of(const TURN turn, const uint nodes, REAL *place)
         v##3 = (even0 - odd0 * s).s3210;                                                                     \
     }
 #define TO_ARRAY(v, p) STORE4(v##0, p); STORE4(v##1, p + 4); STORE4(v##2, p + 8); STORE4(v##3, p + 12)
+#define FROM_ARRAY(v, p) \
+    const REAL4 v##0 = LOAD4(p), v##1 = LOAD4(p + 4), v##2 = LOAD4(p + 8), v##3 = LOAD4(p + 12)
 #define SCALED(v, by, w) const REAL4 v##0 = by * w##0, v##1 = by * w##1, v##2 = by * w##2, v##3 = by * w##3
 #define ADD_ROW(by, v, p) ADD4(by * v##0, p); ADD4(by * v##1, p + 4); ADD4(by * v##2, p + 8); ADD4(by * v##3, p + 12)
 #else
@@ -70,6 +72,7 @@ static uint cell_of(const TURN turn, const uint nodes, REAL *place)
         v##1 = (even - odd * s).s3210;                                                                       \
     }
 #define TO_ARRAY(v, p) STORE4(v##0, p); STORE4(v##1, p + 4)
+#define FROM_ARRAY(v, p) const REAL4 v##0 = LOAD4(p), v##1 = LOAD4(p + 4)
 #define SCALED(v, by, w) const REAL4 v##0 = by * w##0, v##1 = by * w##1
 #define ADD_ROW(by, v, p) ADD4(by * v##0, p); ADD4(by * v##1, p + 4)
 #endif
@@ -122,6 +125,36 @@ static void give(__global REAL *restrict part, __global REAL *restrict sum, cons
     }
 }
 
+#if AXES == 3
+/* A group of points, neighbours for the most part, is added plane by plane, so that a plane stays in the first cache. */
+#define GROUP 32
+INLINE void add_group(REAL (*values)[3 * WIDTH], const int *planes, const ulong *places, const uint held,
+                      __global REAL *into, const ulong plane, const uint row_length, const uint first_row,
+                      const uint end_row)
+{
+    int low = end_row, high = first_row;
+    for (uint g = 0; g < held; g++) {
+        if (planes[g] < low) low = planes[g];
+        if (planes[g] + WIDTH > high) high = planes[g] + WIDTH;
+    }
+    if (low < (int)first_row) low = first_row;
+    if (high > (int)end_row) high = end_row;
+    for (int row = low; row < high; row++)
+        for (uint g = 0; g < held; g++) {
+            const int u = row - planes[g];
+            if (u < 0 || u >= WIDTH) continue;
+            const REAL *middle = values[g] + WIDTH;
+            FROM_ARRAY(x, (values[g] + 2 * WIDTH));
+            SCALED(y, values[g][u], x);
+            __global REAL *at = into + (row - first_row) * plane + places[g];
+            for (uint v = 0; v < WIDTH; v++, at += row_length) {
+                const REAL by = middle[v];
+                ADD_ROW(by, y, at);
+            }
+        }
+}
+#endif
+
 #if AXES > 1
 /* Carries the points of a set to a band of its grid: `grid`, which is cleared, with `part` beside it for runs. */
 static void spread_band(const uint set, const uint band, __global const TURN *turns, const uint stride,
@@ -136,6 +169,12 @@ static void spread_band(const uint set, const uint band, __global const TURN *tu
     const ulong count = (end_row - first_row) * plane;
     __global const uint *start = starts + set * (bands + 1);
     __global REAL *into = runs > 1 ? part : grid;
+#if AXES == 3
+    REAL values[GROUP][3 * WIDTH];
+    int planes[GROUP];
+    ulong places[GROUP];
+    uint held = 0;
+#endif
     clear(grid, count);
     if (runs > 1) clear(into, count);
     for (uint run = 0; run < runs; run++) {
@@ -148,9 +187,8 @@ static void spread_band(const uint set, const uint band, __global const TURN *tu
                 const uint cell = cell_of(turn[0], nodes, &place);
                 if (before && (int)cell - shift + WIDTH <= (int)first_row) continue;
                 const REAL w = weight[(ulong)set * weight_stride + k];
-                REAL leading[WIDTH];
 #if AXES == 2
-                REAL along;
+                REAL leading[WIDTH], along;
                 const uint column = cell_of(turn[stride], nodes, &along);
                 TWO_WINDOWS(v, place, y, along)
                 TO_ARRAY(v, leading);
@@ -163,27 +201,29 @@ static void spread_band(const uint set, const uint band, __global const TURN *tu
 #else
                 {
                     WINDOW(v, place)
-                    TO_ARRAY(v, leading);
+                    TO_ARRAY(v, values[held]);
                 }
-                REAL middle[WIDTH];
                 const uint line = cell_of(turn[stride], nodes, &place);
                 {
                     WINDOW(v, place)
-                    TO_ARRAY(v, middle);
+                    TO_ARRAY(v, (values[held] + WIDTH));
                 }
                 const uint column = cell_of(turn[2 * stride], nodes, &place);
                 WINDOW(v, place)
                 SCALED(x, w, v);
-                ROWS_WITHIN(u) {
-                    __global REAL *at = into + (row + u - first_row) * plane + (ulong)line * row_length + column;
-                    SCALED(y, leading[u], x);
-                    for (uint v = 0; v < WIDTH; v++, at += row_length) {
-                        const REAL by = middle[v];
-                        ADD_ROW(by, y, at);
-                    }
+                TO_ARRAY(x, (values[held] + 2 * WIDTH));
+                planes[held] = (int)cell - shift;
+                places[held] = (ulong)line * row_length + column;
+                if (++held == GROUP) {
+                    add_group(values, planes, places, held, into, plane, row_length, first_row, end_row);
+                    held = 0;
                 }
 #endif
             }
+#if AXES == 3
+            add_group(values, planes, places, held, into, plane, row_length, first_row, end_row);
+            held = 0;
+#endif
         }
         if (runs > 1) {
             fold(into, end_row - first_row, plane, nodes, row_length);

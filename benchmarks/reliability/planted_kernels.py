@@ -57,7 +57,6 @@ PLANTS = {
     "a window's odd part": Plant(
         "grid_spread.cl", "= even1 + odd1 * s;", "= even1 - odd1 * s;", "gridded FFT"
     ),
-    "a point of a line": Plant("line_spread.cl", "row_length) + next;", "row_length) + cell;", "gridded FFT"),
     "a harmonic's odd part": Plant("plane_transform.cl", "m.re - p.re", "p.re - m.re", "gridded FFT"),
     "a fifth of a turn": Plant("fourier_passes.cl", "0.58778525", "0.58778526", "gridded FFT"),
     "an eighth of a turn": Plant("fourier_passes.cl", "b3), -root", "b3), root", "gridded FFT"),
