@@ -17,7 +17,7 @@ CACHE_BYTES = 1 << 20  # of a grid that needs no sorting
 BAND_ROWS = 64  # rows of a band of a larger grid, in two dimensions
 DIVIDED_FROM = 1 << 22  # nodes that the points of a set reach, from which it is worth dividing among cores
 CROWDED = 32  # points in a bin from which they are summed in several runs
-RUN_SHARE, SPACE_RUN_SHARE = 0.25, 0.05  # nodes added up for the runs, over those reached; in space they lie far
+RUN_SHARE, SPACE_RUN_SHARE = 0.25, 0.05  # nodes added up for the runs, over those reached; in space far ones
 
 
 @dataclass(frozen=True)
