@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from gbnbench.core.atomic_write import write_whole
-from gbnbench.reports import fonts, style
+from gbnbench.reports import style
 from gbnbench.reports.comparison import (
     gallery,
     loglog,
@@ -25,6 +25,7 @@ from gbnbench.reports.comparison import (
     valence,
     zone_plate,
 )
+from gbnbench.reports.fonts_in_pdf import lean_fonts
 from gbnbench.reports.source_groups import Group, groups, members
 from gbnbench.runs.comparison_result import Run, SourceResult
 from gbnbench.studies.drawing import make_each
@@ -85,7 +86,7 @@ def png(figure: Figure, dpi: float = style.DPI) -> bytes:
 def pdf(figure: Figure) -> bytes:
     """Render a figure as PDF, without a date, so that equal figures give equal bytes."""
     stream = io.BytesIO()
-    with fonts.without_layout_tables():
+    with lean_fonts():
         figure.savefig(stream, format="pdf", dpi=200, metadata={"CreationDate": None, "Producer": None})
     return stream.getvalue()
 
