@@ -11,7 +11,9 @@ from typing import Any, NamedTuple
 from matplotlib.font_manager import get_font
 
 LAYOUT_TABLES = ("GDEF", "GPOS", "GSUB", "MATH", "kern")
-SIGNS = "".join(map(chr, range(32, 127))) + "·×−→↑…≤≥∞ﬁﬂασενπρ"  # few labels hold any other
+SIGNS = "".join(map(chr, (*range(32, 127), *range(160, 256)))) + "–−→↑…≤≥∞▲▼ﬁﬂαενπρσ"  # those of most labels
+    "".join(map(chr, (*range(32, 127), *range(160, 256)))) + "–−→↑…≤≥∞▲▼ﬁﬂαενπρσ"
+)  # few labels have others
 
 
 class Part(NamedTuple):

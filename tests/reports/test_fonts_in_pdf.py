@@ -49,7 +49,7 @@ def test_fonts_are_loaded_whole_again_afterwards() -> None:
         assert "GPOS" in whole
 
 
-@pytest.mark.parametrize("text", ["Noise floor, $10^{-3}$, ä", f"{SIGNS[:40]}·−ﬁ"])
+@pytest.mark.parametrize("text", ["Noise floor, $10^{-3}$, 点ł", f"{SIGNS[:40]}·−ﬁ"])
 def test_a_part_of_a_font_gives_the_file_that_the_whole_gives(
     text: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
