@@ -11,9 +11,8 @@ from typing import Any, NamedTuple
 from matplotlib.font_manager import get_font
 
 LAYOUT_TABLES = ("GDEF", "GPOS", "GSUB", "MATH", "kern")
-SIGNS = "".join(map(chr, (*range(32, 127), *range(160, 256)))) + "–−→↑…≤≥∞▲▼ﬁﬂαενπρσ"  # those of most labels
-    "".join(map(chr, (*range(32, 127), *range(160, 256)))) + "–−→↑…≤≥∞▲▼ﬁﬂαενπρσ"
-)  # few labels have others
+USUAL = (*range(32, 127), *range(160, 256))  # ASCII and Latin-1
+SIGNS = "".join(map(chr, USUAL)) + "–−→↑…≤≥∞▲▼ﬁﬂαενπρσ"
 
 
 class Part(NamedTuple):
