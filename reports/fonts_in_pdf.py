@@ -22,12 +22,12 @@ class Part(NamedTuple):
     ----------
     content : bytes
         Its file.
-    index : dict of int
+    indices : dict of int
         Index of each of its glyphs, by the index that the glyph has in the whole font.
     """
 
     content: bytes
-    index: dict[int, int]
+    indices: dict[int, int]
 
 
 @contextlib.contextmanager
@@ -42,7 +42,8 @@ def lean_fonts() -> Iterator[None]:
     from fontTools import subset  # the modules for PDF alone need it
     from matplotlib.backends import _backend_pdf_ps as backend
 
-    load, cut = subset.load_font, backend.get_glyphs_subset
+    load = subset.load_font
+    cut: Callable[..., Any] = backend.get_glyphs_subset
 
     def load_lean(*args: Any, **kwargs: Any) -> Any:
         font = load(*args, **kwargs)
@@ -55,11 +56,11 @@ def lean_fonts() -> Iterator[None]:
         if isinstance(glyphs, str):
             return cut(fontfile, glyphs)
         part = _part(fontfile, cut)
-        if not part.index.keys() >= set(glyphs):
+        if not part.indices.keys() >= set(glyphs):
             return cut(fontfile, glyphs)
         subset.load_font = lambda _, *args, **kwargs: load(io.BytesIO(part.content), *args, **kwargs)
         try:
-            return _as_in_whole(cut(fontfile, {part.index[glyph] for glyph in glyphs}), part, set(glyphs))
+            return _as_in_whole(cut(fontfile, {part.indices[glyph] for glyph in glyphs}), part, set(glyphs))
         finally:
             subset.load_font = load_lean
 
@@ -84,5 +85,5 @@ def _part(fontfile: Any, cut: Callable[..., Any]) -> Part:
 def _as_in_whole(cutting: Any, part: Part, glyphs: Iterable[int]) -> Iterator[Any]:
     """Hand on what was cut from a part, its glyphs indexed as those of the whole font."""
     with cutting as found:
-        index = {glyph: found.glyph_index_map[part.index[glyph]] for glyph in glyphs}
+        index = {glyph: found.glyph_index_map[part.indices[glyph]] for glyph in glyphs}
         yield found._replace(glyph_index_map=index)
