@@ -12,7 +12,6 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-import scipy.fft
 from numpy.typing import NDArray
 
 from gbnbench.analysis.precision import Precision
@@ -222,6 +221,8 @@ def _real(real: NDArray[Any], threads: int) -> NDArray[Any]:
         import ducc0
 
         return np.asarray(ducc0.fft.r2c(real, axes=(real.ndim - 1,), nthreads=threads))
+    import scipy.fft  # a fifth of a second, which few processes need
+
     return scipy.fft.rfft(real, axis=-1, workers=threads)
 
 
@@ -232,4 +233,6 @@ def _complex(part: NDArray[Any], axis: int, threads: int) -> NDArray[Any]:
 
         ducc0.fft.c2c(part, axes=(axis,), nthreads=threads, out=part)
         return part
+    import scipy.fft
+
     return scipy.fft.fft(part, axis=axis, workers=threads, overwrite_x=True)
