@@ -10,7 +10,7 @@ import numpy as np
 
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray, wrap
-from gbnbench.generators.protocol import Family
+from gbnbench.generators.protocol import MOST_ITERATIONS, Family
 
 CANDIDATES = 4  # uniform points from which one is chosen
 REACH = 8.5  # sigmas, beyond which a Gaussian is rounding
@@ -66,8 +66,8 @@ class SpectralSampling:
     step: float = 0.5
 
     def __post_init__(self) -> None:
-        if self.iterations < 0:
-            raise InputError(f"iterations must be >= 0; got {self.iterations}")
+        if not 0 <= self.iterations <= MOST_ITERATIONS:
+            raise InputError(f"iterations must be 0 to {MOST_ITERATIONS}; got {self.iterations}")
         if not 0.5 <= self.sigma <= 1.5:
             raise InputError(f"sigma must be 0.5 to 1.5 spacings; got {self.sigma}")
         if not 0 < self.step <= 2:

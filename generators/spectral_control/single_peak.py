@@ -9,7 +9,7 @@ from typing import ClassVar
 from gbnbench.core.errors import InputError
 from gbnbench.generators.protocol import Family
 from gbnbench.generators.spectral_control.band import check_edge
-from gbnbench.generators.spectral_control.named_profiles import PeakProfile, of_the_plane
+from gbnbench.generators.spectral_control.named_profiles import MOST_POWER, PeakProfile, of_the_plane
 from gbnbench.generators.spectral_control.ring_means import RingMeans
 
 EDGE = 0.8  # in the plane
@@ -69,8 +69,8 @@ class SinglePeak(RingMeans):
     def __post_init__(self) -> None:
         super().__post_init__()
         check_edge(self.edge)
-        if self.power is not None and not (math.isfinite(self.power) and self.power >= 0):
-            raise InputError(f"power must be 0 or more and finite; got {self.power}")
+        if self.power is not None and not 0 <= self.power <= MOST_POWER:
+            raise InputError(f"power must be 0 to {MOST_POWER:g}; got {self.power}")
         if self.width is not None and not (math.isfinite(self.width) and self.width > 0):
             raise InputError(f"width must be positive and finite, in nu; got {self.width}")
 

@@ -16,6 +16,7 @@ import numpy as np
 
 from gbnbench.core.errors import GbnbenchError
 from gbnbench.core.process_end import cause_of_end
+from gbnbench.core.readable_text import in_one_line
 from gbnbench.core.torus import FloatArray
 from gbnbench.io.points import load
 
@@ -103,6 +104,8 @@ def run_program(
             fault = str(error).replace(
                 f"{points.parent}{os.sep}", "" if into_file else "standard output, as "
             )
+            if " --" in fault:
+                fault += f"; those are options for files: a program must write its n={n} points of [0, 1)"
             raise GbnbenchError(f"{name} drew no set: {shown}: {fault}") from None
         if not isinstance(x, np.ndarray) or x.shape != (n, d):
             got = f"shape {x.shape}" if isinstance(x, np.ndarray) else f"{len(x)} sets of several sizes"
@@ -119,8 +122,9 @@ def _ended(
             words, cwd=folder, stdin=subprocess.DEVNULL, stdout=outputs[0], stderr=outputs[1],
             start_new_session=True,
         )  # fmt: skip
-    except OSError as error:
-        raise GbnbenchError(f"{name} drew no set: {shown}: cannot be started: {error.strerror}") from None
+    except (OSError, ValueError) as error:  # ValueError: a zero byte in a word
+        why = error.strerror if isinstance(error, OSError) else error
+        raise GbnbenchError(f"{name} drew no set: {in_one_line(shown)}: cannot be started: {why}") from None
     try:
         return process.wait(timeout)
     except subprocess.TimeoutExpired:
