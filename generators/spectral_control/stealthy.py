@@ -124,11 +124,9 @@ class Stealthy(BandGenerator):
         str or None
             The reason: that of every band, or that no points keep the core.
         """
-        if n > 1 and self.core > widest_core(d):
-            return (
-                f"no n={n} points in d={d} can all be core={self.core:.4g} spacings apart: the densest "
-                f"packing has {widest_core(d):.4g}" + (" at most" if d > 3 else "")
-            )
+        if n > 1 and self.core > (widest := widest_core(d)):
+            said = f"no n={n} points in d={d} can be core={self.core:.4g} spacings apart: the densest packing"
+            return f"{said} has {widest:.4g}" + (" at most" if d > 3 else "")
         return super().refusal(n, d)
 
     def too_bound(self, n: int, d: int, bound: float) -> str:

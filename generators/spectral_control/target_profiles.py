@@ -77,7 +77,7 @@ class Table:
             if not (math.isfinite(power) and power > 0):
                 raise _RowError(
                     k,
-                    f"the power of a target must be positive and finite; got {power}: 1e-30 is as good as none",
+                    f"the power of a target must be positive and finite; got {power}: 1e-30 is almost none",
                 )
             if not (math.isfinite(nu) and nu >= 0 and (k == 0 or nu > self.nu[k - 1])):
                 raise _RowError(k, f"the nu of a target must be >= 0 and rise; got {nu}")

@@ -56,7 +56,7 @@ def test_what_would_overflow_or_never_end_is_refused(text: str, says: str) -> No
             "stealthy[core=1.08]",
             13,
             2,
-            "no n=13 points in d=2 can all be core=1.08 .* densest packing has 1.075",
+            "no n=13 points in d=2 can be core=1.08 .* densest packing has 1.075",
         ),
     ],
 )
