@@ -10,6 +10,7 @@ import numpy as np
 
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray, wrap
+from gbnbench.generators.kernel_based.steady_inverse import steady_inverse
 from gbnbench.generators.protocol import MOST_ITERATIONS, Family
 
 CANDIDATES = 4  # uniform points from which one is chosen
@@ -163,7 +164,7 @@ def span_gradient(x: FloatArray, width: float) -> tuple[FloatArray, FloatArray]:
         In box sides.
     """
     value, slope = kernels(x, x, width)
-    inverse = np.linalg.inv(value)
+    inverse = steady_inverse(value)
     added = 1 / np.diagonal(inverse)
     return added, 2 * np.einsum("nm,anm->na", inverse * added[:, None], slope)
 
@@ -190,7 +191,7 @@ def most_independent(x: FloatArray, n: int, width: float) -> FloatArray:
     chosen: list[int] = []
     for k in range(n):
         best = int(left.argmax())
-        row = kernels(x[best, None], x, width)[0][0] - factor[:k, best] @ factor[:k]
+        row = kernels(x[best, None], x, width)[0][0] - np.einsum("k,kc->c", factor[:k, best], factor[:k])
         factor[k] = row / math.sqrt(max(left[best], 1e-30))
         left -= factor[k] ** 2
         chosen.append(best)
