@@ -1,4 +1,4 @@
-"""Inverses of symmetric positive definite matrices by Cholesky's tiles, the same bits on any number of threads."""
+"""Inverses of positive definite matrices by tiles (Cholesky), the same bits on any number of threads."""
 
 from __future__ import annotations
 

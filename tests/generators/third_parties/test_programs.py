@@ -76,6 +76,11 @@ def test_it_draws_from_a_seed_of_the_realizations_stream(programs, output: str) 
         assert np.array_equal(x[k].ravel(), [rng.random() for _ in range(21)])
 
 
+def test_few_points_of_many_dimensions_are_not_taken_for_transposed(programs) -> None:
+    programs(told("plain", more="dimensions = [1]"))
+    assert gbnbench.generate("mine", n=2, d=20).shape == (2, 20)
+
+
 def test_settings_stand_in_the_command_and_in_the_run_folder(programs, tmp_path: Path) -> None:
     path = programs(told("{mode}", more='settings.mode = { default = "plain", meaning = "What it does." }'))
     assert gbnbench.generate("mine", n=3).shape == (3, 2)
