@@ -43,8 +43,8 @@ class SinglePeak(RingMeans):
     defaults are ours: the least peak, in steps of 0.01, whose pair correlation in the plane is nowhere below
     -0.01 at this edge and width. A wider edge needs a higher peak, and beyond 0.86 no peak will do; what no
     process can have is met as nearly as the points can, and ``target_fit`` says how nearly. Beyond the plane
-    100 iterations are too few: 1,000 points in 3D have a mean power of .07 where none is asked, and 2e-4 after
-    400.
+    100 iterations are too few: 1,000 points in 3D have a mean power of .07 where none is asked, and 2e-4
+    after 400.
 
     References
     ----------
