@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from gbnbench.analysis.window.bin_covariance import interpolated
 from gbnbench.analysis.window.box import Window, check_window
-from gbnbench.analysis.window.hyperuniformity import Value, hyperuniformity
+from gbnbench.analysis.window.hyperuniformity import Value, beyond_gauss, hyperuniformity
 from gbnbench.analysis.window.nearest_neighbours import NearestDistances, nearest_distances
 from gbnbench.analysis.window.pair_correlation import pair_correlation
 from gbnbench.analysis.window.radial_structure_factor import NU_MAX, radial_structure_factor
@@ -164,7 +164,7 @@ def in_window(
     told.advance("nearest neighbours")
     nearest = nearest_distances(x, window)
     told.advance("nearest neighbours")
-    low_band = hyperuniformity(spectrum, covariance)
+    low_band = hyperuniformity(spectrum, covariance, beyond_gauss(n, d))
     intensity = n / window.volume
     alpha = low_band.exponent
     relative = count_variance(spectrum, window, 0.0 if alpha.reason else alpha.value - alpha.error)

@@ -105,7 +105,9 @@ def gamma_regression(
     return GammaFit(at, mean, lowest)
 
 
-def errors(slopes: FloatArray, covariance: FloatArray) -> tuple[FloatArray, FloatArray]:
+def errors(
+    slopes: FloatArray, covariance: FloatArray, beyond_gauss: float = 0.0
+) -> tuple[FloatArray, FloatArray]:
     """Give the covariance of fitted coefficients.
 
     Parameters
@@ -115,19 +117,24 @@ def errors(slopes: FloatArray, covariance: FloatArray) -> tuple[FloatArray, Floa
         design over the means for one of the means.
     covariance : (bins, bins) float64
         Of the mean powers, over the product of their expectations.
+    beyond_gauss : float
+        Most that any two bins' relative covariance may be off, either way: see ``profile_interval``.
 
     Returns
     -------
     counted, independent : (q, q) float64
-        With the covariance between bins counted (the sandwich formula), and as if there were none.
+        With the covariance between bins counted (the sandwich formula) and the most that may be missing of
+        it, and as if there were none.
     """
     scores = slopes / np.diag(covariance)[:, None]
     independent = np.linalg.pinv(slopes.T @ scores, hermitian=True).astype(np.float64)
-    return independent @ scores.T @ covariance @ scores @ independent, independent
+    weights = independent @ scores.T
+    most = np.abs(weights).sum(axis=1)
+    return weights @ covariance @ weights.T + beyond_gauss * np.outer(most, most), independent
 
 
 def profile_interval(
-    design: FloatArray, s: FloatArray, covariance: FloatArray, fit: GammaFit
+    design: FloatArray, s: FloatArray, covariance: FloatArray, fit: GammaFit, beyond_gauss: float = 0.0
 ) -> tuple[float, float]:
     """Give the 95% interval of the first coefficient of a linear model whose first column is 1.
 
@@ -141,6 +148,8 @@ def profile_interval(
         Of the mean powers, over the product of their expectations.
     fit : GammaFit
         The best fit.
+    beyond_gauss : float
+        Most that any two bins' relative covariance may be off, since amplitudes are not quite Gaussian.
 
     Returns
     -------
@@ -158,12 +167,12 @@ def profile_interval(
         if value <= 0:
             start[0] = (float(s.mean()) - value) / float(others[:, 0].min())
         held = gamma_regression(others, s, degrees, start, offset=value)
-        counted, independent = errors(design / held.means[:, None], covariance)
+        counted, independent = errors(design / held.means[:, None], covariance, beyond_gauss)
         scale = float(independent[0, 0] / counted[0, 0])
         return max(held.deviance - fit.deviance, 0.0) * scale - NORMAL_95**2
 
     best = float(fit.coefficients[0])
-    counted, _ = errors(design / fit.means[:, None], covariance)
+    counted, _ = errors(design / fit.means[:, None], covariance, beyond_gauss)
     error = math.sqrt(float(counted[0, 0]))
     return _crossing(excess, best, -error), _crossing(excess, best, error)
 

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 BAND = 0.5  # nu up to which both are fitted
 PEAK = (0.5, 2.0)  # nu between which the peak is sought
 LEAST_BINS = 3  # of a fit
+FOURTH_CUMULANTS = 0.54  # largest negative relative covariance of thinned patterns, over t / n
 
 
 @dataclass(frozen=True)
@@ -77,7 +78,9 @@ class Hyperuniformity:
     exponent: Value
 
 
-def hyperuniformity(spectrum: pd.DataFrame, covariance: FloatArray) -> Hyperuniformity:
+def hyperuniformity(
+    spectrum: pd.DataFrame, covariance: FloatArray, beyond_gauss: float = 0.0
+) -> Hyperuniformity:
     """Fit the lowest bins of a structure factor.
 
     Parameters
@@ -85,7 +88,10 @@ def hyperuniformity(spectrum: pd.DataFrame, covariance: FloatArray) -> Hyperunif
     spectrum : pandas.DataFrame
         As ``radial_structure_factor`` returns it. Bins that are not resolved do not count.
     covariance : (bins, bins) float64
-        Relative covariance of its S.
+        Relative covariance of its S, for Gaussian amplitudes.
+    beyond_gauss : float
+        Most that this may be off, either way, since amplitudes are not quite Gaussian; ``beyond_gauss``
+        gives it.
 
     Returns
     -------
@@ -94,17 +100,44 @@ def hyperuniformity(spectrum: pd.DataFrame, covariance: FloatArray) -> Hyperunif
     Notes
     -----
     The 95% interval of ``s_zero`` is that of its profile likelihood and wider above than below, since small
-    powers vary less; the others are 1.96 standard errors to either side. Errors are those of Gaussian
-    amplitudes; what a formula misses of the true S in the band comes on top.
+    powers vary less; the others are 1.96 standard errors to either side. What a
+    formula misses of the true S in the band comes on top.
     """
     nu, resolved = spectrum["nu"].to_numpy(), spectrum["resolved"].to_numpy()
     low, nearby = _chosen(spectrum, covariance, resolved & (nu <= BAND))
     if len(low) >= LEAST_BINS:
-        s_zero, exponent = _fits(low, nearby)
+        s_zero, exponent = _fits(low, nearby, beyond_gauss)
     else:
         s_zero = exponent = Value(math.nan, math.nan, _no_fit(spectrum[spectrum["nu"] <= BAND]))
     s_peak, nu_peak = _peak(*_chosen(spectrum, covariance, resolved & (nu >= PEAK[0]) & (nu <= PEAK[1])))
     return Hyperuniformity(s_zero, s_peak, nu_peak, _ratio(s_zero, s_peak), exponent)
+
+
+def beyond_gauss(n: int, d: int) -> float:
+    """Bound what fourth cumulants add to the relative covariance of powers, or take from it.
+
+    Parameters
+    ----------
+    n : int
+        Points.
+    d : int
+        Dimensions.
+
+    Returns
+    -------
+    float
+        0.54 (3/2)^d / n.
+
+    Notes
+    -----
+    Keep each point of a hyperuniform pattern with probability p = 1 - q. At small k the amplitudes are then
+    sums of independent variables, q or -p. Their fourth cumulants, and the division by the number of points,
+    give any two powers the relative covariance ((1 - 6 p q) / q - 2 (1 - 2 p) + q) t / n, where t = |W| times
+    the integral of h^4 is at most (3/2)^d for sine tapers. It is 0 for p -> 0 (Poisson points) and least,
+    -0.54 t / n, at p = 0.42. Beyond p = 0.7 it is above 0 and grows: there S is that of the q n / p points
+    which are missing, and their number sets its error.
+    """
+    return float(FOURTH_CUMULANTS * 1.5**d / n)
 
 
 def _chosen(
@@ -128,18 +161,18 @@ def _no_fit(low: pd.DataFrame) -> str:
     )
 
 
-def _fits(low: pd.DataFrame, covariance: FloatArray) -> tuple[Value, Value]:
+def _fits(low: pd.DataFrame, covariance: FloatArray, beyond_gauss: float) -> tuple[Value, Value]:
     """Fit S at 0 and the exponent to the bins of the low band."""
     k, s, degrees = low["k"].to_numpy(), low["S"].to_numpy(), 1 / np.diag(covariance)
     u, mean = (k / k[-1]) ** 2, float(np.average(s, weights=degrees))
     powers = np.stack([np.ones(len(low)), u, u**2], axis=1)
     fit = gamma_regression(powers, s, degrees, np.array([mean, 0.0, 0.0]))
-    counted, _ = errors(powers / fit.means[:, None], covariance)
-    interval = profile_interval(powers, s, covariance, fit)
+    counted, _ = errors(powers / fit.means[:, None], covariance, beyond_gauss)
+    interval = profile_interval(powers, s, covariance, fit, beyond_gauss)
     s_zero = Value(float(fit.coefficients[0]), math.sqrt(float(counted[0, 0])), interval=interval)
     logs = np.stack([np.ones(len(low)), np.log(k / k[-1]), u], axis=1)
     fit = gamma_regression(logs, s, degrees, np.array([math.log(mean), 0.0, 0.0]), log=True)
-    counted, _ = errors(logs, covariance)
+    counted, _ = errors(logs, covariance, beyond_gauss)
     return s_zero, Value.normal(float(fit.coefficients[1]), math.sqrt(float(counted[1, 1])))
 
 
