@@ -57,7 +57,7 @@ def _inverse_of_triangle(lower: FloatArray) -> FloatArray:
     """Inverse of a lower triangle by halves."""
     n = len(lower)
     if n <= TILE:
-        return np.asarray(np.linalg.inv(lower))
+        return np.asarray(np.linalg.inv(lower), np.float64)
     half = n // (2 * TILE) * TILE or TILE
     inverse = np.zeros_like(lower)
     inverse[:half, :half] = _inverse_of_triangle(lower[:half, :half])
