@@ -26,7 +26,7 @@ def test_the_cost_of_the_transport_falls_with_every_alternation() -> None:
 
 
 def test_points_lie_at_centroids_of_equal_cells_in_the_end() -> None:
-    x = OptimalTransport(alternations=400)(20, 2, realization_rng(2, 0))
+    x = OptimalTransport(gradient=0, alternations=400)(20, 2, realization_rng(2, 0))
     _, diagram = equal_areas(x, np.zeros(20), 1e-9)
     assert np.linalg.norm(diagram.offset, axis=1).max() * np.sqrt(20) < 1e-3
 
@@ -59,15 +59,15 @@ def test_breaking_moves_regular_points_and_their_neighbours_alone() -> None:
 
 @pytest.mark.slow
 def test_regions_are_broken_until_none_are_regular() -> None:
-    long = OptimalTransport(alternations=60, breaks=0, regularity=1e-3)
-    broken = OptimalTransport(alternations=60, breaks=1, regularity=1e-3)
-    never = OptimalTransport(alternations=60, breaks=5, regularity=0)
+    long = OptimalTransport(gradient=0, alternations=60, breaks=0, regularity=1e-3)
+    broken = OptimalTransport(gradient=0, alternations=60, breaks=1, regularity=1e-3)
+    never = OptimalTransport(gradient=0, alternations=60, breaks=5, regularity=0)
     x = long(64, 2, realization_rng(3, 0))
     assert not np.array_equal(broken(64, 2, realization_rng(3, 0)), x)
     assert np.array_equal(never(64, 2, realization_rng(3, 0)), x)
 
 
-@pytest.mark.parametrize("settings", [{"alternations": -1}, {"breaks": -1}, {"regularity": float("nan")}])
+@pytest.mark.parametrize("settings", [{"gradient": -0.1}, {"alternations": -1}, {"breaks": -1}, {"regularity": float("nan")}])
 def test_settings_out_of_range_are_refused(settings: dict[str, float]) -> None:
     with pytest.raises(InputError, match="must be >= 0"):
         OptimalTransport(**settings)  # type: ignore[arg-type]
@@ -77,7 +77,7 @@ def test_settings_out_of_range_are_refused(settings: dict[str, float]) -> None:
 def test_breaking_keeps_a_long_run_from_crystallising() -> None:
     """300 alternations either way; the bond order of two sets of 400 spreads by about .03."""
     order = [
-        measures(generate("bnot", n=400, alternations=k, breaks=breaks, seed=1, realizations=2))["bond_order"]
+        measures(generate("bnot", n=400, gradient=0, alternations=k, breaks=breaks, seed=1, realizations=2))["bond_order"]
         for k, breaks in ((60, 4), (300, 0))
     ]
     assert order[0] < order[1] - 0.03
