@@ -10,11 +10,11 @@ import numpy as np
 
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray
-from gbnbench.generators.ccvt.assignment import sample_lattice, share_out
-from gbnbench.generators.ccvt.swaps import Swaps
+from gbnbench.generators.ccvt.assignment import sample_lattice, share_out, short_basis, split
+from gbnbench.generators.ccvt.swaps import Swaps, placed
 from gbnbench.generators.protocol import Family
 
-COARSER = (1, 4, 16)  # samplings are so many times coarser, the coarsest first
+SPLITS = 2  # times that each sample is split into four
 MOST = 2**25  # samples in all: some 2 GB while they are swapped
 
 
@@ -76,7 +76,7 @@ class CapacityConstrained:
     dimensions: ClassVar[tuple[int, int | None]] = (2, 2)
     toroidal: ClassVar[bool] = True
     reference: ClassVar[str] = "Balzer, Schlömer & Deussen, 2009"
-    samples: int = 1024
+    samples: int = 2048
     passes: int = 1000
 
     def __post_init__(self) -> None:
@@ -110,20 +110,28 @@ class CapacityConstrained:
         """Draw one realization, (n, 2) float64; RefusalError where ``refusal`` has a reason."""
         if reason := self.refusal(n, d):
             raise RefusalError(reason)
-        sites = rng.random((n, d))
-        for capacity in sorted({max(1, self.samples // share) for share in COARSER}):
-            samples = sample_lattice(n * capacity, rng)
-            swaps = Swaps(sites, samples[share_out(sites, samples, rng)])
-            for _ in range(self.passes):
-                if swaps.settled:
-                    break
-                swaps.sweep(rng)
-            sites = swaps.sites
+        sites, capacity = rng.random((n, d)), self.samples
+        for _ in range(SPLITS):
+            capacity //= 4 if capacity % 4 == 0 else 1
+        samples, basis = sample_lattice(n * capacity, rng), short_basis(n * capacity)
+        swaps = Swaps(sites, placed(sites, samples[share_out(sites, samples, rng)]))
+        self._settle(swaps, rng)
+        while capacity < self.samples:
+            swaps = Swaps(swaps.sites, split(swaps.offsets, basis))
+            capacity, basis = 4 * capacity, basis / 2
+            self._settle(swaps, rng)
         if swaps.settled:
-            return sites
+            return swaps.sites
         warnings.warn(
             f"ccvt: passes={self.passes} left swaps that lower the energy of n={n} points; raise passes",
             RuntimeWarning,
             stacklevel=2,
         )
-        return sites
+        return swaps.sites
+
+    def _settle(self, swaps: Swaps, rng: np.random.Generator) -> None:
+        """Swap until no swap is left, or for so many passes."""
+        for _ in range(self.passes):
+            if swaps.settled:
+                return
+            swaps.sweep(rng)
