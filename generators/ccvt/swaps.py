@@ -12,6 +12,8 @@ from gbnbench.opencl import runtime
 
 SLACK = 0.2  # of the median radius: how much wider than the circles those are whose pairs are listed
 CROWDED = 2  # pairs on the list for each one that overlaps: then the list is made anew
+CHUNK = 32  # samples that have a box in common
+MORTON = np.array([sum((k >> bit & 1) << 2 * bit for bit in range(5)) for k in range(32)], dtype=np.uint16)
 GAIN = 1e-13  # least change of half a squared distance, in units of length squared, that counts as one
 
 
@@ -48,10 +50,10 @@ class Swaps:
         self._program = self._runtime.program(
             "gbnbench.generators",
             ("/vector.cl", "ccvt.cl"),
-            {"DOUBLE": 1, "LANES": self._runtime.lanes("double"), "GAIN": GAIN},
+            {"DOUBLE": 1, "LANES": self._runtime.lanes("double"), "GAIN": GAIN, "CHUNK": CHUNK},
         )
-        n = len(sites)
-        self._shape = offsets.shape
+        n, _, capacity = self._shape = offsets.shape
+        self._sizes = np.int32(capacity), np.int32(-(-capacity // CHUNK))
         self.sites = sites.copy()
         self.settled = False
         self._pairs: Pairs | None = None
@@ -62,7 +64,9 @@ class Swaps:
         self._listed_radius = self._radius
         self._moved = np.zeros((n, 2))
         self._changed = np.ones(n, dtype=np.int32)
-        self._offsets_buffer = self._runtime.upload(offsets)
+        self._offsets_buffer = self._runtime.upload(in_chunks(offsets))
+        self._boxes_buffer = self._runtime.empty(n * 4 * int(self._sizes[1]) * 8)
+        self._heaps_buffer = self._runtime.empty(n * capacity * 4)
         self._shift_buffer = self._runtime.upload(np.zeros((n, 2)))
         self._changed_buffer = self._runtime.upload(self._changed)
         self._moved_buffer = self._runtime.upload(self._moved)
@@ -101,10 +105,12 @@ class Swaps:
         self._runtime.update(self._changed_buffer, (self._changed == 2).astype(np.int32))
         if len(chosen):
             arguments = (
-                np.int32(self._shape[2]),
+                *self._sizes,
                 self._runtime.upload(np.stack([pairs.first, pairs.second], axis=1)[chosen].astype(np.int32)),
                 self._runtime.upload(between[chosen]),
                 self._offsets_buffer,
+                self._boxes_buffer,
+                self._heaps_buffer,
                 self._shift_buffer,
                 self._changed_buffer,
             )
@@ -134,8 +140,10 @@ class Swaps:
         self._run(
             "ccvt_recentre",
             len(self.sites),
-            *(np.int32(value) for value in (self._shape[0], self._shape[2])),
+            np.int32(len(self.sites)),
+            *self._sizes,
             self._offsets_buffer,
+            self._boxes_buffer,
             self._shift_buffer,
             self._changed_buffer,
             self._moved_buffer,
@@ -171,3 +179,25 @@ def placed(sites: FloatArray, samples: NDArray[np.float64]) -> FloatArray:
     offsets = samples - sites[:, None]
     offsets -= np.rint(offsets)
     return np.ascontiguousarray(np.moveaxis(offsets, 2, 1))
+
+
+def in_chunks(offsets: FloatArray) -> FloatArray:
+    """Order the samples of each site along Morton's curve, so that neighbours come together in chunks.
+
+    Parameters
+    ----------
+    offsets : (n, 2, capacity) float64
+        Samples from their sites.
+
+    Returns
+    -------
+    (n, 2, capacity) float64
+        The same in another order.
+    """
+    n, _, capacity = offsets.shape
+    strips = max(1, round((capacity / CHUNK) ** 0.5))
+    strip = np.empty((n, capacity), dtype=np.int64)
+    place = np.arange(capacity) * strips // capacity
+    np.put_along_axis(strip, np.argsort(offsets[:, 0], axis=1), place[None], axis=1)
+    order = np.argsort(strip + (0.25 + offsets[:, 1] / 4), axis=1)
+    return np.take_along_axis(offsets, order[:, None, :], axis=2)

@@ -5,174 +5,260 @@
  * of a is nearer to b, apart = b - a, by half of |o - a|^2 - |o - b|^2 = o.apart - (|b|^2 - |a|^2) / 2: its
  * gain. A swap lowers the energy by the gains of both samples.
  *
- * ccvt_swap: one work-item treats one pair out of [start, stop), in which no site comes twice. Samples that
- * may profit go to the front of their site's row, into a heap with the largest gain on top; while both tops
- * gain more than GAIN (-D) together they change sides and go behind the heaps. Both sites move to their
- * centroids, and count as changed.
+ * CHUNK (-D) samples at a time have a box: boxes (sites, 4, chunks) are the least x, the greatest x, the least
+ * y, the greatest y. A chunk whose box has no corner beyond what is sought is passed over unread.
+ *
+ * ccvt_swap: one work-item treats one pair out of [start, stop), in which no site comes twice. The indices of
+ * samples that may profit make a heap (sites, capacity) with the largest gain on top; while both tops gain
+ * more than GAIN (-D) together they change sides. Both sites move to their centroids, and count as changed.
  *
  * ccvt_recentre: one work-item takes one changed site: its offsets are from the centroid from now on, brought
  * back to [-1/2, 1/2] where they are longer (then changed is 2), moved is what they were shifted by, and shift
  * what still lacks to the centroid: rounding, or the effect of those brought back.
  */
 #define SUM double
+/* Not fmax and fmin: PoCL calls functions for those of vectors, at ten times the time. */
+#define LARGER(a, b) ((a) > (b) ? (a) : (b))
+#define SMALLER(a, b) ((a) < (b) ? (a) : (b))
 
-INLINE double gain_of(__global const double *x, __global const double *y, const int k, const double2 u)
+typedef struct {
+    __global double *x, *y; /* samples */
+    __global double *boxes; /* of the chunks */
+    __global int *heap;
+    double2 u; /* gains are components along it */
+} Row;
+
+INLINE Row row_of(const int site, const double2 u, const int capacity, const int chunks, __global double *offsets,
+                  __global double *boxes, __global int *heaps)
 {
-    return x[k] * u.x + y[k] * u.y;
+    Row row;
+    row.x = offsets + (size_t)site * 2 * capacity;
+    row.y = row.x + capacity;
+    row.boxes = boxes + (size_t)site * 4 * chunks;
+    row.heap = heaps + (size_t)site * capacity;
+    row.u = u;
+    return row;
 }
 
-INLINE void exchange(__global double *x, __global double *y, const int i, const int k)
+INLINE double gain_of(const Row row, const int k) { return row.x[k] * row.u.x + row.y[k] * row.u.y; }
+
+/* Largest gain of a chunk. */
+INLINE double farthest_in(const Row row, const int chunk, const int capacity)
 {
-    const double2 held = (double2)(x[i], y[i]);
-    x[i] = x[k];
-    y[i] = y[k];
-    x[k] = held.x;
-    y[k] = held.y;
+    double most = -1e300;
+    int k = chunk * CHUNK;
+    const int stop = min(k + CHUNK, capacity);
+#if LANES > 1
+    if (k + LANES <= stop) {
+        REALV lanes = LOADV(row.x, k) * row.u.x + LOADV(row.y, k) * row.u.y;
+        for (k += LANES; k + LANES <= stop; k += LANES) {
+            const REALV more = LOADV(row.x, k) * row.u.x + LOADV(row.y, k) * row.u.y;
+            lanes = LARGER(lanes, more);
+        }
+        REAL each[LANES];
+        STOREV(lanes, each, 0);
+        for (int lane = 0; lane < LANES; lane++) most = LARGER(most, each[lane]);
+    }
+#endif
+    for (; k < stop; k++) {
+        const double more = gain_of(row, k);
+        most = LARGER(most, more);
+    }
+    return most;
 }
 
-/* Bring the sample at i of a heap of count down to where both below it have less along u. */
-INLINE void sift_down(__global double *x, __global double *y, int i, const int count, const double2 u)
+/* The corners of the boxes that are farthest along u. */
+#define CORNERS(row)                                                                                          \
+    __global const double *corner_x = row.boxes + (row.u.x > 0.0 ? chunks : 0);                             \
+    __global const double *corner_y = row.boxes + (row.u.y > 0.0 ? 3 : 2) * chunks;
+#define CORNER(row, chunk) (corner_x[chunk] * row.u.x + corner_y[chunk] * row.u.y)
+
+/* Largest gain of a row: of the chunk that promises most, then of those that promise more than was found. */
+INLINE double farthest(const Row row, const int capacity, const int chunks)
 {
-    const double2 held = (double2)(x[i], y[i]);
-    const double gain = dot(held, u);
+    CORNERS(row)
+    int first = 0;
+    double promise = -1e300;
+    for (int chunk = 0; chunk < chunks; chunk++) {
+        const double corner = CORNER(row, chunk);
+        if (corner > promise) {
+            promise = corner;
+            first = chunk;
+        }
+    }
+    double most = farthest_in(row, first, capacity);
+    for (int chunk = 0; chunk < chunks; chunk++)
+        if (chunk != first && CORNER(row, chunk) > most) {
+            const double more = farthest_in(row, chunk, capacity);
+            most = LARGER(most, more);
+        }
+    return most;
+}
+
+/* Bring the index at i of a heap of count down to where both below it gain less. */
+INLINE void sift_down(const Row row, int i, const int count)
+{
+    const int held = row.heap[i];
+    const double gain = gain_of(row, held);
     for (int below = 2 * i + 1; below < count; below = 2 * i + 1) {
-        double larger = gain_of(x, y, below, u);
+        double larger = gain_of(row, row.heap[below]);
         if (below + 1 < count) {
-            const double other = gain_of(x, y, below + 1, u);
+            const double other = gain_of(row, row.heap[below + 1]);
             if (other > larger) {
                 larger = other;
                 below++;
             }
         }
         if (larger <= gain) break;
-        x[i] = x[below];
-        y[i] = y[below];
+        row.heap[i] = row.heap[below];
         i = below;
     }
-    x[i] = held.x;
-    y[i] = held.y;
+    row.heap[i] = held;
 }
 
-/* Largest component along u of a row. */
-INLINE double farthest(__global const double *x, __global const double *y, const int capacity, const double2 u)
+/* Put the indices of samples that gain more than bound into the heap; how many they are. */
+INLINE int fill_heap(const Row row, const int capacity, const int chunks, const double bound)
 {
-    double most = -1e300;
-    int k = 0;
-#if LANES > 1
-    if (capacity >= 2 * LANES) {
-        REALV even = -1e300, odd = -1e300; /* two of them, so that one need not wait for the other */
-        for (; k + 2 * LANES <= capacity; k += 2 * LANES) {
-            even = fmax(even, LOADV(x, k) * u.x + LOADV(y, k) * u.y);
-            odd = fmax(odd, LOADV(x, k + LANES) * u.x + LOADV(y, k + LANES) * u.y);
-        }
-        REAL each[LANES];
-        STOREV(fmax(even, odd), each, 0);
-        for (int lane = 0; lane < LANES; lane++) most = fmax(most, each[lane]);
-    }
-#endif
-    for (; k < capacity; k++) most = fmax(most, gain_of(x, y, k, u));
-    return most;
-}
-
-/* Put those of a row with more than bound along u first, in a heap; how many they are. */
-INLINE int heap_of(__global double *x, __global double *y, const int capacity, const double2 u, const double bound)
-{
+    CORNERS(row)
     int count = 0;
-    for (int k = 0; k < capacity; k += LANES) {
-        const int stop = min(k + LANES, capacity);
-#if LANES > 1
-        if (k + LANES <= capacity && !any(LOADV(x, k) * u.x + LOADV(y, k) * u.y > bound)) continue;
-#endif
-        for (int i = k; i < stop; i++)
-            if (gain_of(x, y, i, u) > bound) exchange(x, y, i, count++);
+    for (int chunk = 0; chunk < chunks; chunk++) {
+        if (!(CORNER(row, chunk) > bound) || !(farthest_in(row, chunk, capacity) > bound)) continue;
+        const int stop = min((chunk + 1) * CHUNK, capacity);
+        for (int k = chunk * CHUNK; k < stop; k++)
+            if (gain_of(row, k) > bound) row.heap[count++] = k;
     }
-    for (int i = count / 2 - 1; i >= 0; i--) sift_down(x, y, i, count, u);
+    for (int i = count / 2 - 1; i >= 0; i--) sift_down(row, i, count);
     return count;
 }
 
-__kernel void ccvt_swap(const int start, const int stop, const int capacity, __global const int2 *pairs,
-                        __global const double2 *between, __global double *offsets, __global double2 *shift,
+/* Take the top off a heap of count. */
+INLINE int pop(const Row row, const int count)
+{
+    const int top = row.heap[0];
+    row.heap[0] = row.heap[count - 1];
+    if (count > 1) sift_down(row, 0, count - 1);
+    return top;
+}
+
+INLINE void put(const Row row, const int k, const double2 sample, const int chunks)
+{
+    __global double *box = row.boxes + k / CHUNK;
+    row.x[k] = sample.x;
+    row.y[k] = sample.y;
+    box[0] = SMALLER(box[0], sample.x);
+    box[chunks] = LARGER(box[chunks], sample.x);
+    box[2 * chunks] = SMALLER(box[2 * chunks], sample.y);
+    box[3 * chunks] = LARGER(box[3 * chunks], sample.y);
+}
+
+__kernel void ccvt_swap(const int start, const int stop, const int capacity, const int chunks,
+                        __global const int2 *pairs, __global const double2 *between, __global double *offsets,
+                        __global double *boxes, __global int *heaps, __global double2 *shift,
                         __global int *changed)
 {
     const int pair = start + get_global_id(0);
     if (pair >= stop) return;
     const int a = pairs[pair].x, b = pairs[pair].y;
-    const double2 apart = between[pair] + shift[b] - shift[a];
-    __global double *ax = offsets + (size_t)a * 2 * capacity, *ay = ax + capacity;
-    __global double *bx = offsets + (size_t)b * 2 * capacity, *by = bx + capacity;
+    const double2 way = between[pair], apart = way + shift[b] - shift[a];
+    const Row of_a = row_of(a, apart, capacity, chunks, offsets, boxes, heaps);
+    const Row of_b = row_of(b, -apart, capacity, chunks, offsets, boxes, heaps);
     /* What the components along apart of both samples have to exceed together. */
     const double bar = dot(apart, apart) + dot(shift[a] - shift[b], apart) + GAIN;
-    const double from_a = farthest(ax, ay, capacity, apart), from_b = farthest(bx, by, capacity, -apart);
+    const double from_a = farthest(of_a, capacity, chunks), from_b = farthest(of_b, capacity, chunks);
     if (!(from_a + from_b > bar)) return;
 
-    int of_a = heap_of(ax, ay, capacity, apart, bar - from_b);
-    int of_b = heap_of(bx, by, capacity, -apart, bar - from_a);
-    double2 sum_a = (double2)(0.0, 0.0), sum_b = (double2)(0.0, 0.0);
-    while (of_a > 0 && of_b > 0) {
-        if (!(gain_of(ax, ay, 0, apart) + gain_of(bx, by, 0, -apart) > bar)) break;
-        exchange(ax, ay, 0, --of_a);
-        exchange(bx, by, 0, --of_b);
-        sift_down(ax, ay, 0, of_a, apart);
-        sift_down(bx, by, 0, of_b, -apart);
-        const double2 old_a = (double2)(ax[of_a], ay[of_a]), old_b = (double2)(bx[of_b], by[of_b]);
-        const double2 new_a = old_b + between[pair], new_b = old_a - between[pair];
-        ax[of_a] = new_a.x;
-        ay[of_a] = new_a.y;
-        bx[of_b] = new_b.x;
-        by[of_b] = new_b.y;
-        sum_a += new_a - old_a;
-        sum_b += new_b - old_b;
+    int left_a = fill_heap(of_a, capacity, chunks, bar - from_b);
+    int left_b = fill_heap(of_b, capacity, chunks, bar - from_a);
+    double2 sum = (double2)(0.0, 0.0);
+    int swaps = 0;
+    while (left_a > 0 && left_b > 0) {
+        if (!(gain_of(of_a, of_a.heap[0]) + gain_of(of_b, of_b.heap[0]) > bar)) break;
+        const int k = pop(of_a, left_a--), l = pop(of_b, left_b--);
+        const double2 from = (double2)(of_a.x[k], of_a.y[k]), to = (double2)(of_b.x[l], of_b.y[l]);
+        put(of_a, k, to + way, chunks);
+        put(of_b, l, from - way, chunks);
+        sum += to + way - from;
+        swaps++;
     }
-    shift[a] += sum_a / capacity;
-    shift[b] += sum_b / capacity;
-    changed[a] = changed[b] = 1;
+    shift[a] += sum / capacity;
+    shift[b] -= sum / capacity;
+    if (swaps > 0) changed[a] = changed[b] = 1;
 }
 
-__kernel void ccvt_recentre(const int sites, const int capacity, __global double *offsets,
-                            __global double2 *shift, __global int *changed, __global double2 *moved,
-                            __global double *radius)
+__kernel void ccvt_recentre(const int sites, const int capacity, const int chunks, __global double *offsets,
+                            __global double *boxes, __global double2 *shift, __global int *changed,
+                            __global double2 *moved, __global double *radius)
 {
     const int site = get_global_id(0);
     if (site >= sites || !changed[site]) return;
     __global double *x = offsets + (size_t)site * 2 * capacity, *y = x + capacity;
+    __global double *box = boxes + (size_t)site * 4 * chunks;
     const double2 centroid = shift[site];
     double2 sum = (double2)(0.0, 0.0);
     double widest = 0.0;
-    int k = 0;
-#if LANES > 1
-    REALV sum_x = 0.0, sum_y = 0.0, squares = 0.0;
-    for (; k + LANES <= capacity; k += LANES) {
-        const REALV ox = LOADV(x, k) - centroid.x, oy = LOADV(y, k) - centroid.y;
-        STOREV(ox, x, k);
-        STOREV(oy, y, k);
-        sum_x += ox;
-        sum_y += oy;
-        squares = fmax(squares, ox * ox + oy * oy);
-    }
-    REAL each[LANES];
-    STOREV(squares, each, 0);
-    for (int lane = 0; lane < LANES; lane++) widest = fmax(widest, each[lane]);
-    sum = (double2)(SUM_OF(sum_x), SUM_OF(sum_y));
-#endif
-    for (; k < capacity; k++) {
-        const double2 o = (double2)(x[k], y[k]) - centroid;
-        x[k] = o.x;
-        y[k] = o.y;
-        sum += o;
-        widest = fmax(widest, dot(o, o));
-    }
     int turned = 0;
-    if (widest > 0.25) {
-        sum = (double2)(0.0, 0.0);
-        widest = 0.0;
-        for (k = 0; k < capacity; k++) {
-            const double2 o = (double2)(x[k], y[k]), turns = rint(o);
-            turned |= turns.x != 0.0 || turns.y != 0.0;
-            x[k] = o.x - turns.x;
-            y[k] = o.y - turns.y;
-            sum += o - turns;
-            widest = fmax(widest, dot(o - turns, o - turns));
+    for (int chunk = 0; chunk < chunks; chunk++) {
+        int k = chunk * CHUNK;
+        const int stop = min(k + CHUNK, capacity);
+        double least_x = 1e300, least_y = 1e300, most_x = -1e300, most_y = -1e300;
+#if LANES > 1
+        REALV sum_x = 0.0, sum_y = 0.0, squares = 0.0;
+        REALV low_x = 1e300, low_y = 1e300, high_x = -1e300, high_y = -1e300;
+        for (; k + LANES <= stop; k += LANES) {
+            const REALV ox = LOADV(x, k) - centroid.x, oy = LOADV(y, k) - centroid.y;
+            STOREV(ox, x, k);
+            STOREV(oy, y, k);
+            sum_x += ox;
+            sum_y += oy;
+            const REALV square = ox * ox + oy * oy;
+            squares = LARGER(squares, square);
+            low_x = SMALLER(low_x, ox);
+            low_y = SMALLER(low_y, oy);
+            high_x = LARGER(high_x, ox);
+            high_y = LARGER(high_y, oy);
         }
+        REAL each[5 * LANES];
+        STOREV(squares, each, 0);
+        STOREV(low_x, each, LANES);
+        STOREV(low_y, each, 2 * LANES);
+        STOREV(high_x, each, 3 * LANES);
+        STOREV(high_y, each, 4 * LANES);
+        for (int lane = 0; lane < LANES; lane++) {
+            widest = LARGER(widest, each[lane]);
+            least_x = SMALLER(least_x, each[LANES + lane]);
+            least_y = SMALLER(least_y, each[2 * LANES + lane]);
+            most_x = LARGER(most_x, each[3 * LANES + lane]);
+            most_y = LARGER(most_y, each[4 * LANES + lane]);
+        }
+        sum += (double2)(SUM_OF(sum_x), SUM_OF(sum_y));
+#endif
+        for (; k < stop; k++) {
+            const double2 o = (double2)(x[k], y[k]) - centroid;
+            const double square = o.x * o.x + o.y * o.y;
+            x[k] = o.x;
+            y[k] = o.y;
+            sum += o;
+            widest = LARGER(widest, square);
+            least_x = SMALLER(least_x, o.x);
+            least_y = SMALLER(least_y, o.y);
+            most_x = LARGER(most_x, o.x);
+            most_y = LARGER(most_y, o.y);
+        }
+        if (least_x < -0.5 || least_y < -0.5 || most_x > 0.5 || most_y > 0.5) {
+            for (k = chunk * CHUNK; k < stop; k++) {
+                const double2 o = (double2)(x[k], y[k]), turns = rint(o);
+                turned |= turns.x != 0.0 || turns.y != 0.0;
+                x[k] = o.x - turns.x;
+                y[k] = o.y - turns.y;
+                sum -= turns;
+            }
+            least_x = least_y = -0.5;
+            most_x = most_y = 0.5;
+        }
+        box[chunk] = least_x;
+        box[chunks + chunk] = most_x;
+        box[2 * chunks + chunk] = least_y;
+        box[3 * chunks + chunk] = most_y;
     }
     radius[site] = sqrt(widest);
     moved[site] = centroid;
