@@ -75,7 +75,7 @@ def split(offsets: FloatArray, basis: FloatArray) -> FloatArray:
     a, b = basis / 4
     shifts = np.stack([a + b, a - b, b - a, -a - b], axis=1)
     fine = offsets[:, :, :, None] + shifts[:, None, :]
-    return fine.reshape(len(offsets), 2, -1)
+    return np.asarray(fine.reshape(len(offsets), 2, -1))
 
 
 def share_out(sites: FloatArray, samples: FloatArray, rng: np.random.Generator) -> NDArray[np.intp]:

@@ -13,7 +13,6 @@ from gbnbench.opencl import runtime
 SLACK = 0.2  # of the median radius: how much wider than the circles those are whose pairs are listed
 CROWDED = 2  # pairs on the list for each one that overlaps: then the list is made anew
 CHUNK = 32  # samples that have a box in common
-MORTON = np.array([sum((k >> bit & 1) << 2 * bit for bit in range(5)) for k in range(32)], dtype=np.uint16)
 GAIN = 1e-13  # least change of half a squared distance, in units of length squared, that counts as one
 
 
@@ -49,7 +48,7 @@ class Swaps:
             )
         self._program = self._runtime.program(
             "gbnbench.generators",
-            ("/vector.cl", "ccvt.cl"),
+            ("/vector.cl", "ccvt_swap.cl", "ccvt_recentre.cl"),
             {"DOUBLE": 1, "LANES": self._runtime.lanes("double"), "GAIN": GAIN, "CHUNK": CHUNK},
         )
         n, _, capacity = self._shape = offsets.shape
@@ -93,7 +92,7 @@ class Swaps:
         changed = self._changed > 0
         squares = np.sum(between * between, axis=1)
         overlap = squares < (self._radius[pairs.first] + self._radius[pairs.second]) ** 2
-        self._crowded = CROWDED * np.count_nonzero(overlap) < len(overlap)
+        self._crowded = bool(CROWDED * np.count_nonzero(overlap) < len(overlap))
         chosen = np.flatnonzero(overlap & (changed[pairs.first] | changed[pairs.second]))
         group = pairs.group[chosen]
         if len(chosen) < len(changed):  # a few pairs need fewer groups
@@ -182,7 +181,7 @@ def placed(sites: FloatArray, samples: NDArray[np.float64]) -> FloatArray:
 
 
 def in_chunks(offsets: FloatArray) -> FloatArray:
-    """Order the samples of each site along Morton's curve, so that neighbours come together in chunks.
+    """Order the samples of each site by strips, and in these by y, so that a chunk is a compact piece.
 
     Parameters
     ----------
@@ -196,8 +195,8 @@ def in_chunks(offsets: FloatArray) -> FloatArray:
     """
     n, _, capacity = offsets.shape
     strips = max(1, round((capacity / CHUNK) ** 0.5))
-    strip = np.empty((n, capacity), dtype=np.int64)
-    place = np.arange(capacity) * strips // capacity
-    np.put_along_axis(strip, np.argsort(offsets[:, 0], axis=1), place[None], axis=1)
-    order = np.argsort(strip + (0.25 + offsets[:, 1] / 4), axis=1)
+    strip = np.empty((n, capacity))
+    rank = np.arange(capacity) * strips // capacity
+    np.put_along_axis(strip, np.argsort(offsets[:, 0], axis=1), rank[None].astype(np.float64), axis=1)
+    order = np.argsort(strip + offsets[:, 1] / 4, axis=1)  # |y| is 1 at most, so that strips stay apart
     return np.take_along_axis(offsets, order[:, None, :], axis=2)

@@ -105,7 +105,9 @@ def test_pairs_are_those_of_overlapping_circles() -> None:
         if toroidal_distance(sites[a], sites[b]) < radius[a] + radius[b]
     }
     assert found == expected
-    assert np.allclose(pairs.between, displacement(sites[pairs.second], sites[pairs.first]), rtol=0, atol=1e-15)
+    assert np.allclose(
+        pairs.between, displacement(sites[pairs.second], sites[pairs.first]), rtol=0, atol=1e-15
+    )
     assert np.all(np.diff(pairs.group) >= 0)
 
 
@@ -178,10 +180,11 @@ def test_a_finer_sampling_settles_at_a_lower_energy() -> None:
 
 @pytest.mark.slow
 def test_a_coarse_sampling_ends_where_the_program_of_the_authors_does() -> None:
-    """Their algorithm to the letter, 1,024 samples a point on a grid: mean distance .8608, five sets of 1,024.
+    """Their algorithm to the letter, 1,024 samples a point on a grid, gave these figures for five sets.
 
-    Written anew in C with pairs in order, each after the other, nothing split: mean .8608 and spread over sets
-    .0011; oscillations 1.77 and .025; bond order .406 and .013. Five spreads of a set are allowed.
+    It was written anew in C, pairs in order, each after the other, nothing split: mean distance .8608
+    and spread .0011; oscillations 1.77 and .025; bond order .406 and .013. Five spreads are allowed,
+    and four of the bond order's.
     """
     found = measures(generate("ccvt", n=1024, samples=1024, seed=5, realizations=3))
     assert found["mean_distance"] == pytest.approx(0.8608, abs=0.0055)
