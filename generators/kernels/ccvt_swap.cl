@@ -1,12 +1,12 @@
-/* Swaps of samples between pairs of sites at equal capacity (Balzer, Schlömer & Deussen 2009): needs vector.cl.
+/* Swaps of samples between pairs of sites at equal capacity (Balzer, Schlömer & Deussen 2009). Needs vector.cl.
  *
  * offsets (sites, 2, capacity) are the samples of each site, from its place at the start of the pass: x, then
  * y. shift (sites) is how far the site has moved since, always to the centroid of its samples. A sample at o
  * of a is nearer to b, apart = b - a, by half of |o - a|^2 - |o - b|^2 = o.apart - (|b|^2 - |a|^2) / 2: its
  * gain. A swap lowers the energy by the gains of both samples.
  *
- * CHUNK (-D) samples at a time have a box: boxes (sites, 4, chunks) are the least x, the greatest x, the least
- * y, the greatest y. A chunk whose box has no corner beyond what is sought is passed over unread.
+ * CHUNK (-D) samples at a time have a box: boxes (sites, 4, chunks) are the least x, the greatest x, the
+ * least y, the greatest y. A chunk whose box has no corner beyond what is sought is passed over unread.
  *
  * ccvt_swap: one work-item treats one pair out of [start, stop), in which no site comes twice. The indices of
  * samples that may profit make a heap (sites, capacity) with the largest gain on top; while both tops gain
@@ -23,8 +23,8 @@ typedef struct {
     double2 u; /* gains are components along it */
 } Row;
 
-INLINE Row row_of(const int site, const double2 u, const int capacity, const int chunks, __global double *offsets,
-                  __global double *boxes, __global int *heaps)
+INLINE Row row_of(const int site, const double2 u, const int capacity, const int chunks,
+                  __global double *offsets, __global double *boxes, __global int *heaps)
 {
     Row row;
     row.x = offsets + (size_t)site * 2 * capacity;
@@ -63,8 +63,8 @@ INLINE double farthest_in(const Row row, const int chunk, const int capacity)
 }
 
 /* The corners of the boxes that are farthest along u. */
-#define CORNERS(row)                                                                                          \
-    __global const double *corner_x = row.boxes + (row.u.x > 0.0 ? chunks : 0);                             \
+#define CORNERS(row) \
+    __global const double *corner_x = row.boxes + (row.u.x > 0.0 ? chunks : 0); \
     __global const double *corner_y = row.boxes + (row.u.y > 0.0 ? 3 : 2) * chunks;
 #define CORNER(row, chunk) (corner_x[chunk] * row.u.x + corner_y[chunk] * row.u.y)
 

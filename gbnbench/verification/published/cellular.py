@@ -62,14 +62,14 @@ CELLULAR = (
     ),
     PublishedFigure(
         "capcvt", "min_distance", ".692", 0.617, 0.767, f"{SPREADS} .030", CAPCVT,
-        n=4096, sets=2,
+        n=4096,
     ),
     PublishedFigure(
         "capcvt", "noise_floor", "1.4e-4", 1.17e-4, 1.63e-4, f"{SPREADS} 7e-6, and two digits", CAPCVT,
-        n=4096, sets=2,
+        n=4096,
     ),
     PublishedFigure(
-        "capcvt", "peak", "4.6", 4.3, 4.9, f"{SPREADS} .10, and two digits", CAPCVT, n=4096, sets=2,
+        "capcvt", "peak", "4.6", 4.3, 4.9, f"{SPREADS} .10, and two digits", CAPCVT, n=4096,
     ),
     PublishedFigure(
         "ccvt", "min_distance", ".748", 0.715, 0.781, f"{SPREADS} .013", CCVT, sets=2,
