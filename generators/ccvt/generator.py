@@ -61,7 +61,7 @@ class CapacityConstrained:
     Nyquist frequency .858 (.860), oscillations 2.01 (2.01). That number is thus inferred from one figure, and
     is the default.
 
-    Cost: 6 CPU s for 1,024 points, proportional to n and to the samples.
+    Cost: 5 CPU s for 1,024 points, proportional to n.
 
     References
     ----------
