@@ -61,8 +61,8 @@ class CapacityConstrained:
     Nyquist frequency .858 (.860), oscillations 2.01 (2.01). That number is thus inferred from one figure, and
     is the default.
 
-    Cost: 5 CPU s for 1,024 points, some 25 for 4,096. The last passes, of which more sites need more, are over
-    a few pairs.
+    Cost: 5 CPU s for 1,024 points, some 25 for 4,096. More sites need more passes, but the last
+    of them are over a few pairs.
 
     References
     ----------
