@@ -160,7 +160,9 @@ def real_transform(real: NDArray[Any], out: NDArray[Any], threads: int) -> None:
 
         ducc0.fft.r2c(real, axes=(1,), nthreads=threads, out=out)
     else:
-        out[...] = scipy.fft.rfft(real, axis=1, workers=threads)
+        from scipy import fft
+
+        out[...] = fft.rfft(real, axis=1, workers=threads)
 
 
 def ducc_available() -> bool:
