@@ -33,8 +33,11 @@ from gbnbench.doctor.numpy_references import (
     numpy_periodic_square,
     numpy_power,
     numpy_star_square,
+    numpy_swap_fault,
     numpy_waves,
 )
+from gbnbench.generators.ccvt.assignment import sample_lattice, share_out
+from gbnbench.generators.ccvt.swaps import Swaps, placed
 from gbnbench.generators.fpo.relocation import Sweeps, move_afresh
 from gbnbench.generators.gbn.box import BoxEnergy
 from gbnbench.generators.gbn.energy import energy_evaluation
@@ -52,6 +55,8 @@ QUICK_BOXES = ((90, 2, 1.0),)
 BOXES = (*QUICK_BOXES, (1500, 2, 0.5), (120, 3, 1.0), (60, 8, 1.0))
 ADAPTIVE = ((61, 2), (71, 3))  # n, d
 SWEEP, QUICK_SWEEP = 101, 41  # points of the farthest-point kernel's sweep
+SWAPS, QUICK_SWAPS = ((31, 77), (11, 300)), ((23, 37),)  # sites, samples of each
+PASSES = 1000  # of swaps; a few dozen bring so few to rest
 DISCREPANCIES = ((2111, 2), (83, 5))  # n, d; one more than a block of columns
 QUICK_DISCREPANCIES = ((83, 5),)
 PAIRS = ((1111, 2), (333, 3))  # n, d
@@ -136,6 +141,17 @@ def _farthest_points(n: int, precision: str) -> Iterator[Check]:
     yield Check("farthest-point sweep", f"n={n} d=2", precision, error, DISTANCE)
 
 
+def _swaps(n: int, capacity: int, precision: str) -> Iterator[Check]:
+    rng = np.random.default_rng(n)
+    sites, samples = rng.random((n, 2)), sample_lattice(n * capacity, rng)
+    work = Swaps(sites, placed(sites, samples[share_out(sites, samples, rng)]))
+    for _ in range(PASSES):
+        if not work.settled:
+            work.sweep(rng)
+    error = numpy_swap_fault(work.sites, work.offsets, samples)
+    yield Check("swaps of samples", f"n={n} samples={capacity}", precision, error, DISTANCE)
+
+
 def _discrepancies(n: int, d: int, precision: str) -> Iterator[Check]:
     x = np.random.default_rng(n).random((n, d))
     found = discrepancies(x, ["CD", "L2-star", "L2-periodic"])
@@ -200,6 +216,7 @@ def planned_checks(quick: bool, device: Device) -> list[tuple[KernelChecks, tupl
             work.extend((_integrands, case) for case in (QUICK_INTEGRANDS if quick else INTEGRANDS))
             work.extend((_pairs, case) for case in (QUICK_PAIRS if quick else PAIRS))
             work.append((_farthest_points, (QUICK_SWEEP if quick else SWEEP,)))
+            work.extend((_swaps, case) for case in (QUICK_SWAPS if quick else SWAPS))
             work.extend((_discrepancies, case) for case in (QUICK_DISCREPANCIES if quick else DISCREPANCIES))
         planned.extend((function, case, precision) for function, case in work)
     return planned
