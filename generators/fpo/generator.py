@@ -8,10 +8,11 @@ from typing import ClassVar
 
 import numpy as np
 
-from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray, check_points, densest_spacing
 from gbnbench.generators.fpo.relocation import Sweeps, minimum_distance
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.set_by_set import SetBySet, Told
 
 WINDOW = 5  # sweeps over which the gain is judged
 JAM = 1e-6  # in densest spacings: a set that gains less over the window goes nowhere
@@ -40,7 +41,7 @@ class FarthestPointResult:
 
 
 @dataclass(frozen=True)
-class FarthestPoint:
+class FarthestPoint(SetBySet):
     """Farthest-point optimisation: each point in turn moves to the centre of the largest gap of the rest.
 
     Parameters
@@ -114,18 +115,17 @@ class FarthestPoint:
             return f"fpo needs n of at least 1; got n={n}"
         return None
 
-    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
-        """Draw one realization from a uniform random start: (n, 2) float64 in [0, 1)."""
-        reason = self.refusal(n, d)
-        if reason:
-            raise RefusalError(reason)
+    def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
+        """Draw one realization from a uniform random start; see ``SetBySet``."""
         unit = densest_spacing(n, 2)
-        best = self.optimise(rng.random((1, n, d)))[0]
+        best = self.optimise(rng.random((1, n, d)), told)[0]
         for _ in range(self.starts - 1):
             if not best.converged or best.min_distance[-1] >= self.target * unit:
                 break
             best = max(
-                best, self.optimise(rng.random((1, n, d)))[0], key=lambda result: result.min_distance[-1]
+                best,
+                self.optimise(rng.random((1, n, d)), told)[0],
+                key=lambda result: result.min_distance[-1],
             )
         if not best.converged:
             warnings.warn(
@@ -136,13 +136,15 @@ class FarthestPoint:
             )
         return best.points
 
-    def optimise(self, starts: FloatArray) -> list[FarthestPointResult]:
+    def optimise(self, starts: FloatArray, told: Told | None = None) -> list[FarthestPointResult]:
         """Optimise several sets at once, one work-item a set.
 
         Parameters
         ----------
         starts : (sets, n, 2) float64
             Points on the unit torus; left as they are.
+        told : callable, optional
+            Takes the share of the sweeps that are done; most sets need a tenth of them.
 
         Returns
         -------
@@ -163,7 +165,9 @@ class FarthestPoint:
         work = Sweeps(x)
         history = [[minimum_distance(points)] for points in x]
         converged = np.zeros(len(x), dtype=bool)
-        for _ in range(self.sweeps):
+        for done in range(self.sweeps):
+            if told is not None:
+                told(done / self.sweeps)
             moved = work.sweep(~converged)
             for s in np.flatnonzero(~converged):
                 history[s].append(float(work.nearest[s]))
