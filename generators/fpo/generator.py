@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 import numpy as np
 
@@ -55,13 +55,16 @@ class FarthestPoint(SetBySet):
         Most sweeps from one start; a ``RuntimeWarning`` says when they did not suffice.
     starts : int
         Most random starts: a set that jams below the target is begun anew, and the best is kept.
+    strategy : {"global", "local"}
+        Where a point looks for the largest gap: among all, or those beside the neighbours that it had.
 
     Notes
     -----
-    The paper's global strategy: a point leaves the Delaunay triangulation, and moves to the centre of its
-    largest circumcircle if that radius exceeds the distance the point had to its nearest neighbour; else it
-    stays. Points are visited in one random order, the same in every sweep; since the start is independent
-    uniform points, that is their index order.
+    A point leaves the Delaunay triangulation, and moves to the centre of its largest circumcircle if that
+    radius exceeds the distance the point had to its nearest neighbour; else it stays. That is the paper's
+    global strategy; its local one looks at circles through a former neighbour alone, and needs twice as many
+    sweeps to sets that are as good. Points are visited in one random order, the same in every sweep; since
+    the start is independent uniform points, that is their index order.
 
     A set jams where no point has a farther place to go: five sweeps gain less than 1e-6 d_hex. That happens
     below the target to one start in six at n = 64 or 100, to three in a hundred at n = 256, and was not
@@ -85,6 +88,7 @@ class FarthestPoint(SetBySet):
     gain: float = 0.002
     sweeps: int = 1000
     starts: int = 10
+    strategy: Literal["global", "local"] = "global"
 
     def __post_init__(self) -> None:
         if not 0 <= self.target <= 1:
@@ -162,7 +166,7 @@ class FarthestPoint(SetBySet):
         if x.ndim != 3 or x.shape[2] != 2:
             raise InputError(f"starts must be (sets, n, 2); got shape {x.shape}")
         unit = densest_spacing(x.shape[1], 2)
-        work = Sweeps(x)
+        work = Sweeps(x, local=self.strategy == "local")
         history = [[minimum_distance(points)] for points in x]
         converged = np.zeros(len(x), dtype=bool)
         for done in range(self.sweeps):
