@@ -30,7 +30,7 @@ class SetBySet(ABC):
 
     @abstractmethod
     def refusal(self, n: int, d: int) -> str | None:
-        """Say why n points in d dimensions cannot be made; see ``Generator``."""
+        """Say why n points in d dimensions cannot be made, as ``Generator.refusal`` does."""
 
     @abstractmethod
     def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:

@@ -120,7 +120,7 @@ class FarthestPoint(SetBySet):
         return None
 
     def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
-        """Draw one realization from a uniform random start; see ``SetBySet``."""
+        """Draw one realization from a uniform random start, as ``SetBySet.one_set`` says."""
         unit = densest_spacing(n, 2)
         best = self.optimise(rng.random((1, n, d)), told)[0]
         for _ in range(self.starts - 1):

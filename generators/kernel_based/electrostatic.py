@@ -95,7 +95,7 @@ class Electrostatic(SetBySet):
         return None
 
     def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
-        """Draw one realization; see ``SetBySet``."""
+        """Draw one realization, as ``SetBySet.one_set`` says."""
         x = rng.random((n, d))
         if n == 1:
             return x

@@ -103,7 +103,7 @@ class KernelDensityModel(SetBySet):
         return None
 
     def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
-        """Draw one realization; see ``SetBySet``."""
+        """Draw one realization, as ``SetBySet.one_set`` says."""
         sizes = [n]
         for _ in range(self.levels - 1):
             sizes.insert(0, -(-sizes[0] // 2**d))

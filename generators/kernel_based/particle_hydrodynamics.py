@@ -101,7 +101,7 @@ class ParticleHydrodynamics(SetBySet):
         return None
 
     def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
-        """Draw one realization; see ``SetBySet``."""
+        """Draw one realization, as ``SetBySet.one_set`` says."""
         x = rng.random((n, d))
         side = n ** (1 / d)
         velocity = np.zeros((n, d))

@@ -87,7 +87,7 @@ class ProgressiveGaussianBlueNoise(SetBySet):
         return reason
 
     def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
-        """Draw one realization; see ``SetBySet``."""
+        """Draw one realization, as ``SetBySet.one_set`` says."""
         monitor = Monitor(lambda done, most, _: told(done / most / 2))
         x = self._unordered().draw(n, d, [rng], monitor)[0]
         return np.ascontiguousarray(

@@ -94,7 +94,7 @@ class SpectralSampling(SetBySet):
         return None
 
     def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
-        """Draw one realization; see ``SetBySet``."""
+        """Draw one realization, as ``SetBySet.one_set`` says."""
         side = n ** (1 / d)
         width = self.sigma / side
         x = most_independent(rng.random((CANDIDATES * n, d)), n, width)

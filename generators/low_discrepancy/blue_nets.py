@@ -97,7 +97,7 @@ class BlueNets(SetBySet):
         return f"n must be 2**m, at most 2**{MOST_BITS}, for bluenets; got n={n}, nearest is {nearest}"
 
     def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
-        """Draw one realization; see ``SetBySet``."""
+        """Draw one realization, as ``SetBySet.one_set`` says."""
         m = n.bit_length() - 1
         y = random_net(m, rng)
         if m:

@@ -91,7 +91,7 @@ class LatinMaximin(SetBySet):
         )
 
     def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
-        """Draw one realization; see ``SetBySet``."""
+        """Draw one realization, as ``SetBySet.one_set`` says."""
         strata = rng.permuted(np.tile(np.arange(n), (d, 1)), axis=1)
         if d > 1 and n > 2:
             strata = self.optimised(strata, rng, told)

@@ -97,7 +97,7 @@ class OptimalTransport(SetBySet):
         return None if d == 2 else f"bnot cuts the plane into power cells; got d={d}, use d=2"
 
     def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
-        """Draw one realization; see ``SetBySet``."""
+        """Draw one realization, as ``SetBySet.one_set`` says."""
         rounds = 1 + self.breaks
         x, diagram = self._alternate(rng.random((n, d)), lambda share: told(share / rounds))
         for k in range(self.breaks):

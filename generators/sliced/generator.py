@@ -101,7 +101,7 @@ class Sliced(SetBySet):
         return None
 
     def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
-        """Draw one realization; see ``SetBySet``."""
+        """Draw one realization, as ``SetBySet.one_set`` says."""
         start = rng.standard_normal((n, d))
         length = np.sqrt(np.sum(start**2, axis=1, keepdims=True))
         x = start / length * rng.random((n, 1)) ** (1 / d)

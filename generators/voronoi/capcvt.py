@@ -123,7 +123,7 @@ class CapacityConstrainedVoronoi(SetBySet):
         return None if d == 2 else f"capcvt has its gradient for cells of the plane; got d={d}, use d=2"
 
     def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
-        """Draw one realization; see ``SetBySet``."""
+        """Draw one realization, as ``SetBySet.one_set`` says."""
         from scipy.optimize import minimize
 
         def objective(places: NDArray[np.float64]) -> tuple[float, FloatArray]:

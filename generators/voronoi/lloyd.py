@@ -92,7 +92,7 @@ class Lloyd(SetBySet):
         return None if d <= 4 else f"d must be 1 to 4 for Lloyd's method; got d={d}, nearest is 4"
 
     def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
-        """Draw one realization; see ``SetBySet``."""
+        """Draw one realization, as ``SetBySet.one_set`` says."""
         x = rng.random((n, d))
         if self.method == "lloyd" or (self.method == "auto" and d <= 2):
             return self._by_lloyd(x, 200 if self.iterations is None else self.iterations, told)
