@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from gbnbench.core.torus import FloatArray, wrap
+from gbnbench.generators.gbn.ewald import EwaldEnergy
+from gbnbench.generators.gbn.mesh_sums import MeshEnergy
 from gbnbench.generators.gbn.pair_kernels import SINGULAR, exponent, smooth_weights
 from gbnbench.generators.gbn.protocol import EnergyGradient
-from gbnbench.generators.kernel_based.ewald import EwaldEnergy
-from gbnbench.generators.kernel_based.mesh_sums import MeshEnergy
 
 MOST = {1: 100_000, 2: 20_000, 3: 20_000}  # points, minutes of sums
 

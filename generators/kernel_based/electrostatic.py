@@ -10,7 +10,7 @@ import numpy as np
 
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray, wrap
-from gbnbench.generators.kernel_based.ewald import EwaldEnergy
+from gbnbench.generators.gbn.ewald import EwaldEnergy
 from gbnbench.generators.protocol import Family
 from gbnbench.generators.set_by_set import SetBySet, Told
 

@@ -106,7 +106,19 @@ class CorrelationDescent:
         return math.sqrt(self.width * float(np.sum((correlation - self.target) ** 2)))
 
     def forces(self, x: FloatArray, correlation: FloatArray) -> FloatArray:
-        """Compute the forces on points, (n, 2); their scale means nothing."""
+        """Compute the forces on points; their scale means nothing.
+
+        Parameters
+        ----------
+        x : (n, 2) float64
+            Points in [0, 1).
+        correlation : (n,) float64
+            Theirs.
+
+        Returns
+        -------
+        (n, 2) float64
+        """
         force = np.cumsum(self.width * (correlation - self.target)) / (self.n * self._radius**2)
         force = np.append(force, 0.0)
         force[int(USED / self.width) :] = 0.0

@@ -13,13 +13,12 @@ from scipy.special import j0
 
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
-from gbnbench.generators.gbn import pair_kernels
+from gbnbench.generators.gbn import ewald, pair_kernels
 from gbnbench.generators.gbn.energy_settings import EnergySettings
+from gbnbench.generators.gbn.ewald import EwaldEnergy
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.gbn.mesh_evaluation import MeshEvaluation
-from gbnbench.generators.kernel_based import ewald
-from gbnbench.generators.kernel_based.ewald import EwaldEnergy
-from gbnbench.generators.kernel_based.mesh_sums import MeshEnergy
+from gbnbench.generators.gbn.mesh_sums import MeshEnergy
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.generators.registry import generate
 
