@@ -1,0 +1,136 @@
+"""The pull on the points: the density, smoothed by part of the kernels' width, at several resolutions.
+
+The energy is E = 1/2 integral of (A - T)^2, where A sums the points' Gaussians. T spreads each pixel's share
+of points over a Gaussian of variance (t s)^2 + 1/12, s being the kernels' width there and 1/12 the variance
+of a square pixel. At t = 1 a set that has the density leaves nothing to be gained (the method is faithful);
+near 0 pixels are points, edges are sharpened, and points gather in clumps.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gbnbench.core.torus import FloatArray
+from gbnbench.generators.adaptive.density import Density
+from gbnbench.generators.adaptive.gbn.kernel_widths import LADDER, KernelWidths
+from gbnbench.generators.adaptive.gbn.smoothing import ComplexArray, PaddedGrid, padded_grid
+
+PIXEL = 1 / 12  # variance of a pixel's square along an axis
+LEAST_ROOM = 64  # pixels beyond the border that any image may have; larger ones up to half their longest side
+BEYOND_INK = 1.5  # width of a kernel on ink over the largest at an inked pixel's centre, at most
+
+
+@dataclass(frozen=True)
+class Level:
+    """T at one resolution.
+
+    Attributes
+    ----------
+    cell : (d,) float64
+        Sides of a cell, in pixels.
+    variance : float
+        By which T is smoothed already, in squared pixels.
+    first : (d,) float64
+        Position of the first cell's centre, in pixels.
+    values : float32 or float64 array
+        T at the cells' centres, points a squared pixel (or cubed).
+    reached : int
+        Cells to either side that the widest kernel of the level reaches.
+    """
+
+    cell: FloatArray
+    variance: float
+    first: FloatArray
+    values: FloatArray
+    reached: int
+
+
+def attraction_levels(
+    density: Density, n: int, widths: KernelWidths, part: float, resolution: float, reach: float
+) -> tuple[Level, ...]:
+    """Spread the density, and sample it at cells of 1, 2, 4 ... pixels.
+
+    Parameters
+    ----------
+    density : Density
+        The density.
+    n : int
+        Points.
+    widths : KernelWidths
+        The kernels' widths.
+    part : float
+        t.
+    resolution : float
+        Width of a kernel over the cells of its level, at least: a level's error is exp(-pi^2 resolution^2 /
+        2).
+    reach : float
+        Standard deviations after which a Gaussian ends.
+
+    Returns
+    -------
+    tuple of Level
+        From the finest on: level j serves kernels of width resolution * 2^j up to twice that.
+    """
+    inked = density.values > 0
+    on_ink = float(np.exp(widths.log_width[inked].max()))
+    # The transform's ends meet: a kernel at one border must not see what is spread at the other one.
+    apart = reach * on_ink * math.hypot(1, part)
+    room = max(LEAST_ROOM, max(density.shape) // 2)
+    margin = 0 if density.toroidal else max(4, min(math.ceil(apart / 2), room))
+    grid = padded_grid(density.shape, margin)
+    most = math.inf if density.toroidal else 2 * margin / (reach * math.hypot(1, part))
+    log_width = np.minimum(widths.log_width[inked], math.log(most))
+    spectrum = _spread_spectrum(grid, density.of_points(n), log_width, inked, part)
+    largest = BEYOND_INK * on_ink
+    levels: list[Level] = []
+    while True:
+        scale = 2.0 ** len(levels)
+        last = resolution * 2 * scale > min(largest, most)
+        counts = tuple(math.ceil(size / scale) for size in grid.padded)
+        variance = scale**2 if levels else 0.0
+        values = grid.sampled(grid.smoothed(spectrum, variance) if levels else spectrum, counts)
+        cell = np.array(grid.padded) / counts
+        widest = largest if last else resolution * 2 * scale
+        # Around a point at the border, as far as the widest kernel of the level reaches.
+        beyond = [math.ceil(reach * math.sqrt(widest**2 - variance) / c) + 2 for c in cell.tolist()]
+        values = np.pad(values, [(b, b) for b in beyond], "wrap")
+        levels.append(Level(cell, variance, (0.5 - np.array(beyond)) * cell - margin, values, max(beyond)))
+        if last:
+            return tuple(levels)
+
+
+def _spread_spectrum(
+    grid: PaddedGrid, rho: FloatArray, logs: FloatArray, inked: NDArray[np.bool_], part: float
+) -> ComplexArray:
+    """Spectrum of T: a sum over a ladder of widths, among which each pixel's share is interpolated."""
+    least, step = float(logs.min()), math.log(LADDER)
+    at = (logs - least) / step
+    last = max(1, math.ceil(float(at.max()) - 1e-9))
+    below = np.clip(np.floor(at), 0, last - 1)
+    u = at - below
+    # Cubic interpolation in the logarithm of the width.
+    shares = {
+        -1: -u * (u - 1) * (u - 2) / 6,
+        0: (u + 1) * (u - 1) * (u - 2) / 2,
+        1: -(u + 1) * u * (u - 2) / 2,
+        2: (u + 1) * u * (u - 1) / 6,
+    }
+    total = None
+    for j in range(-1, last + 2):
+        share = np.zeros(rho.shape)
+        of_ink = np.zeros(len(logs))
+        for offset, values in shares.items():
+            here = below == j - offset
+            of_ink[here] = values[here]
+        if not of_ink.any():
+            continue
+        share[inked] = rho[inked] * of_ink
+        width = part * math.exp(least + j * step)
+        spread = grid.smoothed(grid.spectrum(share), width**2 + PIXEL)
+        total = spread if total is None else total + spread
+    assert total is not None  # noqa: S101 - some pixel has ink
+    return total
