@@ -26,7 +26,8 @@ from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.errors import GbnbenchError, InputError
 from gbnbench.execution.progress import Progress
 from gbnbench.execution.worker_pool import ONE_THREAD
-from gbnbench.runs.resumable import Task, TaskRun
+from gbnbench.runs.resumable import TaskRun
+from gbnbench.runs.task import Task
 
 Table = dict[str, list[dict[str, str]]]
 

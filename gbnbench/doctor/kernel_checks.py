@@ -41,16 +41,16 @@ from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.plan import plan_energy
 from gbnbench.opencl import Device, choose
 
-# n, d, fmax: none a multiple of a vector, a tile or a chunk; the one of 613 takes several launches. The
-# transforms of fmax = 8 and 10 in the plane have all radices between them.
-QUICK_PERIODOGRAMS = ((613, 2, 22), (61, 2, 8), (61, 2, 10), (61, 3, 3), (29, 5, 1))
+# n, d, fmax: none a multiple of a vector, a tile or a chunk; the one of 613 takes several launches, that
+# of 601 several runs on a line. The transforms of fmax = 8 and 10 in the plane have all radices between them.
+QUICK_PERIODOGRAMS = ((601, 1, 22), (613, 2, 22), (61, 2, 8), (61, 2, 10), (61, 3, 3), (29, 5, 1))
 PERIODOGRAMS = ((7, 1, 19), (131, 2, 11), (333, 2, 5), *QUICK_PERIODOGRAMS)
 # n, d, sigma: wide boxes, then narrow ones, each by every evaluation that serves it.
 ENERGIES = ((613, 2, 0.9), (401, 1, 1.0), (83, 2, 1.0), (53, 3, 0.7), (37, 8, 1.0))
 QUICK_ENERGIES = ((401, 2, 1.0), (53, 3, 0.7))
 QUICK_BOXES = ((90, 2, 1.0),)
 BOXES = (*QUICK_BOXES, (1500, 2, 0.5), (120, 3, 1.0), (60, 8, 1.0))
-ADAPTIVE = ((61, 2), (23, 3))  # n, d
+ADAPTIVE = ((61, 2), (71, 3))  # n, d
 SWEEP, QUICK_SWEEP = 101, 41  # points of the farthest-point kernel's sweep
 DISCREPANCIES = ((2111, 2), (83, 5))  # n, d; one more than a block of columns
 QUICK_DISCREPANCIES = ((83, 5),)
