@@ -16,6 +16,7 @@ from gbnbench.generators.protocol import Family
 from gbnbench.generators.set_by_set import SetBySet, Told
 
 AREAS = 1e-3  # relative error of each area while the points move: less changes nothing that can be measured
+USUAL = 10  # alternations until the gradient is small, for progress
 
 
 @dataclass(frozen=True)
@@ -118,21 +119,14 @@ class OptimalTransport(SetBySet):
             x, diagram = self._alternate(break_regions(x, diagram, regular, rng), lambda _: None)
         return x
 
-    def _alternate(self, x: FloatArray) -> tuple[FloatArray, PowerDiagram | None]:
+    def _alternate(self, x: FloatArray, told: Told) -> tuple[FloatArray, PowerDiagram | None]:
         """Move points to the centroids until the gradient is small; with them their last diagram."""
         n, weight, diagram = len(x), np.zeros(len(x)), None
-        for _ in range(self.alternations):
+        for done in range(self.alternations):
+            told(min(done / min(USUAL, self.alternations), 1.0))
             weight, equal = equal_areas(x, weight, AREAS, diagram)
             x = wrap(x + equal.offset)
             diagram = power_diagram(x, weight, equal.reach)
             if 2 * n * np.linalg.norm(diagram.moment) <= self.gradient:
                 break
-
-    def _alternate(self, x: FloatArray, told: Told) -> tuple[FloatArray, PowerDiagram | None]:
-        """Move points to the centroids so many times; with them the last diagram."""
-        weight, diagram = np.zeros(len(x)), None
-        for done in range(self.alternations):
-            told(done / self.alternations)
-            weight, diagram = equal_areas(x, weight, TOLERANCE)
-            x = wrap(x + diagram.offset)
         return x, diagram

@@ -150,6 +150,5 @@ class CapacityConstrainedVoronoi(SetBySet):
                 "gtol": 1e-9,
             },
             callback=lambda _: told(next(steps) / (self.iterations + 1)),
-            options={"maxiter": self.iterations, "maxfun": 20 * self.iterations, "ftol": 0.0, "gtol": 1e-9},
         )
         return wrap(found.x.reshape(n, 2))
