@@ -85,6 +85,14 @@ PLANTS = {
         "gbn_strips.cl", "return gap * gap;", "return gap * gap * 4;", "gbn gradient, strips"
     ),
     "a triangle too small": Plant("fpo.cl", "tree[2 * i] < tree", "tree[2 * i] > tree", "farthest"),
+    "a spline's slope": Plant("adaptive_widths.cl", "slope[3] = t * t", "slope[3] = t", "adaptive gradient"),
+    "a kernel's variance": Plant(
+        "adaptive_pairs.cl", "v + LOADV(variances, l)", "v + v", "adaptive gradient"
+    ),
+    "a pixel's pull": Plant(
+        "adaptive_pull.cl", "squares += part_xx", "squares -= part_xx", "adaptive gradient"
+    ),
+    "a sum's last lanes": Plant("kernel_sums.cl", "(to - l) ? g", "(to - l + 1) ? g", "sums of kernels"),
     "an integrand's term": Plant(
         "gaussians.cl", "* c + shape[power]", "* c - shape[power]", "integrand, gaussians"
     ),

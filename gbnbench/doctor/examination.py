@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gbnbench.doctor.kernel_checks import Check, KernelChecks, planned_checks
+from gbnbench.doctor.check import Check
+from gbnbench.doctor.kernel_checks import KernelChecks, planned_checks
 from gbnbench.execution.worker_pool import Pool
 from gbnbench.opencl import Device, choose
 

@@ -7,7 +7,6 @@ was not tried on the device, driver and version at hand.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
@@ -23,6 +22,8 @@ from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import AXES
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.shell_spectrum import shells
 from gbnbench.core.torus import FloatArray, displacement
+from gbnbench.doctor.adaptive_sets import adaptive_gradient, sums_of_kernels
+from gbnbench.doctor.check import Check
 from gbnbench.doctor.numpy_references import (
     numpy_box_gradient,
     numpy_centred_square,
@@ -49,6 +50,7 @@ ENERGIES = ((613, 2, 0.9), (401, 1, 1.0), (83, 2, 1.0), (53, 3, 0.7), (37, 8, 1.
 QUICK_ENERGIES = ((401, 2, 1.0), (53, 3, 0.7))
 QUICK_BOXES = ((90, 2, 1.0),)
 BOXES = (*QUICK_BOXES, (1500, 2, 0.5), (120, 3, 1.0), (60, 8, 1.0))
+ADAPTIVE = ((61, 2), (23, 3))  # n, d
 SWEEP, QUICK_SWEEP = 101, 41  # points of the farthest-point kernel's sweep
 DISCREPANCIES = ((2111, 2), (83, 5))  # n, d; one more than a block of columns
 QUICK_DISCREPANCIES = ((83, 5),)
@@ -67,33 +69,6 @@ GRADIENT = {"double": 1e-11, "float": 1e-4}  # over the largest component
 
 IntArray: TypeAlias = NDArray[np.int64]
 KernelChecks: TypeAlias = "Callable[..., Iterator[Check]]"
-
-
-@dataclass(frozen=True)
-class Check:
-    """One kernel at one size and precision against numpy.
-
-    Attributes
-    ----------
-    kernel, size, precision : str
-        What was tried.
-    error, allowed : float
-        Largest departure and its bound, in the units of the kernel's own check.
-    fault : str
-        Why it could not be tried at all; empty where it ran.
-    """
-
-    kernel: str
-    size: str
-    precision: str
-    error: float
-    allowed: float
-    fault: str = ""
-
-    @property
-    def passed(self) -> bool:
-        """Whether the kernel may be trusted here."""
-        return not self.fault and self.error <= self.allowed
 
 
 def _periodogram(n: int, d: int, fmax: int, precision: PrecisionName) -> Iterator[Check]:
@@ -217,7 +192,10 @@ def planned_checks(quick: bool, device: Device) -> list[tuple[KernelChecks, tupl
             *((_shells, case) for case in cubes if case[1] > 1),
             *((_energy, case) for case in (QUICK_ENERGIES if quick else ENERGIES)),
             *((_box, case) for case in (QUICK_BOXES if quick else BOXES)),
+            *((adaptive_gradient, case) for case in ADAPTIVE),
         ]
+        if precision == "float":
+            work.extend((sums_of_kernels, case) for case in ADAPTIVE)
         if precision == "double":
             work.extend((_integrands, case) for case in (QUICK_INTEGRANDS if quick else INTEGRANDS))
             work.extend((_pairs, case) for case in (QUICK_PAIRS if quick else PAIRS))

@@ -8,9 +8,11 @@ from numpy.typing import NDArray
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density
 
+JITTER = 2.0  # shares
+
 
 def hilbert_start(density: Density, n: int, rng: np.random.Generator) -> FloatArray:
-    """Draw points in proportion to a density, one from each of n equal shares along a Hilbert curve.
+    """Draw points in proportion to a density, about one from each of n equal shares along a Hilbert curve.
 
     Parameters
     ----------
@@ -25,12 +27,18 @@ def hilbert_start(density: Density, n: int, rng: np.random.Generator) -> FloatAr
     -------
     (n, d) float64
         In pixels, all where the density is above 0.
+
+    Notes
+    -----
+    Each point is drawn from two shares' length around its own, and the shares begin anywhere along the curve:
+    on a constant density one point from each share would lie in one cell of a grid each, which a set
+    remembers to the end (at n = 1,024 its peak is 3.9 in place of 1.9).
     """
     places = np.argwhere(density.values > 0)
     order = np.argsort(hilbert_index(places), kind="stable")
     places = places[order]
     share = np.cumsum(density.values[tuple(places.T)])
-    drawn = (np.arange(n) + rng.random(n)) / n * share[-1]
+    drawn = (rng.random() + (np.arange(n) + JITTER * rng.random(n)) / n) % 1 * share[-1]
     pixel = np.minimum(np.searchsorted(share, drawn, side="right"), len(places) - 1)
     inside = np.minimum(rng.random((n, density.d)), np.nextafter(1, 0))
     start: FloatArray = places[pixel] + inside

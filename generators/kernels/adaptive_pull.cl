@@ -6,7 +6,7 @@
  * them, and one product a sample. Points are [axis][stride]. found holds slopes by each axis, by v, and phi, each
  * [stride]. LANES values past the last one can be read.
  */
-typedef struct { int first, count; REAL weight[WIDE], offset[WIDE]; } LINE;
+typedef struct { int first, count; REAL weight[WIDE], by_offset[WIDE], by_square[WIDE]; } LINE; /* w, w d, w d^2 */
 
 INLINE void line(LINE *to, const REAL x, const REAL first, const REAL cell, const int count, const REAL v, const REAL reach)
 {
@@ -21,9 +21,10 @@ INLINE void line(LINE *to, const REAL x, const REAL first, const REAL cell, cons
     const REAL scale = (REAL)-0.72134752044448170368 / v; /* -log2(e) / 2 */
     for (int i = 0; i < to->count; i += LANES) {
         const REALV d = (at - (REALV)(REAL)(low + i) - lane) * cell;
-        const REALV w = exp2_negative(d * d * scale);
-        STOREV(lane < (REALV)(REAL)(to->count - i) ? w : (REALV)0, to->weight, i);
-        STOREV(d, to->offset, i);
+        const REALV w = lane < (REALV)(REAL)(to->count - i) ? exp2_negative(d * d * scale) : (REALV)0, wd = w * d;
+        STOREV(w, to->weight, i);
+        STOREV(wd, to->by_offset, i);
+        STOREV(wd * d, to->by_square, i);
     }
 }
 
@@ -46,40 +47,43 @@ __kernel void adaptive_pull(const uint points, const uint stride, __global const
         volume *= cells[AXES * m + a];
     }
     const LINE *columns = along + AXES - 1, *rows = along + AXES - 2;
-    REAL sum = 0, slope[AXES], squares = 0;
-    for (int a = 0; a < AXES; a++) slope[a] = 0;
+    REALV sum = (REALV)0, sum_x = (REALV)0, sum_y = (REALV)0, sum_z = (REALV)0, squares = (REALV)0;
 #if AXES == 3
     for (int h = 0; h < along[0].count; h++) {
-        const REAL weight_h = along[0].weight[h], dz = along[0].offset[h];
+        const REAL w_h = along[0].weight[h], wz = along[0].by_offset[h], wzz = along[0].by_square[h];
         const size_t plane = (size_t)(along[0].first + h) * count[1];
 #else
     {
-        const REAL weight_h = 1, dz = 0;
+        const REAL w_h = 1, wz = 0, wzz = 0;
         const size_t plane = 0;
 #endif
         for (int i = 0; i < rows->count; i++) {
             __global const REAL *row = values + offsets[m] + (plane + rows->first + i) * count[AXES - 1] + columns->first;
             REALV part = (REALV)0, part_x = (REALV)0, part_xx = (REALV)0;
             for (int j = 0; j < columns->count; j += LANES) {
-                const REALV d = LOADV(columns->offset, j), t = LOADV(row, j) * LOADV(columns->weight, j), td = t * d;
-                part += t;
-                part_x += td;
-                part_xx += td * d;
+                const REALV t = LOADV(row, j);
+                part += t * LOADV(columns->weight, j);
+                part_x += t * LOADV(columns->by_offset, j);
+                part_xx += t * LOADV(columns->by_square, j);
             }
-            const REAL weight = weight_h * rows->weight[i], dy = rows->offset[i], in_row = SUM_OF(part) * weight;
-            sum += in_row;
-            slope[AXES - 1] += SUM_OF(part_x) * weight;
-            slope[AXES - 2] += in_row * dy;
+            const REAL w_i = rows->weight[i], w = w_h * w_i;
+            sum += part * w;
+            sum_x += part_x * w;
+            sum_y += part * (w_h * rows->by_offset[i]);
 #if AXES == 3
-            slope[0] += in_row * dz;
+            sum_z += part * (wz * w_i);
 #endif
-            squares += SUM_OF(part_xx) * weight + in_row * (dy * dy + dz * dz);
+            squares += part_xx * w + part * (w_h * rows->by_square[i] + wzz * w_i);
         }
     }
     const REAL over = 1 / v, gauss = AXES == 3 ? (REAL)0.063493635934240969 * over * sqrt(over)
                                                : (REAL)0.15915494309189535 * over;
     const REAL unit = gauss * volume;
-    for (int a = 0; a < AXES; a++) found[a * stride + k] = -unit * slope[a] * over;
-    found[AXES * stride + k] = unit * ((REAL)0.5 * squares * over * over - (REAL)(AXES * 0.5) * sum * over);
-    found[(AXES + 1) * stride + k] = unit * sum;
+#if AXES == 3
+    found[k] = -unit * SUM_OF(sum_z) * over;
+#endif
+    found[(AXES - 2) * stride + k] = -unit * SUM_OF(sum_y) * over;
+    found[(AXES - 1) * stride + k] = -unit * SUM_OF(sum_x) * over;
+    found[AXES * stride + k] = unit * ((REAL)0.5 * SUM_OF(squares) * over * over - (REAL)(AXES * 0.5) * SUM_OF(sum) * over);
+    found[(AXES + 1) * stride + k] = unit * SUM_OF(sum);
 }

@@ -12,6 +12,7 @@ from gbnbench.analysis.spectrum.evaluators import kept_memory
 from gbnbench.core import cache_folder
 from gbnbench.core.errors import DeviceError
 from gbnbench.doctor import examination, kernel_checks, numpy_references, trust
+from gbnbench.doctor.check import Check
 from gbnbench.opencl import program
 from tests.oracles.discrepancy import squares
 from tests.oracles.power import direct_power
@@ -70,7 +71,7 @@ def test_this_device_passes_in_full():
 
 
 def _raises(n, precision):
-    yield kernel_checks.Check("sound", f"n={n}", precision, 0.0, 1.0)
+    yield Check("sound", f"n={n}", precision, 0.0, 1.0)
     raise ValueError("shapes (3,) and (4,)")
 
 

@@ -1,4 +1,4 @@
-"""What attracts the points: the density, smoothed by part of the kernels' width, at several resolutions.
+"""The pull on the points: the density, smoothed by part of the kernels' width, at several resolutions.
 
 The energy is E = 1/2 integral of (A - T)^2, where A sums the points' Gaussians. T spreads each pixel's share
 of points over a Gaussian of variance (t s)^2 + 1/12, s being the kernels' width there and 1/12 the variance
@@ -12,15 +12,16 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density
 from gbnbench.generators.adaptive.gbn.kernel_widths import LADDER, KernelWidths
-from gbnbench.generators.adaptive.gbn.smoothing import PaddedGrid, padded_grid
+from gbnbench.generators.adaptive.gbn.smoothing import ComplexArray, PaddedGrid, padded_grid
 
 PIXEL = 1 / 12  # variance of a pixel's square along an axis
 LEAST_ROOM = 64  # pixels beyond the border that any image may have; larger ones up to half their longest side
-TAILS = 5.0  # widths of a Gaussian for which there is room beyond the border
+BEYOND_INK = 1.5  # width of a kernel on ink over the largest at an inked pixel's centre, at most
 
 
 @dataclass(frozen=True)
@@ -37,12 +38,15 @@ class Level:
         Position of the first cell's centre, in pixels.
     values : float32 or float64 array
         T at the cells' centres, points a squared pixel (or cubed).
+    reached : int
+        Cells to either side that the widest kernel of the level reaches.
     """
 
     cell: FloatArray
     variance: float
     first: FloatArray
     values: FloatArray
+    reached: int
 
 
 def attraction_levels(
@@ -72,39 +76,37 @@ def attraction_levels(
         From the finest on: level j serves kernels of width resolution * 2^j up to twice that.
     """
     inked = density.values > 0
-    largest = float(np.exp(widths.log_width.max()))
-    margin = 0
-    if not density.toroidal:
-        spread = part * float(np.exp(widths.log_width[inked].max()))
-        margin = max(4, min(math.ceil(TAILS * spread), max(LEAST_ROOM, max(density.shape) // 2)))
+    on_ink = float(np.exp(widths.log_width[inked].max()))
+    # The transform's ends meet: a kernel at one border must not see what is spread at the other one.
+    apart = reach * on_ink * math.hypot(1, part)
+    room = max(LEAST_ROOM, max(density.shape) // 2)
+    margin = 0 if density.toroidal else max(4, min(math.ceil(apart / 2), room))
     grid = padded_grid(density.shape, margin)
-    spectrum = _spread_spectrum(grid, density.of_points(n), widths.log_width, inked, part)
-    levels, j = [], 0
+    most = math.inf if density.toroidal else 2 * margin / (reach * math.hypot(1, part))
+    log_width = np.minimum(widths.log_width[inked], math.log(most))
+    spectrum = _spread_spectrum(grid, density.of_points(n), log_width, inked, part)
+    largest = BEYOND_INK * on_ink
+    levels: list[Level] = []
     while True:
-        counts = tuple(math.ceil(size / 2**j) for size in grid.padded)
-        variance = 0.0 if j == 0 else 4.0**j
-        values = grid.sampled(grid.smoothed(spectrum, variance) if j else spectrum, counts)
+        scale = 2.0 ** len(levels)
+        last = resolution * 2 * scale > min(largest, most)
+        counts = tuple(math.ceil(size / scale) for size in grid.padded)
+        variance = scale**2 if levels else 0.0
+        values = grid.sampled(grid.smoothed(spectrum, variance) if levels else spectrum, counts)
         cell = np.array(grid.padded) / counts
+        widest = largest if last else resolution * 2 * scale
         # Around a point at the border, as far as the widest kernel of the level reaches.
-        widest = largest if largest < resolution * 2 ** (j + 1) else resolution * 2 ** (j + 1)
         beyond = [math.ceil(reach * math.sqrt(widest**2 - variance) / c) + 2 for c in cell.tolist()]
-        if density.toroidal:
-            values = np.pad(values, [(b, b) for b in beyond], mode="wrap")
-        else:
-            values = np.pad(values, [(b, b) for b in beyond])
-        levels.append(Level(cell, variance, (0.5 - np.array(beyond)) * cell - grid.margin, values))
-        j += 1
-        if resolution * 2**j > largest:
+        values = np.pad(values, [(b, b) for b in beyond], "wrap")
+        levels.append(Level(cell, variance, (0.5 - np.array(beyond)) * cell - margin, values, max(beyond)))
+        if last:
             return tuple(levels)
 
 
 def _spread_spectrum(
-    grid: PaddedGrid, rho: FloatArray, log_width: FloatArray, inked: np.ndarray, part: float
-) -> np.ndarray:
+    grid: PaddedGrid, rho: FloatArray, logs: FloatArray, inked: NDArray[np.bool_], part: float
+) -> ComplexArray:
     """Spectrum of T: a sum over a ladder of widths, among which each pixel's share is interpolated."""
-    logs = log_width[inked]
-    if grid.margin:  # the faintest ink must not come back from the other side
-        logs = np.minimum(logs, math.log(grid.margin / (TAILS * part)) if part > 0 else math.inf)
     least, step = float(logs.min()), math.log(LADDER)
     at = (logs - least) / step
     last = max(1, math.ceil(float(at.max()) - 1e-9))

@@ -17,11 +17,11 @@ from typing import Any
 import numpy as np
 
 from gbnbench.core.errors import InputError
+from gbnbench.core.neighbour_grid import neighbour_grid
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density
 from gbnbench.generators.adaptive.gbn.attraction import attraction_levels
 from gbnbench.generators.adaptive.gbn.kernel_widths import BORDER, kernel_widths
-from gbnbench.generators.adaptive.gbn.neighbour_grid import neighbour_grid
 from gbnbench.opencl import Runtime
 
 PACKAGE = "gbnbench.generators"
@@ -99,14 +99,8 @@ class AdaptiveEnergy:
         levels = attraction_levels(density, n, found, spread, RESOLUTION[precision], REACH[precision])
         self._spline = runtime.upload(found.coefficients.astype(self._real))
         self._spline_counts = runtime.upload(np.array(found.coefficients.shape, np.int32))
-        largest = float(np.exp(found.log_width.max()))
-        lines = []
-        for j, level in enumerate(levels):
-            widest = largest if j + 1 == len(levels) else RESOLUTION[precision] * 2 ** (j + 1)
-            rest = np.sqrt(widest**2 - level.variance)
-            lines.append(2 * REACH[precision] * rest / level.cell.min() + 2)
         lanes = runtime.lanes(precision)
-        wide = -(-int(max(lines)) // lanes) * lanes
+        wide = -(-(2 * max(level.reached for level in levels) + 1) // lanes) * lanes
         if wide > WIDEST_LINE:
             raise InputError(
                 f"kernels reach over {wide} cells, {WIDEST_LINE} at most: the density has too few pixels "

@@ -64,9 +64,9 @@ class AdaptiveGaussianBlueNoise:
     name: ClassVar[str] = "gbn"
     summary: ClassVar[str] = "adaptive Gaussian blue noise (Ahmed, Ren & Wonka 2022)"
     reference: ClassVar[str] = "Ahmed, Ren & Wonka, Gaussian blue noise, 2022"
-    sigma: float = 1.0
+    sigma: float = 0.85
     smoothing: float = 0.5
-    spread: float = 0.8
+    spread: float = 0.6
     gradients: int = 100
     precision: Literal["float", "double"] = "float"
 
@@ -103,7 +103,8 @@ class AdaptiveGaussianBlueNoise:
     def _parts(self, density: Density, n: int) -> int:
         """Parts of a pixel's side that make pixels finer than the narrowest kernel."""
         narrowest = self.sigma / math.sqrt(2) / float(density.of_points(n).max()) ** (1 / density.d)
-        return math.ceil(RESOLUTION[self.precision] / narrowest)
+        parts: int = math.ceil(RESOLUTION[self.precision] / narrowest)
+        return parts
 
     def __call__(
         self, density: Density, n: int, rng: np.random.Generator, told: Told | None = None

@@ -1,4 +1,4 @@
-"""How wide each kernel is: a field of the density, in place of the paper's shaping factors.
+"""Widths of kernels: a field of the density, in place of the paper's shaping factors.
 
 The paper's Algorithm 2 gives each point a shaping factor from its neighbours' kernels, one step of a
 fixed-point iteration a move, so that the energy which is descended changes on the way. Here the width s is a

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from gbnbench import measures
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.generators.adaptive.density import as_density, density_of
 from gbnbench.generators.adaptive.gbn.generator import AdaptiveGaussianBlueNoise
@@ -72,6 +73,15 @@ def test_the_energy_falls_from_start_to_end():
     assert energy(end).energy < heard[0]
 
 
+@pytest.mark.slow
+def test_a_constant_density_reaches_the_floor_and_the_disorder_of_the_uniform_method():
+    flat = as_density(np.ones((128, 128)), toroidal=True)
+    found = measures(adaptive_points("gbn[sigma=1,smoothing=1,spread=1]", flat, 1024) / 128)
+    # 100 gradients of the uniform method leave 9.9e-9 and a peak of 1.97 (its own doc has them).
+    assert found["noise_floor"] < 3e-8
+    assert found["peak"] == pytest.approx(1.9, abs=0.25)
+
+
 @pytest.mark.parametrize("d", [2, 3])
 def test_a_hilbert_curve_goes_from_each_cell_to_a_neighbour(d):
     cells = np.argwhere(np.ones((8,) * d))
@@ -83,7 +93,7 @@ def test_a_hilbert_curve_goes_from_each_cell_to_a_neighbour(d):
 
 def test_a_start_has_the_share_of_each_half():
     x = hilbert_start(as_density([[1.0, 3.0]]), 1000, np.random.default_rng(0))
-    assert (x[:, 1] < 1).sum() in (249, 250, 251)
+    assert abs((x[:, 1] < 1).sum() - 250) <= 4
 
 
 @pytest.mark.parametrize(

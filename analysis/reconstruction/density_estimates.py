@@ -1,0 +1,116 @@
+"""A density on pixels from points: kernels of the publication's amplitudes, and what to compare it with."""
+
+from __future__ import annotations
+
+from typing import Literal, get_args
+
+import numpy as np
+from scipy import spatial
+
+from gbnbench.analysis.reconstruction.kernel_sums import kernel_sums
+from gbnbench.analysis.reconstruction.shaping import (
+    ITERATIONS,
+    REFLECTED,
+    SIGMA,
+    amplitudes,
+    kernel_width,
+    with_reflections,
+)
+from gbnbench.core.errors import InputError
+from gbnbench.core.torus import FloatArray
+
+Estimate = Literal["shaping", "kernel", "voronoi"]
+ESTIMATES: tuple[Estimate, ...] = get_args(Estimate)
+PIXEL = 1 / 12  # variance of a pixel's square along an axis
+FIXED = {2: 0.6, 3: 0.7}  # width of fixed kernels, in spacings
+PARTS = 3  # of a pixel's side at least, among which a cell's volume is counted
+FINE_ENOUGH = 64  # parts of pixels a point, above which no finer ones are counted
+
+
+def reconstructed_density(
+    points: FloatArray,
+    shape: tuple[int, ...],
+    *,
+    estimate: Estimate = "shaping",
+    size: tuple[int, ...] | None = None,
+    sigma: float | None = None,
+    iterations: int = ITERATIONS,
+    average: Literal["squares", "mean"] = "squares",
+    reflected: bool = True,
+) -> FloatArray:
+    """Estimate the density that a set was made for.
+
+    Parameters
+    ----------
+    points : (n, d) float64
+        Within the domain, in pixels, in the order of its axes; d is 2 or 3.
+    shape : tuple of int
+        The domain's sides, in pixels of the points.
+    estimate : {"shaping", "kernel", "voronoi"}
+        Algorithm 2's kernels; kernels of one width; or one over the volume of a point's cell.
+    size : tuple of int, optional
+        Pixels of the result along each axis; ``shape`` if not given.
+    sigma : float, optional
+        Width of kernels in spacings of a uniform set: 0.5 for Algorithm 2, 0.6 (in 3D 0.7) for fixed ones.
+    iterations, average, reflected
+        As ``amplitudes`` takes them.
+
+    Returns
+    -------
+    ``size`` float64
+        Points a unit of ``shape``'s volume, averaged over each pixel.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule.
+    """
+    d = len(shape)
+    if points.ndim != 2 or points.shape[1] != d or d not in FIXED or not len(points):
+        raise InputError(f"points must be (n, {d}) for a domain of {d} sides; got shape {points.shape}")
+    if not ((points >= 0) & (points <= np.array(shape))).all():
+        raise InputError(f"points must lie within the domain, 0 to {' x '.join(map(str, shape))}")
+    if estimate not in ESTIMATES:
+        raise InputError(f"estimate must be one of {', '.join(ESTIMATES)}; got {estimate!r}")
+    counts = shape if size is None else size
+    if len(counts) != d or min(counts) < 1:
+        raise InputError(f"size must be {d} numbers of pixels; got {counts}")
+    if estimate == "voronoi":
+        return _of_cells(points, shape, counts)
+    n = len(points)
+    width = kernel_width(n, shape, sigma or (SIGMA if estimate == "shaping" else FIXED[d]))
+    if estimate == "shaping":
+        a = amplitudes(
+            points, shape, sigma=sigma or SIGMA, iterations=iterations, average=average, reflected=reflected
+        )
+    else:
+        a = np.ones(n)
+    sources, number = with_reflections(points, shape, REFLECTED * width if reflected else 0.0)
+    cell = np.array(shape) / np.array(counts)
+    spread = float(np.exp(np.log(cell**2 * PIXEL).mean()))  # of a pixel of the result
+    variances = width**2 * a[number] ** (-2 / d) + spread
+    heights = (2 * np.pi * variances) ** (-d / 2)
+    lines = [_centres(s, c) for s, c in zip(shape, counts, strict=True)]
+    places = np.stack(np.meshgrid(*lines, indexing="ij"), -1)
+    return kernel_sums(places.reshape(-1, d), sources, heights, variances).reshape(counts)
+
+
+def _centres(side: int, count: int) -> FloatArray:
+    centres: FloatArray = (np.arange(count, dtype=np.float64) + 0.5) * (side / count)
+    return centres
+
+
+def _of_cells(points: FloatArray, shape: tuple[int, ...], counts: tuple[int, ...]) -> FloatArray:
+    """One over the volume of the nearest point's cell, counted in parts of pixels, averaged over pixels."""
+    d, n = len(shape), len(points)
+    parts = PARTS
+    while parts**d * np.prod(counts) < FINE_ENOUGH * n:
+        parts += 1
+    lines = [_centres(s, c * parts) for s, c in zip(shape, counts, strict=True)]
+    places = np.stack(np.meshgrid(*lines, indexing="ij"), -1).reshape(-1, d)
+    nearest = spatial.cKDTree(points).query(places, workers=-1)[1]
+    volume = float(np.prod(shape, dtype=np.float64)) / len(places)
+    density = 1 / (np.maximum(np.bincount(nearest, minlength=n), 1) * volume)
+    fine = density[nearest].reshape([size for count in counts for size in (count, parts)])
+    averaged: FloatArray = fine.mean(axis=tuple(range(1, 2 * d, 2)))
+    return averaged
