@@ -188,6 +188,7 @@ def draw(
     *,
     method: AdaptiveGenerator | str = "gbn",
     seed: int = 0,
+    realization: int = 0,
     toroidal: bool = False,
     progress: Callable[[int, int, str], None] | None = None,
     device: str | None = None,
@@ -200,6 +201,8 @@ def draw(
         What is to be drawn.
     n, method, seed, toroidal, progress, device
         As ``stipple`` takes them.
+    realization : int
+        >= 0; which stream of the seed.
 
     Returns
     -------
@@ -217,7 +220,7 @@ def draw(
     count = darkness.default_n if n is None else n
     began = time.perf_counter()
     with use_device(device):
-        x = adaptive_points(generator, density, count, seed=seed, told=progress)
+        x = adaptive_points(generator, density, count, seed=seed, realization=realization, told=progress)
         used = _device_name()
     return Stippling(
         points=np.ascontiguousarray(x[:, ::-1]),
