@@ -93,16 +93,22 @@ def stipple(
     from gbnbench.cli.generate import check_folder
     from gbnbench.generators.adaptive.registry import adaptive_generator
     from gbnbench.reports.stippling.gcode import read_template
+    from gbnbench.reports.stippling.page import Page
+    from gbnbench.reports.stippling.png import picture_size
     from gbnbench.studies.stippling.darkness import ToneCurve
     from gbnbench.studies.stippling.inks import shared_out
 
-    _check(out, width_mm, dots, dot_mm, gcode_template)
+    _check(image, out, width_mm, dots, dot_mm, gcode_template)
     check_folder(out)
     template = None if gcode_template is None else read_template(gcode_template)
     generator = adaptive_generator(method)
     darkness = _darkness(image, ToneCurve(invert, gamma, white_cutoff), colour)
     for remark in dict.fromkeys(remark for one in darkness.values() for remark in one.remarks):
         click.echo(f"gbnbench: {remark}", err=True)
+    rows, columns = next(iter(darkness.values())).values.shape
+    sheet = Page(width_mm, width_mm * rows / columns, ())
+    if out.suffix.lower() == ".png":
+        picture_size(sheet, dpi)
     count = n if n is not None else _default_n(darkness, width_mm, dot_mm)
     drawn: dict[str, Stippling] = {}
     for k, (ink, share) in enumerate(shared_out(darkness, count).items()):
@@ -129,15 +135,19 @@ def stipple(
     sizes = sorted({round(2 * r, 3) for layer in page.layers for r in (layer.radii.min(), layer.radii.max())})
     across = f"{sizes[0]:g}" if len(sizes) == 1 else f"{sizes[0]:g} to {sizes[-1]:g}"
     click.echo(
-        f"wrote {out}: {counts}, {across} mm across, on {page.width:g} x {page.height:.4g} mm{replaced}"
+        f"wrote {out}: {counts}, {across} mm across, on {sheet.width:g} x {sheet.height:.4g} mm{replaced}"
     )
 
 
-def _check(out: Path, width_mm: float, dots: str, dot_mm: float | None, template: Path | None) -> None:
+def _check(
+    image: str, out: Path, width_mm: float, dots: str, dot_mm: float | None, template: Path | None
+) -> None:
     """Refuse what cannot be written before any work."""
     from gbnbench.api.stippled_page import check_picture
 
     check_picture(out)
+    if out.exists() and Path(image).exists() and out.samefile(image):
+        raise click.UsageError(f"{out} is the image itself: name another file")
     for name, value in (("--width-mm", width_mm), ("--dot-mm", dot_mm)):
         if value is not None and not (math.isfinite(value) and value > 0):
             raise click.UsageError(f"{name} must be above 0; got {value}")
@@ -159,6 +169,7 @@ def _darkness(source: str, curve: ToneCurve, colour: str | None) -> dict[str, Da
     found = as_darkness(source, curve=curve)
     if found.values.ndim != 2:
         raise InputError(f"{source} is a volume: gbnbench.stipple takes it, the command draws images")
+    found.density()  # refuses what is white everywhere
     return {"black": found}
 
 

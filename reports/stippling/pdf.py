@@ -33,7 +33,7 @@ def pdf(page: Page) -> bytes:
     drawn = begin + "".join(_layer(k, layer) for k, layer in enumerate(page.layers))
     groups = " ".join(f"{8 + k} 0 R" for k in layers)
     named = " ".join(f"/L{k} {8 + k} 0 R" for k in layers)
-    objects = [
+    objects: list[str | bytes] = [
         f"<< /Type /Catalog /Pages 2 0 R /OCProperties << /OCGs [{groups}] /D << /Order [{groups}] >> >> >>",
         "<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
         f"<< /Type /Page /Parent 2 0 R /MediaBox [0 0 {width:.5f} {height:.5f}] /Contents 4 0 R "

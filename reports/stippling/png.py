@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import math
 
 import numpy as np
 from numpy.typing import NDArray
@@ -63,12 +64,7 @@ def pixels(page: Page, dpi: float) -> NDArray[np.uint8]:
     InputError
         If there are too many pixels.
     """
-    columns, rows = (max(1, round(side / MM_AN_INCH * dpi)) for side in (page.width, page.height))
-    if dpi < LEAST_DPI or columns * rows > MOST_PIXELS:
-        raise InputError(
-            f"dpi must be at least {LEAST_DPI:g} and give at most {MOST_PIXELS:,} pixels; "
-            f"got {dpi:g}, for {columns:,} x {rows:,} pixels"
-        )
+    columns, rows = picture_size(page, dpi)
     black = all(layer.colour == "#000000" for layer in page.layers)
     light = np.ones((rows, columns, 1 if black else 3), np.float32)
     for layer in page.layers:
@@ -76,6 +72,36 @@ def pixels(page: Page, dpi: float) -> NDArray[np.uint8]:
         light *= 1 - covered * (1 - np.array(layer.rgb[: light.shape[2]], np.float32))
     drawn = np.rint(255 * light).astype(np.uint8)
     return drawn[..., 0] if black else drawn
+
+
+def picture_size(page: Page, dpi: float) -> tuple[int, int]:
+    """Count the pixels of a page.
+
+    Parameters
+    ----------
+    page : Page
+        The page.
+    dpi : float
+        Pixels an inch.
+
+    Returns
+    -------
+    columns, rows : int
+
+    Raises
+    ------
+    InputError
+        If there are too many pixels.
+    """
+    if not math.isfinite(dpi):
+        raise InputError(f"dpi must be a number; got {dpi}")
+    columns, rows = (max(1, round(side / MM_AN_INCH * dpi)) for side in (page.width, page.height))
+    if dpi < LEAST_DPI or columns * rows > MOST_PIXELS:
+        raise InputError(
+            f"dpi must be at least {LEAST_DPI:g} and give at most {MOST_PIXELS:,} pixels; "
+            f"got {dpi:g}, for {columns:,} x {rows:,} pixels"
+        )
+    return columns, rows
 
 
 def _covered(page: Page, layer: DotLayer, rows: int, columns: int) -> NDArray[np.float32]:
@@ -96,6 +122,6 @@ def _covered(page: Page, layer: DotLayer, rows: int, columns: int) -> NDArray[np
         autolim=False,
     )  # fmt: skip
     canvas = FigureCanvasAgg(figure)
-    canvas.draw()
-    drawn = np.asarray(canvas.buffer_rgba())[..., 0]
+    canvas.draw()  # type: ignore[no-untyped-call]
+    drawn = np.asarray(canvas.buffer_rgba())[..., 0]  # type: ignore[no-untyped-call]
     return np.asarray(1 - drawn / np.float32(255), np.float32)

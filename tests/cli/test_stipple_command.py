@@ -35,6 +35,10 @@ def command(*arguments: object) -> int:
     return run(["stipple", *map(str, arguments)])
 
 
+def drawing(name: str) -> ElementTree.Element:
+    return ElementTree.parse(name).getroot()  # noqa: S314 - it is our own
+
+
 def test_every_format_holds_the_same_dots(picture, capsys):
     for suffix in ("svg", "pdf", "eps", "gcode", "csv", "txt", "png"):
         assert command("x.png", "-n", 50, "-o", f"o.{suffix}", "--width-mm", 80, *QUICK) == 0
@@ -46,7 +50,7 @@ def test_every_format_holds_the_same_dots(picture, capsys):
     table = pd.read_csv("o.csv")
     assert np.array_equal(table[["x", "y", "amplitude"]], np.column_stack([made.points, made.amplitudes]))
     assert np.array_equal(np.loadtxt("o.txt"), np.column_stack([made.points, made.amplitudes]))
-    circles = list(ElementTree.parse("o.svg").getroot().iter(f"{SVG}circle"))
+    circles = list(drawing("o.svg").iter(f"{SVG}circle"))
     found = np.array([[float(c.get("cx")), float(c.get("cy"))] for c in circles])
     assert found == pytest.approx(mm, abs=6e-5)
     assert float(circles[0].get("r")) == pytest.approx(2 * made.radius, abs=6e-5)
@@ -57,15 +61,15 @@ def test_every_format_holds_the_same_dots(picture, capsys):
     stream = re.search(rb"/FlateDecode >>\nstream\n(.*?)\nendstream", Path("o.pdf").read_bytes(), re.DOTALL)
     drawn = re.findall(r"^q (\S+) 0 0 \S+ (\S+) (\S+) cm /D Do Q$", zlib.decompress(stream[1]).decode(), re.M)
     assert np.array(drawn, float)[:, 1:] == pytest.approx(mm, abs=6e-5)
-    with Pillow.open("o.png") as drawing:
-        assert drawing.size == (945, 709)
-        assert drawing.info["dpi"] == pytest.approx((300, 300), abs=0.01)
+    with Pillow.open("o.png") as shown:
+        assert shown.size == (945, 709)
+        assert shown.info["dpi"] == pytest.approx((300, 300), abs=0.01)
 
 
 def test_svg_is_a_page_in_millimetres_with_layers(picture):
     Pillow.fromarray(np.random.default_rng(1).integers(0, 256, (20, 30, 3), np.uint8)).save("c.png")
     assert command("c.png", "-n", 90, "-o", "c.svg", "--colour", "cmyk", *QUICK) == 0
-    root = ElementTree.parse("c.svg").getroot()
+    root = drawing("c.svg")
     assert (root.get("width"), root.get("viewBox")) == ("160mm", "0 0 160 106.6667")
     layers = root.findall(f"{SVG}g")
     assert [g.get(f"{INKSCAPE}label") for g in layers] == ["yellow", "magenta", "cyan", "black"]
@@ -78,9 +82,9 @@ def test_svg_is_a_page_in_millimetres_with_layers(picture):
     assert command("c.png", "-n", 90, "-o", "c.csv", "--colour", "cmyk", *QUICK) == 0
     assert pd.read_csv("c.csv").ink.value_counts().sum() == 90
     for suffix in ("pdf", "eps", "png", "gcode", "txt"):
-        assert command("c.png", "-n", 90, "-o", f"c.{suffix}", "--colour", "cmyk", *QUICK) == 0
-    with Pillow.open("c.png") as drawing:
-        assert drawing.mode == "RGB"
+        assert command("c.png", "-n", 90, "-o", f"o.{suffix}", "--colour", "cmyk", *QUICK) == 0
+    with Pillow.open("o.png") as shown:
+        assert shown.mode == "RGB"
 
 
 def test_an_ink_that_is_not_needed_has_no_layer(here):
@@ -100,7 +104,7 @@ def test_dots_of_a_size_are_as_many_as_cover_what_is_dark(here, capsys):
 def test_dots_by_tone_cover_what_is_dark(picture):
     for suffix in ("svg", "csv"):
         assert command("x.png", "-n", 400, "-o", f"t.{suffix}", "--dots", "tone", *QUICK) == 0
-    circles = ElementTree.parse("t.svg").getroot().iter(f"{SVG}circle")
+    circles = drawing("t.svg").iter(f"{SVG}circle")
     x, r = np.array([[float(c.get("cx")) / 4, float(c.get("r")) / 4] for c in circles]).T
     dark = np.zeros(40)
     dark[:32] = 1 - np.floor(np.linspace(0, 250, 32)) / 255
@@ -151,6 +155,7 @@ def test_an_animation_is_said(here, capsys):
     ("arguments", "says"),
     [
         (("x.png", "-o", "o.jpg"), "stipplings are written as .png, .svg, .pdf, .eps, .gcode, .txt, .csv"),
+        (("x.png", "-o", "x.png"), "x.png is the image itself: name another file"),
         (("x.png", "-o", "no/o.svg"), "there is no folder no"),
         (("no.png", "-o", "o.svg"), "no.png: there is no such file"),
         (("kamera", "-o", "o.svg"), "did you mean 'camera'?"),
@@ -203,7 +208,7 @@ def test_chromium_shows_an_svg_as_the_png_is(picture):
         capture_output=True,
         timeout=120,
     )
-    with Pillow.open("shot.png") as shot, Pillow.open("o.png") as drawing:
+    with Pillow.open("shot.png") as shot, Pillow.open("o.png") as drawn:
         shown = np.asarray(shot.convert("L"), float)[:600, :800]
-        expected = np.asarray(drawing, float)
+        expected = np.asarray(drawn, float)
     assert np.abs(shown - expected).mean() < 2  # of 255: both smooth the rims of dots

@@ -41,7 +41,8 @@ def tour(points: FloatArray) -> NDArray[np.intp]:
     order = np.argsort(hilbert_index(cells), kind="stable").astype(np.intp)
     if n < 4:
         return order
-    near = cKDTree(points).query(points, k=min(NEIGHBOURS + 1, n))[1][:, 1:]
+    _, found = cKDTree(points).query(points, k=min(NEIGHBOURS + 1, n))
+    near = np.asarray(found, np.intp)[:, 1:]
     least = SLACK * path_length(points[order]) / n
     for _ in range(MOST_ROUNDS):
         moves = _gaining_moves(points, order, near, least)
