@@ -13,7 +13,8 @@ from gbnbench.core.errors import DeviceError, InputError
 from gbnbench.core.torus import FloatArray, fixed_point
 from gbnbench.opencl import Program, Runtime, devices_present, runtime
 
-SUM_POINTS = 128  # points that a lane sums in registers before these sums are added up in double
+SUM_POINTS = 128  # points that a lane sums in registers, at most, before these sums are added up in double
+SUM_BYTES = 4096  # of these in all lanes, so that the rows' tables of a product stay in the first cache
 PACKAGE = "gbnbench.analysis"
 PrecisionName = Literal["double", "float"]
 
@@ -45,6 +46,11 @@ class Precision:
     def real(self) -> type[np.floating[Any]]:
         """Type of tables and of sums in registers."""
         return np.float64 if self.double else np.float32
+
+    @property
+    def sum_points(self) -> int:
+        """Points that a lane sums in registers before these sums are added up in double."""
+        return min(SUM_POINTS, SUM_BYTES // (self.lanes * np.dtype(self.real).itemsize))
 
     @property
     def turn(self) -> type[np.unsignedinteger[Any]]:
@@ -89,6 +95,8 @@ class Precision:
             Fractions of a turn in units of 2^-64 or 2^-32; 0 beyond the last point.
         """
         sets, n, d = x.shape
+        if stride == n:
+            return np.ascontiguousarray(fixed_point(x, 64 if self.double else 32).transpose(0, 2, 1))
         rows = np.zeros((sets, d, stride), self.turn)
         rows[:, :, :n] = fixed_point(x, rows.itemsize * 8).transpose(0, 2, 1)
         return rows
@@ -100,7 +108,7 @@ def _program(p: Precision, files: tuple[str, ...], defines: tuple[tuple[str, obj
         "DOUBLE": int(p.double),
         "LANES": p.lanes,
         "SUM": "double" if p.sum is np.float64 else "float",
-        "SUM_POINTS": SUM_POINTS,
+        "SUM_POINTS": p.sum_points,
         **dict(defines),
     }
     return p.runtime.program(PACKAGE, ("/vector.cl", "/turns.cl", *files), definitions)

@@ -3,18 +3,24 @@
 from __future__ import annotations
 
 import dataclasses
+import typing
 from collections.abc import Mapping
 
 from gbnbench.core.errors import InputError
-from gbnbench.core.settings import SPECIFICATION
+from gbnbench.core.readable_text import in_one_line
+from gbnbench.core.settings import SPECIFICATION, is_readable
 from gbnbench.generators.protocol import Generator
 
 # Keywords of ``generate``, which no setting may be named after.
 RESERVED = frozenset({"name", "n", "d", "seed", "realizations", "monitor", "device", "settings"})
+# What generators have beside their settings, which no setting may hide.
+MEMBERS = frozenset(
+    {"summary", "family", "dimensions", "toroidal", "reference", "definition", "refusal", "draw", "explain"}
+)
 
 
 def check_setting_names(kind: type[object]) -> None:
-    """Refuse a generator with a setting of the name of a keyword of ``generate``, which would never reach it.
+    """Refuse a setting named as a keyword of ``generate``, which would never reach it, or as a member.
 
     Raises
     ------
@@ -22,11 +28,12 @@ def check_setting_names(kind: type[object]) -> None:
         If there is such a setting.
     """
     fields = {field.name for field in dataclasses.fields(kind)}  # type: ignore[arg-type]
-    if taken := sorted(fields & RESERVED):
-        raise InputError(
-            f"a setting of a generator must not be named as a keyword of generate; {kind.__name__} has "
-            f"{', '.join(taken)}: rename it"
-        )
+    for names, what in ((RESERVED, "a keyword of generate"), (MEMBERS, "a member of generators")):
+        if taken := sorted(fields & names):
+            raise InputError(
+                f"a setting of a generator must not be named as {what}; {kind.__name__} has "
+                f"{', '.join(taken)}: rename it"
+            )
 
 
 def is_frozen_dataclass(kind: type[object]) -> bool:
@@ -53,8 +60,9 @@ def checked_kind(kind: object, name: str) -> type[Generator]:
     Raises
     ------
     InputError
-        If it is no class, no frozen dataclass, lacks what ``Generator`` asks for, has another name, a
-        setting without a default or one of the name of a keyword of ``generate``.
+        If it is no class, no frozen dataclass, lacks what ``Generator`` asks for, has another name, says
+        anything but what lists can show, or has a setting without a default, of a type that text cannot
+        give, or named as a keyword of ``generate`` or a member.
     """
     if not isinstance(kind, type):
         raise InputError(f"it must be a class; got {type(kind).__name__}")
@@ -75,7 +83,44 @@ def checked_kind(kind: object, name: str) -> type[Generator]:
     if bare:
         raise InputError(f"each setting needs a default; {kind.__name__} has none of {', '.join(bare)}")
     check_setting_names(kind)
+    _check_listed(kind)
+    _check_setting_types(kind)
     return kind
+
+
+def _check_listed(kind: type[object]) -> None:
+    """Refuse members that lists cannot show."""
+    for member in ("summary", "family", "reference"):
+        said = getattr(kind, member, "")
+        is_line = isinstance(said, str) and in_one_line(said) == said
+        if not is_line and (said is not None or member == "summary"):
+            raise InputError(f"{member} of {kind.__name__} must be one line of text; got {said!r}")
+    if not isinstance(toroidal := getattr(kind, "toroidal", None), bool | None):
+        raise InputError(f"toroidal of {kind.__name__} must be True or False; got {toroidal!r}")
+    ends = getattr(kind, "dimensions", (1, None))
+    if not (isinstance(ends, tuple) and len(ends) == 2 and _is_range(*ends)):
+        raise InputError(
+            f"dimensions of {kind.__name__} must be (least, most), whole and >= 1, most None where there is "
+            f"no end; got {ends!r}"
+        )
+
+
+def _is_range(least: object, most: object) -> bool:
+    return type(least) is int and least >= 1 and (most is None or (type(most) is int and most >= least))
+
+
+def _check_setting_types(kind: type[object]) -> None:
+    """Refuse settings of a type that text cannot give, unless they bring a function that reads them."""
+    try:
+        hints = typing.get_type_hints(kind)
+    except Exception as error:  # whatever a stranger's annotations raise
+        raise InputError(f"the types of {kind.__name__} cannot be read: {error}") from None
+    for field in dataclasses.fields(kind):  # type: ignore[arg-type]
+        if "read" not in field.metadata and not is_readable(hints[field.name]):
+            raise InputError(
+                f"a setting must be a bool, int, float, str, Literal, or one of these or None; "
+                f"{kind.__name__} has {field.name}"
+            )
 
 
 def of_instance(generator: object, settings: Mapping[str, object] | None = None) -> Generator:

@@ -10,6 +10,7 @@ from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray, check_points
 
 Family = Literal["direct", "lattice", "low-discrepancy", "cellular", "kernel-based", "spectral"]
+MOST_ITERATIONS = 1_000_000  # that settings take: hours, where more would be a slip
 FAMILIES: tuple[Family, ...] = get_args(Family)
 
 

@@ -6,14 +6,12 @@ import contextlib
 import logging
 from collections.abc import Iterator
 from functools import cache
-from typing import Any
 
 import matplotlib as mpl
 from matplotlib.font_manager import findfont, findSystemFonts, fontManager, get_font
 
 OWN = "DejaVu Sans"
 LIKELY = ("cjk", "noto sans", "han", "gothic", "hei", "song", "ming", "unicode", "wqy", "droid", "nanum")
-LAYOUT_TABLES = ("GDEF", "GPOS", "GSUB", "MATH", "kern")
 
 _fallbacks: list[str] = []  # families beside our own that the labels of this process needed
 _without: dict[str, None] = {}  # signs that no font has
@@ -65,31 +63,6 @@ def without_font_warnings() -> Iterator[None]:
         yield
     finally:
         logger.setLevel(before)
-
-
-@contextlib.contextmanager
-def without_layout_tables() -> Iterator[None]:
-    """Let a PDF take its fonts without their tables of layout, which no reader of PDF looks at.
-
-    Texts are laid out when they are drawn: the file holds glyphs and their places. To cut those tables down
-    to the glyphs used is three quarters of the time that embedding a font takes.
-    """
-    from fontTools import subset  # the modules for PDF alone need it
-
-    load = subset.load_font
-
-    def load_lean(*args: Any, **kwargs: Any) -> Any:
-        font = load(*args, **kwargs)
-        for table in LAYOUT_TABLES:
-            if table in font:
-                del font[table]
-        return font
-
-    subset.load_font = load_lean
-    try:
-        yield
-    finally:
-        subset.load_font = load
 
 
 @cache

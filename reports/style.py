@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextvars import ContextVar
 from dataclasses import dataclass
 from functools import wraps
 from typing import Any, ParamSpec, TypeVar
@@ -61,11 +62,26 @@ P = ParamSpec("P")
 T = TypeVar("T")
 
 
+_in_style: ContextVar[bool] = ContextVar("in_style", default=False)
+
+
 def styled(draw: Callable[P, T]) -> Callable[P, T]:
-    """Make a function draw with gbnbench's style over matplotlib's defaults, whatever the user's settings."""
+    """Make a function draw with gbnbench's style over matplotlib's defaults, whatever the user's settings.
+
+    Where such a function calls others, the settings are made once: there are some three hundred.
+    """
 
     @wraps(draw)
     def inside(*args: P.args, **kwargs: P.kwargs) -> T:
+        if _in_style.get():
+            return draw(*args, **kwargs)
+        within = _in_style.set(True)
+        try:
+            return alone(*args, **kwargs)
+        finally:
+            _in_style.reset(within)
+
+    def alone(*args: P.args, **kwargs: P.kwargs) -> T:
         with mpl.rc_context(), fonts.without_font_warnings():
             mpl.rcdefaults()
             mpl.rcParams.update(STYLE)  # type: ignore[arg-type]

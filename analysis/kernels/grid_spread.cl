@@ -1,4 +1,5 @@
-/* Sums G(m) = sum_k w_k prod_a W(m_a - M_a x_ka) at the nodes of a real grid on AXES axes, 1 to 3.
+/* Sums G(m) = sum_k w_k prod_a W(m_a - M_a x_ka) at the nodes of a real grid on AXES axes, 2 or 3; line_spread.cl
+ * takes one axis, with the window of these.
  *
  * W is the window (kaiser_bessel.py) on WIDTH cells, given in each cell as an even and an odd polynomial of the
  * place less 1/2: the values of the lower cells are their sums, those of the upper ones, mirrored, their differences.
@@ -53,6 +54,8 @@ static uint cell_of(const TURN turn, const uint nodes, REAL *place)
         v##3 = (even0 - odd0 * s).s3210;                                                                     \
     }
 #define TO_ARRAY(v, p) STORE4(v##0, p); STORE4(v##1, p + 4); STORE4(v##2, p + 8); STORE4(v##3, p + 12)
+#define FROM_ARRAY(v, p) \
+    const REAL4 v##0 = LOAD4(p), v##1 = LOAD4(p + 4), v##2 = LOAD4(p + 8), v##3 = LOAD4(p + 12)
 #define SCALED(v, by, w) const REAL4 v##0 = by * w##0, v##1 = by * w##1, v##2 = by * w##2, v##3 = by * w##3
 #define ADD_ROW(by, v, p) ADD4(by * v##0, p); ADD4(by * v##1, p + 4); ADD4(by * v##2, p + 8); ADD4(by * v##3, p + 12)
 #else
@@ -69,6 +72,7 @@ static uint cell_of(const TURN turn, const uint nodes, REAL *place)
         v##1 = (even - odd * s).s3210;                                                                       \
     }
 #define TO_ARRAY(v, p) STORE4(v##0, p); STORE4(v##1, p + 4)
+#define FROM_ARRAY(v, p) const REAL4 v##0 = LOAD4(p), v##1 = LOAD4(p + 4)
 #define SCALED(v, by, w) const REAL4 v##0 = by * w##0, v##1 = by * w##1
 #define ADD_ROW(by, v, p) ADD4(by * v##0, p); ADD4(by * v##1, p + 4)
 #endif
@@ -121,6 +125,37 @@ static void give(__global REAL *restrict part, __global REAL *restrict sum, cons
     }
 }
 
+#if AXES == 3
+/* A group of points, neighbours for the most part, is added plane by plane, so that a plane stays in the first cache. */
+#define GROUP 32
+INLINE void add_group(REAL (*values)[3 * WIDTH], const int *planes, const ulong *places, const uint held,
+                      __global REAL *into, const ulong plane, const uint row_length, const uint first_row,
+                      const uint end_row)
+{
+    int low = end_row, high = first_row;
+    for (uint g = 0; g < held; g++) {
+        if (planes[g] < low) low = planes[g];
+        if (planes[g] + WIDTH > high) high = planes[g] + WIDTH;
+    }
+    if (low < (int)first_row) low = first_row;
+    if (high > (int)end_row) high = end_row;
+    for (int row = low; row < high; row++)
+        for (uint g = 0; g < held; g++) {
+            const int u = row - planes[g];
+            if (u < 0 || u >= WIDTH) continue;
+            const REAL *middle = values[g] + WIDTH;
+            FROM_ARRAY(x, (values[g] + 2 * WIDTH));
+            SCALED(y, values[g][u], x);
+            __global REAL *at = into + (row - first_row) * plane + places[g];
+            for (uint v = 0; v < WIDTH; v++, at += row_length) {
+                const REAL by = middle[v];
+                ADD_ROW(by, y, at);
+            }
+        }
+}
+#endif
+
+#if AXES > 1
 /* Carries the points of a set to a band of its grid: `grid`, which is cleared, with `part` beside it for runs. */
 static void spread_band(const uint set, const uint band, __global const TURN *turns, const uint stride,
                         __global const REAL *weight, const uint weight_stride, __global const uint *starts,
@@ -128,39 +163,32 @@ static void spread_band(const uint set, const uint band, __global const TURN *tu
                         const uint rows_a_band, const uint row_length, __constant REAL *terms,
                         __global REAL *grid, __global REAL *part)
 {
-#if AXES == 1
-    const uint first_row = 0, end_row = 1;
-#else
     const uint first_row = band * rows_a_band;
     const uint end_row = first_row + rows_a_band < nodes ? first_row + rows_a_band : nodes;
-#endif
     const ulong plane = AXES == 3 ? (ulong)(nodes + WIDTH) * row_length : row_length;
     const ulong count = (end_row - first_row) * plane;
     __global const uint *start = starts + set * (bands + 1);
     __global REAL *into = runs > 1 ? part : grid;
+#if AXES == 3
+    REAL values[GROUP][3 * WIDTH];
+    int planes[GROUP];
+    ulong places[GROUP];
+    uint held = 0;
+#endif
     clear(grid, count);
     if (runs > 1) clear(into, count);
     for (uint run = 0; run < runs; run++) {
-        /* Where there is one axis, windows are folded back from the row's end and a band has no neighbour. */
-        for (uint before = 0; before < (AXES > 1 ? 2 : 1); before++) {
+        for (uint before = 0; before < 2; before++) {
             const uint from_band = (band + (before ? bands - 1 : 0)) % bands;
             const int shift = before && band == 0 ? (int)nodes : 0;
             for (uint k = start[from_band] + run; k < start[from_band + 1]; k += runs) {
                 __global const TURN *turn = turns + (ulong)set * AXES * stride + k;
                 REAL place;
                 const uint cell = cell_of(turn[0], nodes, &place);
-#if AXES > 1
                 if (before && (int)cell - shift + WIDTH <= (int)first_row) continue;
-#endif
                 const REAL w = weight[(ulong)set * weight_stride + k];
-#if AXES == 1
-                WINDOW(x, place)
-                __global REAL *at = into + cell;
-                ADD_ROW(w, x, at);
-#else
-                REAL leading[WIDTH];
 #if AXES == 2
-                REAL along;
+                REAL leading[WIDTH], along;
                 const uint column = cell_of(turn[stride], nodes, &along);
                 TWO_WINDOWS(v, place, y, along)
                 TO_ARRAY(v, leading);
@@ -173,28 +201,29 @@ static void spread_band(const uint set, const uint band, __global const TURN *tu
 #else
                 {
                     WINDOW(v, place)
-                    TO_ARRAY(v, leading);
+                    TO_ARRAY(v, values[held]);
                 }
-                REAL middle[WIDTH];
                 const uint line = cell_of(turn[stride], nodes, &place);
                 {
                     WINDOW(v, place)
-                    TO_ARRAY(v, middle);
+                    TO_ARRAY(v, (values[held] + WIDTH));
                 }
                 const uint column = cell_of(turn[2 * stride], nodes, &place);
                 WINDOW(v, place)
                 SCALED(x, w, v);
-                ROWS_WITHIN(u) {
-                    __global REAL *at = into + (row + u - first_row) * plane + (ulong)line * row_length + column;
-                    SCALED(y, leading[u], x);
-                    for (uint v = 0; v < WIDTH; v++, at += row_length) {
-                        const REAL by = middle[v];
-                        ADD_ROW(by, y, at);
-                    }
+                TO_ARRAY(x, (values[held] + 2 * WIDTH));
+                planes[held] = (int)cell - shift;
+                places[held] = (ulong)line * row_length + column;
+                if (++held == GROUP) {
+                    add_group(values, planes, places, held, into, plane, row_length, first_row, end_row);
+                    held = 0;
                 }
 #endif
-#endif
             }
+#if AXES == 3
+            add_group(values, planes, places, held, into, plane, row_length, first_row, end_row);
+            held = 0;
+#endif
         }
         if (runs > 1) {
             fold(into, end_row - first_row, plane, nodes, row_length);
@@ -212,7 +241,8 @@ __kernel void grid_spread(__global const TURN *turns, const uint stride, __globa
 {
     const uint band = get_global_id(0), set = get_global_id(1);
     const ulong plane = AXES == 3 ? (ulong)(nodes + WIDTH) * row_length : row_length;
-    const ulong begin = set * grid_size + (AXES == 1 ? 0 : band * rows_a_band * plane);
+    const ulong begin = set * grid_size + band * rows_a_band * plane;
     spread_band(set, band, turns, stride, weight, weight_stride, starts, bands, runs, means[set], nodes,
                 rows_a_band, row_length, terms, grids + begin, parts + begin);
 }
+#endif

@@ -126,8 +126,9 @@ def planned(
                 precision_of(precision)  # says what the device lacks
             raise InputError(unavailable(request, method, precision))
         best = min(c.errors.resolvable for c in weighed if only in (None, c.evaluator.precision))
+        # Rounded up, so that what is named is served.
         raise InputError(
-            f"floor={floor:g} is out of reach: the least power known to 1% here is {best:.1g}"
+            f"floor={floor:g} is out of reach: the least power known to 1% here is {1.05 * best:.1e}"
             + ("" if only != "float" else '; precision="double" reaches deeper')
         )
     chosen, *slower = fitting

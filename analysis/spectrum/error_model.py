@@ -111,15 +111,17 @@ def coordinates(x: FloatArray, precision: str, weights: FloatArray | None = None
         share = math.sqrt(n)
     else:
         share = float((np.abs(weights).sum(axis=1) / np.sqrt((weights**2).sum(axis=1))).max())
+    if precision == "float":
+        return _all_rounded(x, weights, share)
     flat = x.reshape(-1)
-    inexact = (flat < EXACT_FROM).nonzero()[0] if precision == "double" else np.arange(flat.size)
+    inexact = (flat < EXACT_FROM).nonzero()[0]
     if not inexact.size:
         return Coordinates(0.0, 0.0, share)
-    scaled = flat[inexact] * 2.0 ** BITS[precision]
+    scaled = flat[inexact] * 2.0 ** BITS["double"]
     scaled -= np.rint(scaled)
     if not scaled.any():
         return Coordinates(0.0, 0.0, share)
-    away = np.abs(scaled) * 2.0 ** -BITS[precision]
+    away = np.abs(scaled) * 2.0 ** -BITS["double"]
     of_set, of_point, _ = np.unravel_index(inexact, x.shape)
     norm: FloatArray | float = float(n)
     if weights is not None:
@@ -129,6 +131,23 @@ def coordinates(x: FloatArray, precision: str, weights: FloatArray | None = None
     coherent = np.bincount(of_set, away, len(x)) / np.sqrt(norm)
     scattered = np.sqrt(np.bincount(of_set, away**2, len(x)) / norm)
     return Coordinates(float(coherent.max()), float(scattered.max()), share)
+
+
+def _all_rounded(x: FloatArray, weights: FloatArray | None, share: float) -> Coordinates:
+    """Measure the rounding of all coordinates in float."""
+    away = x * 2.0 ** BITS["float"]
+    away -= np.rint(away)
+    np.abs(away, out=away)
+    norm: FloatArray | float = float(x.shape[1])
+    if weights is not None:
+        dealt = np.broadcast_to(weights, x.shape[:2])
+        away *= np.abs(dealt)[:, :, None]
+        norm = (dealt**2).sum(axis=1)
+    unit = 2.0 ** -BITS["float"]
+    each = away.reshape(len(x), -1)
+    coherent = each.sum(axis=1) / np.sqrt(norm)
+    scattered = np.sqrt(np.einsum("ij,ij->i", each, each) / norm)
+    return Coordinates(unit * float(coherent.max()), unit * float(scattered.max()), share)
 
 
 def sum_errors(

@@ -4,8 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
+
 from gbnbench.benchmarks.claims.claim import BESIDE, ClaimRow, holds, reported
 from gbnbench.benchmarks.claims.sets import FAST, SetCache
+from gbnbench.core.errors import GbnbenchError
+from gbnbench.core.periodic_delaunay import overhang, triangulation, with_images
+from gbnbench.core.torus import FloatArray
 
 
 def dimensions(sets: SetCache) -> Iterator[ClaimRow]:
@@ -48,3 +53,38 @@ def high(sets: SetCache) -> Iterator[ClaimRow]:
         of=drawn,
         holds=holds(drawn.lowest < 1e-3),
     )
+
+
+def mean_degree(x: FloatArray, margin: float = 0.5) -> float:
+    """Mean number of Delaunay neighbours of the points of a set on the torus, in any dimension.
+
+    Parameters
+    ----------
+    x : (n, d) float64
+        Points on the unit torus, in general position.
+    margin : float
+        Width of the border of images.
+
+    Returns
+    -------
+    float
+
+    Raises
+    ------
+    GbnbenchError
+        If the border is not proven wide enough.
+    """
+    n, d = x.shape
+    tiled, _ = with_images(x, margin)
+    found = triangulation(tiled)
+    if found is None:
+        raise GbnbenchError(f"the {n} points and their images do not span {d} dimensions")
+    simplices = found.simplices[(found.simplices < n).any(axis=1)]
+    corner, *others = np.moveaxis(tiled[simplices], 1, 0)
+    edges = np.stack(others, axis=1) - corner[:, None]
+    centre = np.linalg.solve(2 * edges, np.sum(edges**2, axis=2)[..., None])[..., 0]
+    if overhang(corner + centre, np.linalg.norm(centre, axis=1)) > margin:
+        raise GbnbenchError(f"a border of {margin:g} is too narrow for the neighbours of {n} points in {d}D")
+    pairs = simplices[:, np.array(np.triu_indices(d + 1, 1)).T].reshape(-1, 2)
+    pairs = np.unique(np.sort(pairs, axis=1), axis=0)
+    return float((pairs < n).sum() / n)

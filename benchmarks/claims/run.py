@@ -17,6 +17,7 @@ import time
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 from gbnbench.benchmarks.claims.claim import COLUMNS, Claim
 from gbnbench.benchmarks.claims.registry import CLAIMS
@@ -26,7 +27,8 @@ from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.errors import GbnbenchError, InputError
 from gbnbench.execution.progress import Progress
 from gbnbench.execution.worker_pool import ONE_THREAD
-from gbnbench.runs.resumable import Task, TaskRun
+from gbnbench.runs.resumable import TaskRun
+from gbnbench.runs.task import Task
 
 Table = dict[str, list[dict[str, str]]]
 
@@ -123,6 +125,7 @@ class ClaimTable:
 
     def __init__(self, path: Path, again: bool = False) -> None:
         self.path, self._again, self._table = path, again, read(path)
+        self._machine = describe()
 
     def read(self, key: str) -> list[dict[str, str]] | None:
         """Return the rows of a claim; None where it has still to be measured."""
@@ -141,6 +144,30 @@ class ClaimTable:
         if not isinstance(result, str):
             self._table[key] = result
             write(self.path, self._table)
+            record_machine(self.path.with_name("machine.json"), key, self._machine)
+
+
+def record_machine(path: Path, claim: str, machine: Mapping[str, Any]) -> None:
+    """Note that a claim was measured on a machine, in a list of machines with their claims.
+
+    Parameters
+    ----------
+    path : Path
+        Of the list, JSON; it need not exist.
+    claim : str
+        Name of the claim; it is taken from the machine that measured it before.
+    machine : mapping
+        As ``describe`` returns it.
+    """
+    listed = json.loads(path.read_text(encoding="utf-8")) if path.exists() else []
+    for one in listed:
+        one["claims"] = [name for name in one["claims"] if name != claim]
+    here = next((one for one in listed if one == {"claims": one["claims"], **machine}), None)
+    if here is None:
+        listed.append(here := {"claims": [], **machine})
+    here["claims"].append(claim)
+    kept = [one for one in listed if one["claims"]]
+    write_whole(path, (json.dumps(kept, indent=1) + "\n").encode())
 
 
 def _cell(value: object) -> str:
@@ -198,5 +225,4 @@ def main(arguments: Sequence[str] | None = None) -> None:
     folders = {name: Path(folder) for name, _, folder in (text.partition("=") for text in given.sets)}
     os.environ.update(ONE_THREAD)  # before the device is opened
     claims = named(given.claims)
-    write_whole(given.out.with_name("machine.json"), (json.dumps(describe(), indent=1) + "\n").encode())
     fill(given.out, claims, SetCache(folders), given.again)

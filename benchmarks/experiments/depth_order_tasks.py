@@ -15,7 +15,7 @@ from gbnbench.generators.gauss_newton.solver import solve_for_amplitudes
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.generators.spectral_control.target_profiles import Exponential
-from gbnbench.runs.resumable import Task
+from gbnbench.runs.task import Task
 
 
 @dataclass(frozen=True)

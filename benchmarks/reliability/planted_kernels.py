@@ -36,7 +36,7 @@ class Plant:
 
 PLANTS = {
     "a sign in the product": Plant(
-        "product.cl", "cs##r += ca * sb;", "cs##r -= ca * sb;", "two-group product"
+        "product.cl", "cs##c##r += ca * sb##c;", "cs##c##r -= ca * sb##c;", "two-group product"
     ),
     "a square subtracted": Plant("power.cl", "re * re + im * im", "re * re - im * im", "two-group product"),
     "a table's angle": Plant(

@@ -23,7 +23,8 @@ from gbnbench.benchmarks.timing.machine import describe
 from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.errors import GbnbenchError, InputError
 from gbnbench.execution.progress import choose
-from gbnbench.runs.resumable import Task, TaskRun
+from gbnbench.runs.resumable import TaskRun
+from gbnbench.runs.task import Task
 
 JOBS = 2
 TABLE, QUICK_TABLE = "benchmarks/results/reliability/trials.csv", "build/reliability/trials.csv"

@@ -1,4 +1,7 @@
-"""A comparison of point-set sources as one object: its table, its figures and its report."""
+"""A comparison of point-set sources as one object: its table, its figures and its report.
+
+What draws and prints is imported where it is used: matplotlib takes half a second, while workers can start.
+"""
 
 from __future__ import annotations
 
@@ -10,9 +13,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gbnbench.core.errors import InputError
-from gbnbench.reports.comparison import markdown, table, terminal
-from gbnbench.reports.comparison.figure_files import planned, png, write_figures
-from gbnbench.reports.html.page import write_report
 from gbnbench.runs.baseline import Change
 from gbnbench.runs.comparison_folder import read_run
 from gbnbench.runs.comparison_result import Run, SourceResult
@@ -116,6 +116,8 @@ class Comparison:
         InputError
             If there is no column of such a name.
         """
+        from gbnbench.reports.comparison import markdown
+
         return markdown.markdown_table(self.run, measures, errors=errors)
 
     @property
@@ -136,6 +138,8 @@ class Comparison:
     @property
     def figures(self) -> tuple[str, ...]:
         """Names of all figures; with several (n, d) they end in ``_n1024_d2``, and ``sweep`` is of all."""
+        from gbnbench.reports.comparison.figure_files import planned
+
         return tuple(name for name, _, _ in planned(self.run))
 
     def figure(self, name: str = "gallery") -> Figure:
@@ -156,6 +160,8 @@ class Comparison:
         InputError
             If there is no figure of that name.
         """
+        from gbnbench.reports.comparison.figure_files import planned
+
         for known, draw, group in planned(self.run):
             if known == name:
                 return draw(self.run, group)
@@ -175,10 +181,15 @@ class Comparison:
         return path
 
     def __str__(self) -> str:
+        from gbnbench.reports.comparison import terminal
+
         return terminal.terminal_text(self.run)
 
     def _repr_html_(self) -> str:
         """Return the table and the main pictures, for a notebook."""
+        from gbnbench.reports.comparison.figure_files import png
+        from gbnbench.reports.comparison.notebook import html_table
+
         names = [name for name in self.figures if name.partition("_n")[0] in NOTEBOOK_FIGURES]
         pictures = [
             f'<img alt="{name}" style="max-width:100%" src="data:image/png;base64,'
@@ -186,7 +197,7 @@ class Comparison:
             for name in names
         ]
         skipped = [f"<p>skipped: {html.escape(line)}</p>" for line in self.skipped]
-        return "\n".join([_html_table(self.run), *skipped, *pictures])
+        return "\n".join([html_table(self.run), *skipped, *pictures])
 
 
 def draw(run: Run, folder: Path) -> None:
@@ -204,6 +215,9 @@ def draw(run: Run, folder: Path) -> None:
     UndrawnError
         If any of them cannot be made; all others are.
     """
+    from gbnbench.reports.comparison.figure_files import write_figures
+    from gbnbench.reports.html.page import write_report
+
     drawn: dict[str, bytes] = {}
     make_each(
         [
@@ -213,17 +227,10 @@ def draw(run: Run, folder: Path) -> None:
     )
 
 
-def _html_table(run: Run) -> str:
-    """Return the table in HTML, the best of each column in bold, standard errors as tooltips."""
-    heads = "".join(
-        f'<th title="{html.escape(column.text)}">{html.escape(column.title)}</th>' for column in table.COLUMNS
-    )
-    body = []
-    for row in table.rows(run):
-        cells = [f"<th>{html.escape(table.row_label(row.source, run))}</th>"]
-        for column in table.COLUMNS:
-            cell = row.cells[column.name]
-            tip, text = html.escape(cell.reason or cell.full), html.escape(cell.text)
-            cells.append(f'<td title="{tip}">{f"<b>{text}</b>" if cell.best else text}</td>')
-        body.append(f"<tr>{''.join(cells)}</tr>")
-    return f"<table><thead><tr><th>source</th>{heads}</tr></thead><tbody>{''.join(body)}</tbody></table>"
+def load_pictures() -> None:
+    """Import what makes the figures and the report, while other processes work."""
+    import pandas  # noqa: F401
+    from fontTools import subset  # noqa: F401
+    from matplotlib.backends import backend_agg, backend_pdf  # noqa: F401
+
+    import gbnbench.reports.html.page  # noqa: F401

@@ -53,6 +53,7 @@ def generate(
 
     NAME is one of "gbnbench generators", such as gbn or 'gbn[iterations=1000]'.
     """
+    from gbnbench.generators.gbn.generator import GaussianBlueNoise
     from gbnbench.generators.monitor import Trace
     from gbnbench.generators.registry import find
     from gbnbench.generators.registry import generate as draw
@@ -69,14 +70,13 @@ def generate(
         check_folder(path)
     if checkpoint is not None and checkpoint.absolute() in (out.absolute(), trace and trace.absolute()):
         raise InputError(f"a checkpoint needs a file of its own; got {checkpoint} for two")
-    steps = getattr(generator, "steps", None)
-    if steps is not None and max(spectra_at, default=0) > steps:
+    gbn = generator if isinstance(generator, GaussianBlueNoise) else None
+    if gbn is not None and max(spectra_at, default=0) > gbn.steps:
         raise InputError(
-            f"--spectra-at must be at most {steps}, the gradients of {name}; got {max(spectra_at)}"
+            f"--spectra-at must be at most {gbn.steps}, the gradients of {name}; got {max(spectra_at)}"
         )
     if explain:
-        tell = getattr(generator, "explain", None)
-        click.echo(tell(n, d, realizations) if tell else f"{generator.name}: {generator.summary}")
+        click.echo(gbn.explain(n, d, realizations) if gbn else f"{generator.name}: {generator.summary}")
         return
     kept = None if trace is None else Trace(keep_at=spectra_at)
     with _monitored(kept, checkpoint, quiet) as monitor:

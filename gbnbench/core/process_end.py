@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import signal
 
+from gbnbench.core.readable_text import in_one_line
+
 
 def cause_of_end(code: int, complaints: bytes) -> str:
     r"""Say what a process ended of.
@@ -38,4 +40,4 @@ def cause_of_end(code: int, complaints: bytes) -> str:
             cause += " (often by the system for want of memory)"
     else:
         cause = f"its process ended with exit code {code}"
-    return f"{cause}: {lines[-1]}" if lines else cause
+    return f"{cause}: {in_one_line(lines[-1])}" if lines else cause

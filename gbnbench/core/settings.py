@@ -147,6 +147,21 @@ def nearest(word: str, words: Iterable[str]) -> str:
     return f"; did you mean {close[0]!r}?" if close else ""
 
 
+def is_readable(hint: object) -> bool:
+    """Tell whether text gives values of a type: bool, int, float, str, a Literal, or one of these or None.
+
+    Examples
+    --------
+    >>> is_readable(float | None), is_readable(list[float])
+    (True, False)
+    """
+    origin, choices = typing.get_origin(hint), typing.get_args(hint)
+    if origin in (typing.Union, types.UnionType):
+        others = [choice for choice in choices if choice is not type(None)]
+        return len(others) == 1 and len(choices) == 2 and is_readable(others[0])
+    return origin is typing.Literal or hint in (bool, int, float, str)
+
+
 def _fields(kind: type[Configured]) -> tuple[dataclasses.Field[Any], ...]:
     return dataclasses.fields(cast(Any, kind))
 

@@ -33,25 +33,30 @@ from gbnbench.doctor.numpy_references import (
     numpy_periodic_square,
     numpy_power,
     numpy_star_square,
+    numpy_swap_fault,
     numpy_waves,
 )
+from gbnbench.generators.ccvt.assignment import sample_lattice, share_out
+from gbnbench.generators.ccvt.swaps import Swaps, placed
 from gbnbench.generators.fpo.relocation import Sweeps, move_afresh
 from gbnbench.generators.gbn.box import BoxEnergy
 from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.plan import plan_energy
 from gbnbench.opencl import Device, choose
 
-# n, d, fmax: none a multiple of a vector, a tile or a chunk; the one of 613 takes several launches. The
-# transforms of fmax = 8 and 10 in the plane have all radices between them.
-QUICK_PERIODOGRAMS = ((613, 2, 22), (61, 2, 8), (61, 2, 10), (61, 3, 3), (29, 5, 1))
+# n, d, fmax: none a multiple of a vector, a tile or a chunk; the one of 613 takes several launches, that
+# of 601 several runs on a line. The transforms of fmax = 8 and 10 in the plane have all radices between them.
+QUICK_PERIODOGRAMS = ((601, 1, 22), (613, 2, 22), (61, 2, 8), (61, 2, 10), (61, 3, 3), (29, 5, 1))
 PERIODOGRAMS = ((7, 1, 19), (131, 2, 11), (333, 2, 5), *QUICK_PERIODOGRAMS)
 # n, d, sigma: wide boxes, then narrow ones, each by every evaluation that serves it.
 ENERGIES = ((613, 2, 0.9), (401, 1, 1.0), (83, 2, 1.0), (53, 3, 0.7), (37, 8, 1.0))
 QUICK_ENERGIES = ((401, 2, 1.0), (53, 3, 0.7))
 QUICK_BOXES = ((90, 2, 1.0),)
 BOXES = (*QUICK_BOXES, (1500, 2, 0.5), (120, 3, 1.0), (60, 8, 1.0))
-ADAPTIVE = ((61, 2), (23, 3))  # n, d
+ADAPTIVE = ((61, 2), (71, 3))  # n, d
 SWEEP, QUICK_SWEEP = 101, 41  # points of the farthest-point kernel's sweep
+SWAPS, QUICK_SWAPS = ((31, 77), (11, 300)), ((23, 37),)  # sites, samples of each
+PASSES = 1000  # of swaps; a few dozen bring so few to rest
 DISCREPANCIES = ((2111, 2), (83, 5))  # n, d; one more than a block of columns
 QUICK_DISCREPANCIES = ((83, 5),)
 PAIRS = ((1111, 2), (333, 3))  # n, d
@@ -136,6 +141,17 @@ def _farthest_points(n: int, precision: str) -> Iterator[Check]:
     yield Check("farthest-point sweep", f"n={n} d=2", precision, error, DISTANCE)
 
 
+def _swaps(n: int, capacity: int, precision: str) -> Iterator[Check]:
+    rng = np.random.default_rng(n)
+    sites, samples = rng.random((n, 2)), sample_lattice(n * capacity, rng)
+    work = Swaps(sites, placed(sites, samples[share_out(sites, samples, rng)]))
+    for _ in range(PASSES):
+        if not work.settled:
+            work.sweep(rng)
+    error = numpy_swap_fault(work.sites, work.offsets, samples)
+    yield Check("swaps of samples", f"n={n} samples={capacity}", precision, error, DISTANCE)
+
+
 def _discrepancies(n: int, d: int, precision: str) -> Iterator[Check]:
     x = np.random.default_rng(n).random((n, d))
     found = discrepancies(x, ["CD", "L2-star", "L2-periodic"])
@@ -200,6 +216,7 @@ def planned_checks(quick: bool, device: Device) -> list[tuple[KernelChecks, tupl
             work.extend((_integrands, case) for case in (QUICK_INTEGRANDS if quick else INTEGRANDS))
             work.extend((_pairs, case) for case in (QUICK_PAIRS if quick else PAIRS))
             work.append((_farthest_points, (QUICK_SWEEP if quick else SWEEP,)))
+            work.extend((_swaps, case) for case in (QUICK_SWAPS if quick else SWAPS))
             work.extend((_discrepancies, case) for case in (QUICK_DISCREPANCIES if quick else DISCREPANCIES))
         planned.extend((function, case, precision) for function, case in work)
     return planned

@@ -198,3 +198,34 @@ def numpy_pairs(x: FloatArray, bins: int, reach: float, sides: tuple[float, ...]
     step = x[i] - x[j]
     distance = np.sqrt((((step - np.rint(step)) * sides) ** 2).sum(axis=-1))
     return np.histogram(distance, bins, (0, reach))[0].astype(np.int64)
+
+
+def numpy_swap_fault(sites: FloatArray, offsets: FloatArray, samples: FloatArray) -> float:
+    """How far sites with their samples are from where no swap of two samples pays (``ccvt``).
+
+    Parameters
+    ----------
+    sites : (n, 2) float64
+        Sites on the unit torus.
+    offsets : (n, 2, capacity) float64
+        Samples of each, from it.
+    samples : (n * capacity, 2) float64
+        All samples as they were given.
+
+    Returns
+    -------
+    float
+        Largest of: the distance of a given sample from all that are there; the distance of a site from the
+        centroid of its samples; half of what a swap lowers the sum of squared distances by.
+    """
+    places = np.moveaxis(offsets, 1, 2) + sites[:, None]
+    apart = places.reshape(-1, 1, 2) - samples
+    apart -= np.rint(apart)
+    lost = float(np.sqrt(np.sum(apart**2, axis=2).min(axis=0)).max())
+    from_site = places[:, :, None] - sites
+    from_site -= np.rint(from_site)
+    squares = np.sum(from_site**2, axis=3)
+    own = squares[np.arange(len(sites)), :, np.arange(len(sites))]
+    gain = np.max(own[:, :, None] - squares, axis=1)  # of the sample of each site that gains most by another
+    np.fill_diagonal(gain, 0.0)
+    return max(lost, float(np.abs(offsets.mean(axis=2)).max()), float((gain + gain.T).max() / 2))

@@ -16,7 +16,8 @@ from gbnbench.opencl import choose
 from gbnbench.regression.cases import Case, Expectation, Spread, Values
 from gbnbench.regression.measurement import observe
 from gbnbench.regression.verdict import Verdict, failed, judge, skipped, title
-from gbnbench.runs.resumable import Task, TaskRun
+from gbnbench.runs.resumable import TaskRun
+from gbnbench.runs.task import Task
 
 FALSE_ALARM = 1e-4  # chance that another seed, or another device, alone makes a measure worse
 ROUNDING = 1e-9  # relative spread below which seeds do not matter

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from gbnbench.core.errors import GbnbenchError, UnfinishedError
@@ -11,38 +10,7 @@ from gbnbench.execution.progress import Progress
 from gbnbench.execution.worker_pool import Finished, Pool
 from gbnbench.runs.device_proof import prove_device_if_any
 from gbnbench.runs.result_store import ResultStore
-
-
-@dataclass(frozen=True)
-class Task:
-    """One call of a function.
-
-    Attributes
-    ----------
-    key : str
-        Unique among the tasks, and safe as a path, such as ``gbn_n64_d2/000000``.
-    label : str
-        What the user reads, such as ``gbn, n=64, d=2``.
-    function : callable
-        A function of a module, so that a worker process can import it.
-    arguments : tuple
-        Its arguments; they can be pickled.
-    requires : tuple of str
-        Keys of the tasks that come first. The list of their results is one more argument of the function.
-    assemble : callable, optional
-        Makes the result that is kept from what the function returned and the list of the results required. It
-        runs in this process, so that large arrays do not travel back from a worker.
-    done : str
-        What the progress says when the task is finished; the label where it is empty.
-    """
-
-    key: str
-    label: str
-    function: Callable[..., Any]
-    arguments: tuple[Any, ...] = ()
-    requires: tuple[str, ...] = ()
-    assemble: Callable[[Any, list[Any]], Any] | None = None
-    done: str = ""
+from gbnbench.runs.task import Task
 
 
 class TaskRun:
@@ -97,7 +65,13 @@ class TaskRun:
         return {key: self._results[key] for key in self._tasks if key in self._results}
 
     def complete(
-        self, jobs: int | None, progress: Progress, *, doing: str = "", prove_device: bool = True
+        self,
+        jobs: int | None,
+        progress: Progress,
+        *,
+        doing: str = "",
+        prove_device: bool = True,
+        meanwhile: Callable[[], None] | None = None,
     ) -> Iterator[Finished]:
         """Do the missing tasks; yield each as it is finished, failed ones too.
 
@@ -111,6 +85,8 @@ class TaskRun:
             What the progress says at first; by default the label of the first task.
         prove_device : bool
             Let a worker check the OpenCL device, if there is one, before the tasks begin.
+        meanwhile : callable, optional
+            Called in this process while a worker does so.
 
         Yields
         ------
@@ -133,7 +109,7 @@ class TaskRun:
             return
         with Pool(max(1, min(jobs, len(self.missing)))) as pool:
             if prove_device:
-                prove_device_if_any(pool, progress, len(self._tasks), self.reused)
+                prove_device_if_any(pool, progress, len(self._tasks), self.reused, meanwhile)
             progress.start(len(self._tasks), self.reused, doing)  # the time of the check is not counted
             for task in self.missing:
                 if not self._awaits[task.key]:
@@ -188,7 +164,12 @@ class TaskRun:
 
 
 def run_tasks(
-    tasks: Sequence[Task], store: ResultStore, jobs: int, progress: Progress, doing: str = ""
+    tasks: Sequence[Task],
+    store: ResultStore,
+    jobs: int,
+    progress: Progress,
+    doing: str = "",
+    meanwhile: Callable[[], None] | None = None,
 ) -> TaskRun:
     """Do the tasks whose results a store lacks, in worker processes.
 
@@ -204,6 +185,8 @@ def run_tasks(
         Counts a step a task.
     doing : str
         What the progress says at first; by default the label of the first task.
+    meanwhile : callable, optional
+        Called in this process while a worker checks the OpenCL device.
 
     Returns
     -------
@@ -226,7 +209,7 @@ def run_tasks(
         progress.say(f"resuming {store.path}: {run.reused} of {len(tasks)} pieces are there")
     labels = {task.key: task.label for task in run.missing}
     failures = []
-    for done in run.complete(jobs, progress, doing=doing):
+    for done in run.complete(jobs, progress, doing=doing, meanwhile=meanwhile):
         if done.failure:
             failures.append(f"{labels[str(done.key)]}: {done.failure}")
             progress.say(failures[-1])

@@ -74,6 +74,7 @@ def run_comparison(
     skipped: Sequence[str] = (),
     progress: Progress | None = None,
     draw: Callable[[Run, Path], None] | None = None,
+    meanwhile: Callable[[], None] | None = None,
 ) -> ComparisonOutcome:
     """Make and measure every source, in a run folder that the same call can resume.
 
@@ -98,6 +99,8 @@ def run_comparison(
     draw : callable, optional
         ``draw(run, folder)`` makes the pictures and the report before the run is declared whole. Where it
         fails, the results are kept, and the same call tries it again.
+    meanwhile : callable, optional
+        What to do while the first worker starts, such as imports for the pictures.
 
     Returns
     -------
@@ -141,7 +144,7 @@ def run_comparison(
                     run, store.path, changes, notes, len(tasks), len(tasks), time.monotonic() - began
                 )
         store.begin()
-        work = run_tasks(tasks, store, jobs, progress, "making sets")
+        work = run_tasks(tasks, store, jobs, progress, "making sets", meanwhile)
         run = Run({}, tuple(work.results[source.key] for source in sources))
         changes, notes = ((), ()) if earlier is None else judge(run, earlier)
         manifest = {

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,8 +15,10 @@ from gbnbench.generators.protocol import Generator, checked_draw, realization_rn
 from gbnbench.io.points.point_sets import NO_TORUS
 from gbnbench.runs.comparison_folder import Realization, realization_key
 from gbnbench.runs.comparison_result import SourceResult
-from gbnbench.runs.resumable import Task
-from gbnbench.runs.sources import Source
+from gbnbench.runs.task import Task
+
+if TYPE_CHECKING:  # a worker loads the generators that it draws from, not all of them
+    from gbnbench.runs.sources import Source
 
 REDRAW_SECONDS = 5.0
 

@@ -9,7 +9,8 @@ from itertools import groupby
 
 from gbnbench.core.errors import InputError
 from gbnbench.execution.progress import Progress
-from gbnbench.runs.resumable import Task, TaskRun
+from gbnbench.runs.resumable import TaskRun
+from gbnbench.runs.task import Task
 from gbnbench.verification.published_figure import PublishedFigure
 from gbnbench.verification.verify import Verified, same_sets, verify
 

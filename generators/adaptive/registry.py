@@ -10,14 +10,22 @@ from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.settings import configure, nearest, parse
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density
+from gbnbench.generators.adaptive.dithering.error_diffusion import FloydSteinberg
+from gbnbench.generators.adaptive.dithering.mask import VoidAndClusterDither
 from gbnbench.generators.adaptive.gbn.generator import AdaptiveGaussianBlueNoise
 from gbnbench.generators.adaptive.protocol import AdaptiveGenerator, Told
 from gbnbench.generators.adaptive.rejection import Rejection
+from gbnbench.generators.adaptive.voronoi.linde_buzo_gray import LindeBuzoGray
+from gbnbench.generators.adaptive.voronoi.secord import WeightedVoronoi
 from gbnbench.generators.protocol import realization_rng
 
 ADAPTIVE_GENERATORS: dict[str, type[AdaptiveGenerator]] = {
     "gbn": AdaptiveGaussianBlueNoise,
+    "secord": WeightedVoronoi,
+    "lbg": LindeBuzoGray,
     "rejection": Rejection,
+    "floydsteinberg": FloydSteinberg,
+    "voidcluster": VoidAndClusterDither,
 }
 
 

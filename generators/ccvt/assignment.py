@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 
 from gbnbench.core.torus import FloatArray, wrap
 
+GOLDEN = (math.sqrt(5) - 1) / 2
+
 
 def sample_lattice(count: int, rng: np.random.Generator) -> FloatArray:
     """Return a lattice of so many samples, whatever their number, at a random shift.
@@ -27,8 +29,53 @@ def sample_lattice(count: int, rng: np.random.Generator) -> FloatArray:
         a square grid, which exists for square numbers alone.
     """
     i = np.arange(count, dtype=np.int64)
-    step = round(count * (math.sqrt(5) - 1) / 2)
+    step = round(count * GOLDEN)
     return wrap(np.stack([i, i * step % count], axis=1) / count + rng.random(2))
+
+
+def short_basis(count: int) -> FloatArray:
+    """Return two shortest vectors that span a lattice of ``sample_lattice`` (Lagrange's reduction).
+
+    Parameters
+    ----------
+    count : int
+        Samples of the lattice.
+
+    Returns
+    -------
+    (2, 2) float64
+        The vectors, one a row.
+    """
+    a, b = np.array([1.0, round(count * GOLDEN)]) / count, np.array([0.0, 1.0])
+    while True:
+        if a @ a > b @ b:
+            a, b = b, a
+        step = np.rint(a @ b / (a @ a))
+        if step == 0:
+            return np.stack([a, b])
+        b = b - step * a
+
+
+def split(offsets: FloatArray, basis: FloatArray) -> FloatArray:
+    """Put four samples in the place of each sample of a lattice, such that they are a lattice again.
+
+    Parameters
+    ----------
+    offsets : (n, 2, capacity) float64
+        Samples from their sites: x, then y.
+    basis : (2, 2) float64
+        Vectors that span the lattice; half of each spans the new one.
+
+    Returns
+    -------
+    (n, 2, 4 capacity) float64
+        The mean of each four is the sample that they stand for: it and a quarter of either vector, with
+        either sign.
+    """
+    a, b = basis / 4
+    shifts = np.stack([a + b, a - b, b - a, -a - b], axis=1)
+    fine = offsets[:, :, :, None] + shifts[:, None, :]
+    return np.asarray(fine.reshape(len(offsets), 2, -1))
 
 
 def share_out(sites: FloatArray, samples: FloatArray, rng: np.random.Generator) -> NDArray[np.intp]:

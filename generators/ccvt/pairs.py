@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,46 +11,70 @@ from gbnbench.core.periodic_delaunay import with_images
 from gbnbench.core.torus import FloatArray
 
 Indices = NDArray[np.intp]
+CLASSES = 4  # of radii in a factor of 2
 
 
-def touching_pairs(
-    sites: FloatArray, radius: FloatArray, changed: NDArray[np.bool_]
-) -> tuple[Indices, Indices, FloatArray]:
-    """Find the pairs, at least one of them changed, whose bounding circles overlap.
+@dataclass(frozen=True)
+class Pairs:
+    """Pairs of sites, ordered by group; no site comes twice in a group.
+
+    Attributes
+    ----------
+    first, second : (pairs,) intp
+        The sites; each pair once, or once for each image near enough.
+    between : (pairs, 2) float64
+        Vector from the first to the second.
+    group : (pairs,) intp
+        Ascending, from 0.
+    """
+
+    first: Indices
+    second: Indices
+    between: FloatArray
+    group: Indices
+
+
+def touching_pairs(sites: FloatArray, radius: FloatArray) -> Pairs:
+    """Find the pairs of sites whose bounding circles overlap.
 
     Parameters
     ----------
     sites : (n, 2) float64
         Sites on the unit torus.
     radius : (n,) float64
-        Distance of the farthest sample of each.
-    changed : (n,) bool
-        Sites whose samples or place changed since their pairs were last looked at.
+        Of the circle about each.
 
     Returns
     -------
-    first, second : (pairs,) intp
-        The sites; each pair once, or once for each image near enough.
-    between : (pairs, 2) float64
-        Vector from the first to the second.
+    Pairs
+        Each in the first group that has neither of its sites yet.
     """
     from scipy.spatial import cKDTree
 
-    widest = radius.max()
-    tiled, owner = with_images(sites, min(1.0, 2 * widest * (1 + 1e-9)))
-    start = np.flatnonzero(changed)
-    near = cKDTree(tiled).query_ball_point(sites[start], radius[start] + widest)
-    first = np.repeat(start, [len(each) for each in near])
-    image = np.concatenate([np.array(each, dtype=np.intp) for each in near])
+    tiled, owner = with_images(sites, min(1.0, 2 * radius.max() * (1 + 1e-9)))
+    tree = cKDTree(tiled)
+    # Whose circle is the wider one looks for the others: then a few wide circles do not make all look far.
+    size = np.ceil(CLASSES * np.log2(np.maximum(radius, 1e-12)))
+    found = []
+    for exponent in np.unique(size):
+        own = np.flatnonzero(size == exponent)
+        near = cKDTree(sites[own]).sparse_distance_matrix(
+            tree, 2 * 2 ** (exponent / CLASSES) * (1 + 1e-9), output_type="ndarray"
+        )
+        found.append(np.stack([own[near["i"]], near["j"]]))
+    first, image = np.concatenate(found, axis=1)
     second, between = owner[image], tiled[image] - sites[first]
-    once = (first < second) | ((first != second) & ~changed[second])
+    wider = (radius[first] > radius[second]) | ((radius[first] == radius[second]) & (first < second))
     overlap = np.sum(between * between, axis=1) < (radius[first] + radius[second]) ** 2
-    chosen = once & overlap
-    return first[chosen], second[chosen], between[chosen]
+    chosen = np.flatnonzero(wider & overlap & (first != second))
+    group = first_free_groups(first[chosen], second[chosen], len(sites))
+    order = np.argsort(group, kind="stable")
+    chosen = chosen[order]
+    return Pairs(first[chosen], second[chosen], between[chosen], group[order])
 
 
-def matchings(first: Indices, second: Indices, n: int, rng: np.random.Generator) -> Iterator[Indices]:
-    """Part pairs into groups in which no site comes twice, in random order.
+def first_free_groups(first: Indices, second: Indices, n: int) -> Indices:
+    """Part pairs into groups in which no site comes twice.
 
     Parameters
     ----------
@@ -58,22 +82,18 @@ def matchings(first: Indices, second: Indices, n: int, rng: np.random.Generator)
         The sites of each pair.
     n : int
         Sites.
-    rng : numpy.random.Generator
-        Stream of the order.
 
-    Yields
-    ------
-    (group,) intp
-        Indices of pairs; every pair is in one group.
+    Returns
+    -------
+    (pairs,) intp
+        The first group, from 0, that has neither site from an earlier pair.
     """
-    left = rng.permutation(len(first))
-    earliest = np.empty(n, dtype=np.intp)
-    while len(left):
-        ends = np.stack([first[left], second[left]], axis=1)
-        turn = np.arange(len(left))
-        earliest[ends[::-1].ravel()] = np.repeat(
-            turn[::-1], 2
-        )  # the last that is written stays: the earliest
-        chosen = (earliest[ends] == turn[:, None]).all(axis=1)
-        yield left[chosen]
-        left = left[~chosen]
+    taken = [0] * n  # groups of each site so far, one a bit
+    group = np.empty(len(first), dtype=np.intp)
+    for k, (a, b) in enumerate(zip(first.tolist(), second.tolist(), strict=True)):
+        free = ~(taken[a] | taken[b])
+        bit = free & -free
+        taken[a] |= bit
+        taken[b] |= bit
+        group[k] = bit.bit_length() - 1
+    return group

@@ -5,109 +5,198 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from gbnbench.core.errors import DeviceError
 from gbnbench.core.torus import FloatArray, wrap
-from gbnbench.generators.ccvt.pairs import Indices, matchings, touching_pairs
+from gbnbench.generators.ccvt.pairs import Pairs, first_free_groups, touching_pairs
+from gbnbench.opencl import runtime
 
+SLACK = 0.2  # of the median radius: how much wider than the circles those are whose pairs are listed
+CROWDED = 2  # pairs on the list for each one that overlaps: then the list is made anew
+CHUNK = 32  # samples that have a box in common
 GAIN = 1e-13  # least change of half a squared distance, in units of length squared, that counts as one
-ROWS = 128  # pairs that are treated at once: what fits a cache
 
 
 class Swaps:
-    """Sites with their samples, and passes of swaps over all pairs.
+    """Sites with their samples on the device, and passes of swaps over all pairs.
+
+    Parameters
+    ----------
+    sites : (n, 2) float64
+        On the unit torus.
+    offsets : (n, 2, capacity) float64
+        Samples of each site, from the site: x, then y.
 
     Attributes
     ----------
     sites : (n, 2) float64
         On the unit torus, each at the centroid of its samples.
-    offsets : (n, capacity, 2) float64
-        Samples of each site, from the site.
     settled : bool
         Whether no swap can lower the energy any more.
+
+    Raises
+    ------
+    DeviceError
+        If the device lacks double precision or memory.
     """
 
-    def __init__(self, sites: FloatArray, samples: FloatArray) -> None:
-        """Take the sites with the samples that were given to each, (n, capacity, 2), on the torus."""
-        self.sites = sites
-        self.offsets = samples - sites[:, None]
-        self.offsets -= np.rint(self.offsets)
+    def __init__(self, sites: FloatArray, offsets: FloatArray) -> None:
+        self._runtime = runtime()
+        if not self._runtime.device.has_double:
+            raise DeviceError(
+                f"ccvt needs double precision, which {self._runtime.device.label} lacks; "
+                "choose another device: gbnbench devices lists them"
+            )
+        self._program = self._runtime.program(
+            "gbnbench.generators",
+            ("/vector.cl", "ccvt_swap.cl", "ccvt_recentre.cl"),
+            {"DOUBLE": 1, "LANES": self._runtime.lanes("double"), "GAIN": GAIN, "CHUNK": CHUNK},
+        )
+        n, _, capacity = self._shape = offsets.shape
+        self._sizes = np.int32(capacity), np.int32(-(-capacity // CHUNK))
+        self.sites = sites.copy()
         self.settled = False
-        self._radius = np.zeros(len(sites))
-        self._changed = np.ones(len(sites), dtype=bool)
-        self._turned = np.zeros(len(sites), dtype=bool)
-        self._shift = np.zeros_like(sites)
-        self._recentre()
+        self._pairs: Pairs | None = None
+        self._crowded = False
+        self._slack = 0.0
+        self._drift = np.zeros((n, 2))
+        self._radius = np.zeros(n)
+        self._listed_radius = self._radius
+        self._moved = np.zeros((n, 2))
+        self._changed = np.ones(n, dtype=np.int32)
+        self._offsets_buffer = self._runtime.upload(in_chunks(offsets))
+        self._boxes_buffer = self._runtime.empty(n * 4 * int(self._sizes[1]) * 8)
+        self._heaps_buffer = self._runtime.empty(n * capacity * 4)
+        self._shift_buffer = self._runtime.upload(np.zeros((n, 2)))
+        self._changed_buffer = self._runtime.upload(self._changed)
+        self._moved_buffer = self._runtime.upload(self._moved)
+        self._radius_buffer = self._runtime.upload(self._radius)
+        for _ in range(2):  # the first finds the centroids
+            self._recentre()
+
+    @property
+    def offsets(self) -> FloatArray:
+        """Samples of each site, from the site, (n, 2, capacity), read back from the device."""
+        return self._runtime.download(self._offsets_buffer, np.empty(self._shape))
 
     @property
     def energy(self) -> float:
         """Mean squared distance of a sample from its site."""
         return float(2 * np.mean(self.offsets**2))
 
-    def sweep(self, rng: np.random.Generator) -> int:
-        """Look at every pair once, in random order; return how many pairs of samples were swapped.
+    def sweep(self, rng: np.random.Generator) -> None:
+        """Look once, in random order, at every pair of which a site has changed, and swap while that pays.
 
-        After a swap both sites move to the centroids of their samples at once.
+        After the swaps of a pair both its sites move to the centroids of their samples at once.
         """
-        first, second, between = touching_pairs(self.sites, self._radius, self._changed)
-        self._changed[:] = self._turned  # their centroids moved with the samples that were turned
-        swapped = 0
-        for group in matchings(first, second, len(self.sites), rng):
-            for start in range(0, len(group), ROWS):
-                rows = group[start : start + ROWS]
-                swapped += self._swap(first[rows], second[rows], between[rows])
-        self.settled = not self._changed.any()
+        pairs, between = self._listed()
+        changed = self._changed > 0
+        squares = np.sum(between * between, axis=1)
+        overlap = squares < (self._radius[pairs.first] + self._radius[pairs.second]) ** 2
+        self._crowded = bool(CROWDED * np.count_nonzero(overlap) < len(overlap))
+        chosen = np.flatnonzero(overlap & (changed[pairs.first] | changed[pairs.second]))
+        group = pairs.group[chosen]
+        if len(chosen) < len(changed):  # a few pairs need fewer groups
+            chosen = rng.permutation(chosen)
+            group = first_free_groups(pairs.first[chosen], pairs.second[chosen], len(changed))
+            order = np.argsort(group, kind="stable")
+            chosen, group = chosen[order], group[order]
+        # A site whose samples were turned about the torus is looked at again.
+        self._runtime.update(self._changed_buffer, (self._changed == 2).astype(np.int32))
+        if len(chosen):
+            arguments = (
+                *self._sizes,
+                self._runtime.upload(np.stack([pairs.first, pairs.second], axis=1)[chosen].astype(np.int32)),
+                self._runtime.upload(between[chosen]),
+                self._offsets_buffer,
+                self._boxes_buffer,
+                self._heaps_buffer,
+                self._shift_buffer,
+                self._changed_buffer,
+            )
+            bounds = np.searchsorted(group, np.arange(group[-1] + 2))
+            for k in rng.permutation(group[-1] + 1):
+                start, stop = bounds[k : k + 2]
+                if stop > start:
+                    self._run("ccvt_swap", stop - start, np.int32(start), np.int32(stop), *arguments)
         self._recentre()
-        return swapped
+        self.settled = not self._changed.any()
 
-    def _swap(self, a: Indices, b: Indices, between: FloatArray) -> int:
-        """Swap between each a and its b while that lowers the energy; no site comes twice."""
-        vector = between + self._shift[b] - self._shift[a]
-        half = np.sum(vector * vector, axis=1) / 2
-        # Half of |from a|^2 - |from b|^2 of each sample: of those of a the gain of giving it to b.
-        gain = np.matmul(self.offsets[a], vector[:, :, None])[:, :, 0]
-        loss = np.matmul(self.offsets[b], vector[:, :, None])[:, :, 0]
-        gain -= (half + np.sum(self._shift[a] * vector, axis=1))[:, None]
-        loss += (half - np.sum(self._shift[b] * vector, axis=1))[:, None]
-        least, most = loss.min(axis=1), gain.max(axis=1)
-        hot = np.flatnonzero(most > least + GAIN)
-        if not len(hot):
-            return 0
-        gain, loss, least, most = gain[hot], loss[hot], least[hot, None], most[hot, None]
-        many = max((gain > least + GAIN).sum(axis=1).max(), (loss < most - GAIN).sum(axis=1).max())
-        given, taken = _lowest(-gain, int(many)), _lowest(loss, int(many))
-        profit = np.take_along_axis(gain, given, axis=1) - np.take_along_axis(loss, taken, axis=1)
-        row, place = np.nonzero(profit > GAIN)  # both in order: the first k of a row
-        ours, theirs = (a[hot][row], given[row, place]), (b[hot][row], taken[row, place])
-        leaving = self.offsets[ours] - between[hot][row]
-        coming = self.offsets[theirs] + between[hot][row]
-        for axis in range(2):  # what comes to a has left b, and the other way round
-            change = np.bincount(row, coming[:, axis] - self.offsets[ours][:, axis], len(hot))
-            self._shift[a[hot], axis] += change / self.offsets.shape[1]
-            self._shift[b[hot], axis] -= change / self.offsets.shape[1]
-        self.offsets[ours], self.offsets[theirs] = coming, leaving
-        self._changed[a[hot]] = True
-        self._changed[b[hot]] = True
-        return len(row)
+    def _listed(self) -> tuple[Pairs, FloatArray]:
+        """Pairs that hold all whose circles overlap, with the vectors between them as sites stand."""
+        if self._pairs is not None and not self._crowded:
+            wider = np.linalg.norm(self._drift, axis=1) + self._radius - self._listed_radius
+            if wider.max() <= self._slack:
+                drift = self._drift[self._pairs.second] - self._drift[self._pairs.first]
+                return self._pairs, self._pairs.between + drift
+        self._slack = SLACK * float(np.median(self._radius))
+        self._listed_radius = self._radius.copy()
+        self._drift = np.zeros_like(self.sites)
+        self._pairs = touching_pairs(self.sites, self._radius + self._slack)
+        return self._pairs, self._pairs.between
 
     def _recentre(self) -> None:
         """Move changed sites to the centroids of their samples, and measure their circles."""
-        changed = np.flatnonzero(self._changed)
-        offsets = self.offsets[changed]
-        centroid = offsets.mean(axis=1)
-        offsets -= centroid[:, None]
-        turns = np.rint(offsets)  # where a cell reaches half round the torus
-        offsets -= turns
-        self._turned[:] = False
-        self._turned[changed] = turns.any(axis=(1, 2))
-        self.offsets[changed] = offsets
-        self.sites[changed] = wrap(self.sites[changed] + centroid)
-        self._radius[changed] = np.sqrt(np.max(offsets[:, :, 0] ** 2 + offsets[:, :, 1] ** 2, axis=1))
-        self._shift[:] = 0.0
+        self._run(
+            "ccvt_recentre",
+            len(self.sites),
+            np.int32(len(self.sites)),
+            *self._sizes,
+            self._offsets_buffer,
+            self._boxes_buffer,
+            self._shift_buffer,
+            self._changed_buffer,
+            self._moved_buffer,
+            self._radius_buffer,
+        )
+        self._runtime.download(self._changed_buffer, self._changed)
+        self._runtime.download(self._moved_buffer, self._moved)
+        self._runtime.download(self._radius_buffer, self._radius)
+        changed = self._changed > 0
+        self.sites[changed] = wrap(self.sites[changed] + self._moved[changed])
+        self._drift[changed] += self._moved[changed]
+
+    def _run(self, name: str, items: int, *arguments: object) -> None:
+        """Launch so many work-items of a kernel."""
+        group = self._runtime.group
+        self._program.run(name, (-(-items // group) * group,), (group,), *arguments)
 
 
-def _lowest(values: FloatArray, many: int) -> NDArray[np.intp]:
-    """Places of so many least values of each row, in order."""
-    if many >= values.shape[1]:
-        return np.argsort(values, axis=1)
-    chosen = np.argpartition(values, many - 1, axis=1)[:, :many]
-    order = np.argsort(np.take_along_axis(values, chosen, axis=1), axis=1)
-    return np.take_along_axis(chosen, order, axis=1)
+def placed(sites: FloatArray, samples: NDArray[np.float64]) -> FloatArray:
+    """Offsets of samples from their sites by the shorter way, as ``Swaps`` takes them.
+
+    Parameters
+    ----------
+    sites : (n, 2) float64
+        On the unit torus.
+    samples : (n, capacity, 2) float64
+        Those of each site, on the unit torus.
+
+    Returns
+    -------
+    (n, 2, capacity) float64
+    """
+    offsets = samples - sites[:, None]
+    offsets -= np.rint(offsets)
+    return np.ascontiguousarray(np.moveaxis(offsets, 2, 1))
+
+
+def in_chunks(offsets: FloatArray) -> FloatArray:
+    """Order the samples of each site by strips, and in these by y, so that a chunk is a compact piece.
+
+    Parameters
+    ----------
+    offsets : (n, 2, capacity) float64
+        Samples from their sites.
+
+    Returns
+    -------
+    (n, 2, capacity) float64
+        The same in another order.
+    """
+    n, _, capacity = offsets.shape
+    strips = max(1, round((capacity / CHUNK) ** 0.5))
+    strip = np.empty((n, capacity))
+    rank = np.arange(capacity) * strips // capacity
+    np.put_along_axis(strip, np.argsort(offsets[:, 0], axis=1), rank[None].astype(np.float64), axis=1)
+    order = np.argsort(strip + offsets[:, 1] / 4, axis=1)  # |y| is 1 at most, so that strips stay apart
+    return np.take_along_axis(offsets, order[:, None, :], axis=2)

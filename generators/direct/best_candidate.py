@@ -9,17 +9,19 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.direct.toroidal_tree import toroidal_tree
 from gbnbench.generators.lattices.regular_grid import grid_corners
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.ranges import check_range, too_many
 
 PLAIN = 64  # points drawn from all their candidates, before cells pay
 CELLS_A_POINT = 64
 LOWER = 0.9  # the aim, when no candidate was as far
 WATCH = 0.85  # of the aim: cells whose bound is above are looked through at every step
-MOST_POINTS = 65_536
+MOST_POINTS, MOST_POINTS_ALL_DRAWN = 65_536, 4096  # at one candidate a point: a minute or two
+MOST_CANDIDATES = 1000
 MOST_CELL_DIMENSIONS = 4
 
 
@@ -30,7 +32,7 @@ class BestCandidate:
     Parameters
     ----------
     candidates : int
-        Candidates for each point there is already (Mitchell's m), >= 1.
+        Candidates for each point there is already (Mitchell's m), in [1, 1000].
 
     Raises
     ------
@@ -68,8 +70,7 @@ class BestCandidate:
     candidates: int = 1
 
     def __post_init__(self) -> None:
-        if self.candidates < 1:
-            raise InputError(f"candidates must be at least 1; got {self.candidates}")
+        check_range("candidates", self.candidates, 1, MOST_CANDIDATES)
 
     def refusal(self, n: int, d: int) -> str | None:
         """Say why n is too large: candidates grow as its square.
@@ -84,10 +85,9 @@ class BestCandidate:
         str or None
             The reason, with the nearest numbers that can; None where they can.
         """
-        most = MOST_POINTS if d <= MOST_CELL_DIMENSIONS else max(1, int(4096 / math.sqrt(d / 5)))
-        if n <= most:
-            return None
-        return f"n must be at most {most} for best candidates in d={d}; got n={n}, nearest is {most}"
+        most = MOST_POINTS if d <= MOST_CELL_DIMENSIONS else MOST_POINTS_ALL_DRAWN / math.sqrt(d / 5)
+        most = max(1, int(most / math.sqrt(self.candidates)))
+        return too_many(n, most, f"for best candidates, {self.candidates} a point, in d={d}")
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""

@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
 
-from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray, wrap
-from gbnbench.generators.direct.poisson_disk import saturated_radius
+from gbnbench.generators.direct.poisson_disk import ball_volume, saturated_radius
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.ranges import check_range, too_many
 
 # First radius over that of a saturated set, d = 1 to 6: with 30 candidates it gives .98 n, as was measured.
 START = (0.92, 0.95, 0.93, 0.905, 0.9, 0.893)
 LARGER, SMALLER = 1.01, 0.99  # the radius after a front that did not close, and after one that closed early
 LEAST_SHARE = 0.96  # of n, in a front that is gone on from
 RESTARTS = 20
+LEAST_RADIUS = 0.5  # of the first: a front that closes early there does so at any radius
 MOST_POINTS = 100_000
+MOST_CANDIDATES = 10_000
+MOST_DISTANCES = 3e9  # of trials to points near by, for each axis: two minutes
 MOST_DIMENSIONS = 100
 
 
@@ -28,7 +33,7 @@ class Bridson:
     Parameters
     ----------
     candidates : int
-        Most trials round an active point (Bridson's k), >= 1; when all fail it is active no more.
+        Most trials round an active point (Bridson's k), in [1, 10000]; when all fail it is active no more.
 
     Raises
     ------
@@ -43,6 +48,9 @@ class Bridson:
     a front closes with 96 to 100 % of n, for a front that is stopped at n leaves a part of the torus empty.
     Then all points become active again at a radius a hundredth smaller (as McCool & Fiume 1992 relax theirs),
     until the n-th point stands. The last few are so a little nearer to others than the first.
+
+    With few candidates a front dies out before it has filled the torus, whatever the radius: with one in 2D,
+    with a dozen in 1D. Then there is no set, and a RefusalError asks for more of them.
 
     References
     ----------
@@ -63,11 +71,10 @@ class Bridson:
     candidates: int = 30
 
     def __post_init__(self) -> None:
-        if self.candidates < 1:
-            raise InputError(f"candidates must be at least 1; got {self.candidates}")
+        check_range("candidates", self.candidates, 1, MOST_CANDIDATES)
 
     def refusal(self, n: int, d: int) -> str | None:
-        """Say why n or d is too large: every trial is held against all points.
+        """Say why n or d is too large: every trial is held against all points near by.
 
         Parameters
         ----------
@@ -81,17 +88,17 @@ class Bridson:
         """
         if d > MOST_DIMENSIONS:
             return f"d must be at most {MOST_DIMENSIONS} for Bridson's method; got d={d}"
-        if n > MOST_POINTS:
-            return (
-                f"n must be at most {MOST_POINTS} for Bridson's method; got n={n}, nearest is {MOST_POINTS}"
-            )
-        return None
+        near = 6.0**d * ball_volume(d) * (saturated_radius(1, d) / 2) ** d  # points within three radii
+        tried = MOST_DISTANCES / (self.candidates * d)
+        most = int(min(MOST_POINTS, max(math.sqrt(tried), tried / near)))
+        return too_many(n, most, f"for Bridson's method with {self.candidates} candidates in d={d}")
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
         if reason := self.refusal(n, d):
             raise RefusalError(reason)
         radius = START[min(d, len(START)) - 1] * saturated_radius(n, d)
+        least = LEAST_RADIUS * radius
         for _ in range(RESTARTS):
             front = Front(n, rng.random(d), rng)
             front.spread(radius, self.candidates)
@@ -101,6 +108,11 @@ class Bridson:
                 radius *= (front.count / n) ** (1 / d)
             else:
                 break
+            if radius < least:
+                raise RefusalError(
+                    f"a front with {self.candidates} candidates dies out before it has filled the torus in "
+                    f"d={d}; take more candidates"
+                )
         while front.count < n:  # ends: any n points fit at some radius
             radius *= SMALLER
             front.active = list(range(front.count))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -11,8 +12,11 @@ from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import HERMITE, FloatArray, densest_spacing
 from gbnbench.generators.direct.poisson_disk import throw_darts
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.ranges import check_range, too_many
 
 SHRINK = 0.99  # the radius, when no dart finds room
+CELL_DIMENSIONS = 6  # beyond, discs hold few cells and nearly all darts are thrown
+MOST_POINTS = 4096  # there, at a hundred darts a point: a few minutes
 
 
 @dataclass(frozen=True)
@@ -25,7 +29,7 @@ class DartThrowing:
         Least distance of two points, in that of the densest lattice of n points (Lagae & Dutré's relative
         radius, d_hex in 2D); above 0, at most 1.
     attempts : int
-        Most darts for each point before the radius gives way, >= 1.
+        Most darts for each point before the radius gives way, in [1, 1e6].
 
     Raises
     ------
@@ -36,11 +40,11 @@ class DartThrowing:
     -----
     The first n darts that stand. Where no room is left for the n-th, or the attempts are spent, the radius is
     made smaller by a hundredth and the throwing goes on (McCool & Fiume 1992): with the default this happens
-    in 1D, where .7476 is all that fits, to a few points, and from 4D on, to .72 or more.
+    in 1D, where .7476 is all that fits in the mean, and from 6D on, to .69 or more.
 
     Darts are thrown only at cells that no single disc covers, which are halved as they grow fewer (Ebeida et
     al. 2012). Every dart left out would be refused, so that the sets are those of plain dart throwing on the
-    torus, at some ten darts a point in 2D where plain throwing takes a hundred.
+    torus, at seven or eight darts a point in 2D where plain throwing takes a hundred.
 
     References
     ----------
@@ -69,27 +73,25 @@ class DartThrowing:
             raise InputError(
                 f"radius must be above 0 and at most 1, in densest spacings; got {self.radius:g}"
             )
-        if self.attempts < 1:
-            raise InputError(f"attempts must be at least 1; got {self.attempts}")
+        check_range("attempts", self.attempts, 1, 10**6)
 
-    def refusal(self, n: int, d: int) -> str | None:  # noqa: ARG002 (the protocol's arguments)
-        """Say why there is no relative radius in d dimensions.
+    def refusal(self, n: int, d: int) -> str | None:
+        """Say why there is no relative radius in d dimensions, or why n is too large where d is.
 
         Parameters
         ----------
-        n : int
-            Points; any number will do.
-        d : int
-            Dimension.
+        n, d : int
+            Points and dimension.
 
         Returns
         -------
         str or None
-            The reason; None for d <= 24.
+            The reason, with the nearest numbers that can; None where they can.
         """
-        if d <= len(HERMITE):
-            return None
-        return f"d must be at most {len(HERMITE)} for a radius relative to the densest lattice; got d={d}"
+        if d > len(HERMITE):
+            return f"d must be at most {len(HERMITE)} for a radius relative to the densest lattice; got d={d}"
+        most = n if d <= CELL_DIMENSIONS else int(MOST_POINTS * math.sqrt(100 / self.attempts))
+        return too_many(n, most, f"for dart throwing with {self.attempts} darts a point in d={d}")
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""

@@ -7,8 +7,11 @@ from typing import ClassVar
 
 import numpy as np
 
+from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.protocol import Family
+
+MOST_DIMENSIONS = 3000  # permutations of their primes' digits take a gigabyte, and grow as d**2
 
 
 @dataclass(frozen=True)
@@ -35,26 +38,33 @@ class Halton:
     name: ClassVar[str] = "halton"
     summary: ClassVar[str] = "Halton sequence with randomly permuted digits (Owen 2017)"
     family: ClassVar[Family] = "low-discrepancy"
-    dimensions: ClassVar[tuple[int, int | None]] = (1, None)
+    dimensions: ClassVar[tuple[int, int | None]] = (1, MOST_DIMENSIONS)
     toroidal: ClassVar[bool] = False
     reference: ClassVar[str] = "Owen, A randomized Halton algorithm in R, 2017"
 
     def refusal(self, n: int, d: int) -> str | None:  # noqa: ARG002 (the protocol's arguments)
-        """Say that any n and d can be made: there is no refusal.
+        """Say why the permutations of d primes are too many.
 
         Parameters
         ----------
-        n, d : int
-            Points and dimension.
+        n : int
+            Points; any number will do.
+        d : int
+            Dimension.
 
         Returns
         -------
-        None
+        str or None
+            The reason; None for d <= 3000.
         """
-        return None
+        if d <= MOST_DIMENSIONS:
+            return None
+        return f"d must be at most {MOST_DIMENSIONS} for Halton points and their permutations; got d={d}"
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
-        """Draw one realization, (n, d) float64."""
+        """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
+        if reason := self.refusal(n, d):
+            raise RefusalError(reason)
         from scipy.stats import qmc  # half a second to load, and the registry imports every generator
 
         return np.ascontiguousarray(wrap(qmc.Halton(d, scramble=True, seed=rng).random(n)))

@@ -8,9 +8,10 @@ from typing import ClassVar
 import numpy as np
 
 from gbnbench.core.errors import RefusalError
-from gbnbench.core.torus import FloatArray, wrap
+from gbnbench.core.torus import FloatArray
 from gbnbench.generators.lattices.regular_grid import grid_corners, grid_refusal
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.strata import placed_in_strata
 
 
 @dataclass(frozen=True)
@@ -58,4 +59,4 @@ class Jittered:
         if reason := self.refusal(n, d):
             raise RefusalError(reason)
         m = round(n ** (1.0 / d))
-        return wrap((grid_corners(m, d) + rng.random((n, d))) / m)
+        return placed_in_strata(grid_corners(m, d), rng.random((n, d)), m)

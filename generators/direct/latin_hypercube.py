@@ -7,8 +7,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from gbnbench.core.torus import FloatArray, wrap
+from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.strata import placed_in_strata
 
 
 @dataclass(frozen=True)
@@ -57,4 +58,4 @@ class LatinHypercube:
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, d) float64."""
         strata = rng.permuted(np.tile(np.arange(n), (d, 1)), axis=1).T
-        return wrap((strata + rng.random((n, d))) / n)
+        return placed_in_strata(strata, rng.random((n, d)), n)

@@ -16,6 +16,7 @@ from gbnbench.generators.direct.poisson_disk import (
     throw_darts,
 )
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.ranges import too_many
 
 MOST_DIMENSIONS = 4
 MOST_POINTS_4D = 2048
@@ -74,12 +75,8 @@ class MaximalPoisson:
         """
         if d > MOST_DIMENSIONS:
             return f"d must be at most {MOST_DIMENSIONS} for a maximal Poisson-disk set; got d={d}"
-        if d == MOST_DIMENSIONS and n > MOST_POINTS_4D:
-            return (
-                f"n must be at most {MOST_POINTS_4D} for a maximal Poisson-disk set in 4D; got n={n}, "
-                f"nearest is {MOST_POINTS_4D}"
-            )
-        return None
+        most = MOST_POINTS_4D if d == MOST_DIMENSIONS else n
+        return too_many(n, most, "for a maximal Poisson-disk set in 4D")
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""

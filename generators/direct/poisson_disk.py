@@ -75,8 +75,8 @@ class Cells:
         -------
         Cells
         """
-        most = int(max(CELLS_A_POINT * n, 2) ** (1 / d) + 1e-9)
-        side = max(1, min(math.ceil(math.sqrt(d) / radius), most))
+        most = max(1, int(max(CELLS_A_POINT * n, 2) ** (1 / d) + 1e-9))
+        side = math.ceil(min(math.sqrt(d) / radius, most))
         return cls(grid_corners(side, d).astype(np.int64), side)
 
     def split(self) -> Cells:
@@ -99,9 +99,9 @@ class Cells:
         -------
         Cells
         """
-        if not len(x):
-            return self
         d = self.corners.shape[1]
+        if not len(x) or self.too_large(radius):
+            return self
         near = radius + 0.5 * math.sqrt(d) / self.side
         centres = (self.corners + 0.5) / self.side
         distance, owner = toroidal_tree(x).query(centres, distance_upper_bound=near)
@@ -111,6 +111,10 @@ class Cells:
         farthest = np.minimum(offset, 1 - offset) + 0.5 / self.side
         keep[tested] = np.einsum("ka,ka->k", farthest, farthest) > radius * radius
         return Cells(self.corners[keep], self.side)
+
+    def too_large(self, radius: float) -> bool:
+        """Whether no disc of a radius, in box sides, can hold a whole cell."""
+        return 0.5 * math.sqrt(self.corners.shape[1]) / self.side > radius
 
     def throw(self, darts: int, rng: np.random.Generator) -> FloatArray:
         """Throw darts uniformly at the cells.
@@ -204,7 +208,7 @@ def throw_darts(
         cells = cells.uncovered(x, radius)
         if not len(cells.corners):
             return x, True
-        count = max(16, int(DARTS_A_CELL * len(cells.corners)))
+        count = max(most if cells.too_large(radius) else 16, int(DARTS_A_CELL * len(cells.corners)))
         stood = in_turn(cells.throw(count, rng), x, radius)
         x = np.concatenate([x, stood])[:most]
         few = len(cells.corners) * 2**d <= max(MOST_CELLS_A_POINT * most, MOST_CELLS)

@@ -15,8 +15,9 @@ from gbnbench.core.torus import FloatArray, displacement
 from gbnbench.generators.direct.poisson_disk import ball_volume
 from gbnbench.generators.direct.toroidal_tree import toroidal_tree
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.ranges import check_range, too_many
 
-MOST_PAIRS = 60_000_000  # of points within reach of each other
+MOST_PAIRS = 10_000_000  # of points within reach of each other: a minute and 3 GB
 FEWEST = 3  # a progressive order is sought down to as many points
 
 
@@ -44,12 +45,12 @@ class SampleElimination:
     Parameters
     ----------
     inputs : float
-        Random points for each point wanted, > 1.
+        Random points for each point wanted, above 1, at most 1000.
     alpha : float
-        Exponent of the weights, > 0.
+        Exponent of the weights, above 0, at most 1000.
     beta, gamma : float
         Limit of the weights: distances below 2 r_max (1 - (n/m)**gamma) beta count as that much; beta in
-        [0, 1], 0 for no limit, gamma > 0.
+        [0, 1], 0 for no limit, gamma above 0, at most 1000.
     progressive : bool
         Order the points such that the first half of them is what elimination leaves of all, the first quarter
         what it leaves of these, and so on.
@@ -88,13 +89,12 @@ class SampleElimination:
     progressive: bool = False
 
     def __post_init__(self) -> None:
-        for name in ("alpha", "gamma"):
-            if not getattr(self, name) > 0:
-                raise InputError(f"{name} must be above 0; got {getattr(self, name):g}")
-        if not self.inputs > 1:
-            raise InputError(f"inputs must be above 1, random points a point; got {self.inputs:g}")
-        if not 0 <= self.beta <= 1:
-            raise InputError(f"beta must lie in [0, 1]; got {self.beta:g}")
+        for name, above in (("inputs", 1), ("alpha", 0), ("gamma", 0)):
+            if not above < getattr(self, name) <= 1000:
+                raise InputError(
+                    f"{name} must be above {above} and at most 1000; got {getattr(self, name):g}"
+                )
+        check_range("beta", self.beta, 0, 1)
 
     def refusal(self, n: int, d: int) -> str | None:
         """Say why n or d is too large: too many pairs of the random points are within reach of each other.
@@ -109,13 +109,8 @@ class SampleElimination:
         str or None
             The reason, with the nearest numbers that can; None where they can.
         """
-        most = self._most_points(d)
-        if n <= most:
-            return None
-        return (
-            f"n must be at most {most} for sample elimination of {self.inputs:g} random points a point in "
-            f"d={d}; got n={n}, nearest is {most}"
-        )
+        what = f"for sample elimination of {self.inputs:g} random points a point in d={d}"
+        return too_many(n, self._most_points(d), what)
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.ranges import too_many
 
 MOST_DIMENSIONS = 21201  # of Joe & Kuo's direction numbers in scipy
 MOST_BITS = 30  # digits of scipy's unscrambled points, each exact in a double
@@ -96,9 +97,7 @@ class Sobol:
         """
         if d > MOST_DIMENSIONS:
             return f"d must be at most {MOST_DIMENSIONS} for Sobol points; got d={d}"
-        if n > 2**MOST_BITS:
-            return f"n must be at most 2**{MOST_BITS} for Sobol points; got n={n}, nearest is {2**MOST_BITS}"
-        return None
+        return too_many(n, 2**MOST_BITS, "for Sobol points")
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""

@@ -11,6 +11,7 @@ from gbnbench.core.integer_frequencies import IntArray, half_ball, shell_counts
 from gbnbench.core.torus import FloatArray
 
 MANY = 1e150  # counts are capped here, so that their products stay finite
+LARGEST = 1e300  # |f|^2 is capped here, far beyond what any work allows
 COUNTED = 5000  # |f|^2 beyond which the ball's volume is near enough
 ROUNDING = 1e-9  # of |f|^2: frequencies on the edge itself are left out
 
@@ -72,7 +73,7 @@ def largest_square(n: int, d: int, edge: float) -> int:
         0 where even the lowest frequency is not below the edge.
     """
     radius = edge * math.pow(n, 1 / d)
-    return max(0, math.ceil(radius**2 * (1 - ROUNDING)) - 1)
+    return max(0, math.ceil(min(radius * radius * (1 - ROUNDING), LARGEST)) - 1)
 
 
 def modes_below(n: int, d: int, edge: float) -> Modes:

@@ -60,7 +60,7 @@ class WaveSums:
         """Return F_f = sum_k exp(-2 pi i f.x_k), (m,) complex128."""
         sums = np.zeros(self.shape)
         for _, first, second in self._blocks():
-            sums += _product(first.view(self._real).T, second.view(self._real))
+            sums += steady_product(first.view(self._real).T, second.view(self._real))
         return self._gather(sums, self._sign)
 
     def gradient(self, y: ComplexArray, side: float) -> FloatArray:
@@ -90,10 +90,10 @@ class WaveSums:
         out = np.empty(self.x.shape)
         turn = 2 * math.pi / side
         for block, first, second in self._blocks():
-            beside = _product(second.view(self._real), weights.T).view(self._kind)
+            beside = steady_product(second.view(self._real), weights.T).view(self._kind)
             out[block, : self.lead] = _combine(np.imag(np.conj(first) * beside), turn * self._first)
             if self.lead < self.x.shape[1]:
-                beside = _product(first.view(self._real), weights).view(self._kind)
+                beside = steady_product(first.view(self._real), weights).view(self._kind)
                 out[block, self.lead :] = _combine(np.imag(np.conj(second) * beside), turn * self._second)
         return out
 
@@ -116,11 +116,11 @@ class WaveSums:
         for block, first, second in self._blocks():
             weight = _combine(move[block, : self.lead], turn * self._first.T)
             weighted = (first * weight).astype(self._kind)
-            leading += _product(weighted.view(self._real).T, second.view(self._real))
+            leading += steady_product(weighted.view(self._real).T, second.view(self._real))
             if self.lead < self.x.shape[1]:
                 weight = _combine(move[block, self.lead :], turn * self._second.T)
                 weighted = (second * weight).astype(self._kind)
-                trailing += _product(first.view(self._real).T, weighted.view(self._real))
+                trailing += steady_product(first.view(self._real).T, weighted.view(self._real))
         return self._gather(leading, self._sign) + self._sign * self._gather(trailing, self._sign)
 
     def _gather(self, sums: FloatArray, sign: IntArray) -> ComplexArray:
@@ -191,9 +191,22 @@ def _sines_and_cosines(x: FloatArray, f: IntArray) -> ComplexArray:
     return out
 
 
-def _product(a: NDArray[Any], b: NDArray[Any]) -> NDArray[Any]:
+def steady_product(a: NDArray[Any], b: NDArray[Any]) -> NDArray[Any]:
     """Multiply matrices to the same bits whatever the number of threads.
 
+    Parameters
+    ----------
+    a : (k, m)
+        Any numbers.
+    b : (m, l)
+        Of the same type.
+
+    Returns
+    -------
+    (k, l)
+
+    Notes
+    -----
     BLAS parts a large product in ways that depend on its threads, and adds in another order; tiles of 64**3
     are below what OpenBLAS parts at all, and cost a few percent.
     """

@@ -11,10 +11,11 @@ import numpy as np
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.kernel_based.ewald import EwaldEnergy
-from gbnbench.generators.protocol import Family
+from gbnbench.generators.protocol import MOST_ITERATIONS, Family
 
 FORCE = {2: 2 * math.pi, 3: 4 * math.pi}  # of transforms 1 / k**2, over forces 1 / r and 1 / r**2
 EVERY = 10  # iterations from one shaking to the next
+STRONGEST = 1000.0  # of factors on the shaking: a hundred spacings or so
 MOST = 20_000
 
 
@@ -29,7 +30,7 @@ class Electrostatic:
     tau : float
         Step length over force, in squared spacings, above 0 and at most 0.3, beyond which steps overshoot.
     shaking : float
-        Factor of the published shaking, >= 0; 0 leaves it out.
+        Factor of the published shaking, 0 to 1000; 0 leaves it out.
 
     Raises
     ------
@@ -67,12 +68,12 @@ class Electrostatic:
     shaking: float = 1.0
 
     def __post_init__(self) -> None:
-        if self.iterations < 0:
-            raise InputError(f"iterations must be >= 0; got {self.iterations}")
+        if not 0 <= self.iterations <= MOST_ITERATIONS:
+            raise InputError(f"iterations must be 0 to {MOST_ITERATIONS}; got {self.iterations}")
         if not 0 < self.tau <= 0.3:
             raise InputError(f"tau must be above 0 and at most 0.3 squared spacings; got {self.tau}")
-        if not (math.isfinite(self.shaking) and self.shaking >= 0):
-            raise InputError(f"shaking must be >= 0; got {self.shaking}")
+        if not 0 <= self.shaking <= STRONGEST:
+            raise InputError(f"shaking must be 0 to {STRONGEST:g}; got {self.shaking}")
 
     def refusal(self, n: int, d: int) -> str | None:
         """Say why the charges are not moved.

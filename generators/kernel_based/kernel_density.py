@@ -11,11 +11,12 @@ import numpy as np
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.kernel_based.density_raster import DensityRaster
-from gbnbench.generators.protocol import Family
+from gbnbench.generators.protocol import MOST_ITERATIONS, Family
 
 # The author's program at its density of 0.43 a pixel, where a spacing is 4.06 pixels, in spacings.
 DRIFT = 0.695  # times the integral of sign(sum of kernels - 1) exp(-pi u**2) u, u in spacings
 NOISE = 0.0833  # standard deviation of a step at temperature 1
+HOTTEST = 1000.0  # where a step scatters points by 2.6 spacings: uniform ones
 SCATTER = 0.3  # of the points that one splits into, about it
 MOST = 100_000
 
@@ -29,7 +30,7 @@ class KernelDensityModel:
     iterations : int
         Langevin steps of every point on each level, >= 1.
     temperature : float
-        Of the particles, >= 0: 0 descends, higher keeps more randomness.
+        Of the particles, 0 to 1000: 0 descends, higher keeps more randomness.
     levels : int
         Scales, from coarse to fine, 1 to 12; each has 2**d times the points of the one before.
 
@@ -74,10 +75,10 @@ class KernelDensityModel:
     levels: int = 2
 
     def __post_init__(self) -> None:
-        if self.iterations < 1:
-            raise InputError(f"iterations must be >= 1; got {self.iterations}")
-        if not (math.isfinite(self.temperature) and self.temperature >= 0):
-            raise InputError(f"temperature must be >= 0; got {self.temperature}")
+        if not 1 <= self.iterations <= MOST_ITERATIONS:
+            raise InputError(f"iterations must be 1 to {MOST_ITERATIONS}; got {self.iterations}")
+        if not 0 <= self.temperature <= HOTTEST:
+            raise InputError(f"temperature must be 0 to {HOTTEST:g}; got {self.temperature}")
         if not 1 <= self.levels <= 12:
             raise InputError(f"levels must be 1 to 12; got {self.levels}")
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray, wrap
-from gbnbench.generators.protocol import Family
+from gbnbench.generators.protocol import MOST_ITERATIONS, Family
 
 STIFFNESS = 0.04  # squared spacings a squared time step: sound travels a fifth of a spacing in a step
 DAMPING = 0.9  # of velocities, each step
@@ -75,8 +75,8 @@ class ParticleHydrodynamics:
     def __post_init__(self) -> None:
         if not 0 <= self.rest <= 1:
             raise InputError(f"rest must be 0 to 1 mean densities; got {self.rest}")
-        if self.iterations < 0:
-            raise InputError(f"iterations must be >= 0; got {self.iterations}")
+        if not 0 <= self.iterations <= MOST_ITERATIONS:
+            raise InputError(f"iterations must be 0 to {MOST_ITERATIONS}; got {self.iterations}")
         if not 1.5 <= self.support <= 6:
             raise InputError(f"support must be 1.5 to 6 spacings; got {self.support}")
 

@@ -10,7 +10,8 @@ import numpy as np
 
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray, wrap
-from gbnbench.generators.protocol import Family
+from gbnbench.generators.kernel_based.steady_inverse import steady_inverse
+from gbnbench.generators.protocol import MOST_ITERATIONS, Family
 
 CANDIDATES = 4  # uniform points from which one is chosen
 REACH = 8.5  # sigmas, beyond which a Gaussian is rounding
@@ -66,8 +67,8 @@ class SpectralSampling:
     step: float = 0.5
 
     def __post_init__(self) -> None:
-        if self.iterations < 0:
-            raise InputError(f"iterations must be >= 0; got {self.iterations}")
+        if not 0 <= self.iterations <= MOST_ITERATIONS:
+            raise InputError(f"iterations must be 0 to {MOST_ITERATIONS}; got {self.iterations}")
         if not 0.5 <= self.sigma <= 1.5:
             raise InputError(f"sigma must be 0.5 to 1.5 spacings; got {self.sigma}")
         if not 0 < self.step <= 2:
@@ -163,7 +164,7 @@ def span_gradient(x: FloatArray, width: float) -> tuple[FloatArray, FloatArray]:
         In box sides.
     """
     value, slope = kernels(x, x, width)
-    inverse = np.linalg.inv(value)
+    inverse = steady_inverse(value)
     added = 1 / np.diagonal(inverse)
     return added, 2 * np.einsum("nm,anm->na", inverse * added[:, None], slope)
 
@@ -190,7 +191,7 @@ def most_independent(x: FloatArray, n: int, width: float) -> FloatArray:
     chosen: list[int] = []
     for k in range(n):
         best = int(left.argmax())
-        row = kernels(x[best, None], x, width)[0][0] - factor[:k, best] @ factor[:k]
+        row = kernels(x[best, None], x, width)[0][0] - np.einsum("k,kc->c", factor[:k, best], factor[:k])
         factor[k] = row / math.sqrt(max(left[best], 1e-30))
         left -= factor[k] ** 2
         chosen.append(best)

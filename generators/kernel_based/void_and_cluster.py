@@ -13,6 +13,7 @@ from gbnbench.generators.kernel_based.raster_energy import RasterEnergy, pixel_c
 from gbnbench.generators.protocol import Family
 
 MOST_PIXELS = 2**20
+NARROWEST = 0.1  # pixels: at the next pixel a Gaussian is then 2e-22 of its height, and all are alike
 LEAST_GAIN = 1e-12  # of a swap, in heights of the Gaussian: above what rounding and ties make
 
 
@@ -23,11 +24,11 @@ class VoidAndCluster:
     Parameters
     ----------
     share : float
-        Pixels that become points, 0 < share < 1: the raster has about n / share pixels.
+        Pixels that become points, 2**-20 <= share < 1: the raster has about n / share pixels.
     pixels : int
         Pixels on a side of the raster instead; 0 takes them from ``share``.
     sigma : float
-        Width of the Gaussian in pixels, at most 20; Ulichney's is 1.5.
+        Width of the Gaussian in pixels, 0.1 to 20; Ulichney's is 1.5.
     initial : float
         Share of ones in the initial binary pattern, 0 < initial <= 0.5.
     shift : bool
@@ -73,12 +74,12 @@ class VoidAndCluster:
     jitter: bool = False
 
     def __post_init__(self) -> None:
-        if not 0 < self.share < 1:
-            raise InputError(f"share must be above 0 and below 1; got {self.share}")
+        if not 1 / MOST_PIXELS <= self.share < 1:
+            raise InputError(f"share must be 1/2**20 or more, a pixel of all, and below 1; got {self.share}")
         if self.pixels < 0:
             raise InputError(f"pixels must be 0, for as many as share says, or more; got {self.pixels}")
-        if not 0 < self.sigma <= 20:
-            raise InputError(f"sigma must be above 0 and at most 20 pixels; got {self.sigma}")
+        if not NARROWEST <= self.sigma <= 20:
+            raise InputError(f"sigma must be {NARROWEST} to 20 pixels; got {self.sigma}")
         if not 0 < self.initial <= 0.5:
             raise InputError(f"initial must be above 0 and at most 0.5; got {self.initial}")
 

@@ -76,6 +76,8 @@ def grid_corners(m: int, d: int) -> FloatArray:
     (m**d, d) float64
         Whole numbers.
     """
+    if m == 1:  # in any dimension; arrays have at most 64 axes
+        return np.zeros((1, d))
     return np.ascontiguousarray(np.indices((m,) * d, dtype=np.float64).reshape(d, -1).T)
 
 

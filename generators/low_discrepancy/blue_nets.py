@@ -8,7 +8,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.low_discrepancy.dyadic_net import (
     GaussianEnergy,
@@ -16,6 +16,8 @@ from gbnbench.generators.low_discrepancy.dyadic_net import (
     random_net,
 )
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.ranges import check_range
+from gbnbench.generators.strata import placed_in_strata
 
 MOST_BITS = 16
 CHANCE = 0.5  # that an exchange which lowers the energy is made
@@ -31,7 +33,7 @@ class BlueNets:
         Standard deviation of the Gaussian, in spacings, in [0.2, 2]: small ones keep points apart, large ones
         empty the low frequencies.
     iterations : int
-        Most rounds through all exchanges, >= 0; 0 leaves the random net.
+        Most rounds through all exchanges, in [0, 1e6]; 0 leaves the random net.
 
     Raises
     ------
@@ -69,10 +71,8 @@ class BlueNets:
     iterations: int = 200
 
     def __post_init__(self) -> None:
-        if not 0.2 <= self.sigma <= 2:
-            raise InputError(f"sigma must lie in [0.2, 2] spacings; got {self.sigma:g}")
-        if self.iterations < 0:
-            raise InputError(f"iterations must be >= 0; got {self.iterations}")
+        check_range("sigma", self.sigma, 0.2, 2, "spacings")
+        check_range("iterations", self.iterations, 0, 10**6)
 
     def refusal(self, n: int, d: int) -> str | None:
         """Say why not: d is other than 2, or n no power of two.
@@ -103,7 +103,7 @@ class BlueNets:
         y = random_net(m, rng)
         if m:
             y = self.optimised(y, rng)
-        return (np.stack([np.arange(n), y], axis=1) + rng.random((n, 2))) / n
+        return placed_in_strata(np.stack([np.arange(n), y], axis=1), rng.random((n, 2)), n)
 
     def optimised(self, y: NDArray[np.int64], rng: np.random.Generator) -> NDArray[np.int64]:
         """Make exchanges that lower the energy.

@@ -11,6 +11,7 @@ import numpy as np
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.strata import placed_in_strata
 
 
 @dataclass(frozen=True)
@@ -82,10 +83,10 @@ class CorrelatedMultiJitter:
         """Draw one realization, (n, 2) float64; RefusalError where ``refusal`` has a reason."""
         if reason := self.refusal(n, d):
             raise RefusalError(reason)
-        columns = min(max(1, int(math.sqrt(n * self.aspect))), n)
+        columns = max(1, int(min(math.sqrt(n * self.aspect), n)))
         rows = -(-n // columns)
         s = np.arange(n)
         column, row = rng.permutation(columns)[s % columns], rng.permutation(rows)[s // columns]
         jitter = rng.random((n, 2))
-        x = np.stack([(column + (row + jitter[:, 0]) / rows) / columns, (s + jitter[:, 1]) / n], axis=1)
-        return np.minimum(x, 1 - 2.0**-53)
+        x = placed_in_strata(column * rows + row, jitter[:, 0], columns * rows)
+        return np.stack([x, placed_in_strata(s, jitter[:, 1], n)], axis=1)

@@ -38,14 +38,13 @@ def radical_inverse(i: np.typing.NDArray[np.int64], base: int) -> FloatArray:
     Returns
     -------
     (n,) float64
-        In [0, 1); exact in base 2 up to 2**53.
+        In [0, 1); rounded once, hence exact in base 2, as long as i times the base is below 2**53.
     """
-    left, value, scale = i.copy(), np.zeros(len(i)), 1.0
+    left, mirrored, whole = i.copy(), np.zeros_like(i), 1
     while left.any():
-        scale /= base
         left, digit = np.divmod(left, base)
-        value += digit * scale
-    return value
+        mirrored, whole = mirrored * base + digit, whole * base
+    return np.asarray(mirrored / whole, dtype=np.float64)
 
 
 @dataclass(frozen=True)

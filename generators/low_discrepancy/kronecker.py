@@ -3,26 +3,51 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from decimal import Decimal, localcontext
+from functools import lru_cache
 from typing import ClassVar
 
 import numpy as np
 
 from gbnbench.core.errors import RefusalError
-from gbnbench.core.torus import FloatArray, wrap
+from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.ranges import too_many
 
 MOST_DIMENSIONS = 100  # beyond, the ratio is so near 1 that axes follow one another
+MOST_POINTS = 2**32
+DIGITS = 60  # decimal ones, of the ratio
 
 
-def generalised_golden_ratio(d: int) -> float:
-    """Positive root of phi**(d + 1) = phi + 1, by Newton's method: the golden ratio for d = 1."""
-    ratio = 2.0
-    for _ in range(100):  # from above the root of a convex function, every step lowers it
-        step = (ratio ** (d + 1) - ratio - 1) / ((d + 1) * ratio**d - 1)
-        if ratio - step >= ratio:
-            break
-        ratio -= step
+def generalised_golden_ratio(d: int) -> Decimal:
+    """Positive root of phi**(d + 1) = phi + 1, by Newton's method: the golden ratio for d = 1.
+
+    Parameters
+    ----------
+    d : int
+        Dimension.
+
+    Returns
+    -------
+    Decimal
+        To some 58 digits.
+    """
+    with localcontext(prec=DIGITS):
+        ratio = Decimal(2)
+        for _ in range(200):  # from above the root of a convex function, every step lowers it
+            step = (ratio ** (d + 1) - ratio - 1) / ((d + 1) * ratio**d - 1)
+            if ratio - step >= ratio:
+                break
+            ratio -= step
     return ratio
+
+
+@lru_cache(maxsize=128)
+def steps(d: int) -> tuple[tuple[int, int], ...]:
+    """Powers phi**-1, ..., phi**-d in turns: 64 binary digits of each, and the next 32."""
+    with localcontext(prec=DIGITS):
+        ratio = generalised_golden_ratio(d)
+        return tuple(divmod(int(ratio**-k * 2**96), 2**32) for k in range(1, d + 1))
 
 
 @dataclass(frozen=True)
@@ -37,7 +62,9 @@ class Kronecker:
     Notes
     -----
     alpha = (phi**-1, phi**-2, ..., phi**-d), where phi**(d + 1) = phi + 1. In 1D these are the multiples of
-    the golden ratio, whose gaps have at most three lengths. Any prefix is such a set, on the torus.
+    the golden ratio, whose gaps have at most three lengths. Any prefix is such a set, on the torus. Multiples
+    are counted in whole units of 2**-64, and cut to 53 digits: every coordinate is within 2**-52 of its
+    place, however far the sequence.
 
     References
     ----------
@@ -60,29 +87,32 @@ class Kronecker:
     reference: ClassVar[str] = "Roberts, The unreasonable effectiveness of quasirandom sequences, 2018"
     shift: bool = True
 
-    def refusal(self, n: int, d: int) -> str | None:  # noqa: ARG002 (the protocol's arguments)
-        """Say why there is no such sequence in d dimensions.
+    def refusal(self, n: int, d: int) -> str | None:
+        """Say why there is no such sequence in d dimensions, or none of n points.
 
         Parameters
         ----------
-        n : int
-            Points; any number will do.
-        d : int
-            Dimension.
+        n, d : int
+            Points and dimension.
 
         Returns
         -------
         str or None
-            The reason; None for d <= 100.
+            The reason; None for d <= 100 and n <= 2**32.
         """
-        if d <= MOST_DIMENSIONS:
-            return None
-        return f"d must be at most {MOST_DIMENSIONS} for the R_d sequence, whose axes grow alike; got d={d}"
+        if d > MOST_DIMENSIONS:
+            return (
+                f"d must be at most {MOST_DIMENSIONS} for the R_d sequence, whose axes grow alike; got d={d}"
+            )
+        return too_many(n, MOST_POINTS, "for the R_d sequence")
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
         if reason := self.refusal(n, d):
             raise RefusalError(reason)
-        alpha = generalised_golden_ratio(d) ** -np.arange(1.0, d + 1)
+        i = np.arange(1, n + 1, dtype=np.uint64)[:, None]
+        alpha, rest = np.array(steps(d), dtype=np.uint64).T
         start = rng.random(d) if self.shift else np.full(d, 0.5)
-        return wrap(start + np.arange(1, n + 1)[:, None] * alpha)
+        # modulo 2**64, which are a turn
+        turned = (start * 2.0**64).astype(np.uint64) + i * alpha + (i * rest >> np.uint64(32))
+        return np.asarray((turned >> np.uint64(11)) * 2.0**-53, dtype=np.float64)

@@ -8,9 +8,11 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.ranges import check_range, too_many
+from gbnbench.generators.strata import placed_in_strata
 
 PARTNERS = 24  # tried at a step
 MOST_POINTS = 8192
@@ -23,9 +25,9 @@ class LatinMaximin:
     Parameters
     ----------
     power : int
-        p of the criterion phi_p, even, >= 2; the larger, the more it is the least distance.
+        p of the criterion phi_p, in [2, 100]; the larger, the more it is the least distance.
     steps : float
-        Most exchanges that are sought, for each point, >= 0; 0 leaves the random hypercube.
+        Most exchanges that are sought, for each point, in [0, 1000]; 0 leaves the random hypercube.
 
     Raises
     ------
@@ -64,10 +66,8 @@ class LatinMaximin:
     steps: float = 2.0
 
     def __post_init__(self) -> None:
-        if self.power < 2:
-            raise InputError(f"power must be at least 2; got {self.power}")
-        if not self.steps >= 0:
-            raise InputError(f"steps must be >= 0, for each point; got {self.steps:g}")
+        check_range("power", self.power, 2, 100)
+        check_range("steps", self.steps, 0, 1000, "for each point")
 
     def refusal(self, n: int, d: int) -> str | None:  # noqa: ARG002 (the protocol's arguments)
         """Say why n is too large: every exchange is judged by all distances from its two points.
@@ -82,12 +82,7 @@ class LatinMaximin:
         str or None
             The reason, with the nearest numbers that can; None where they can.
         """
-        if n <= MOST_POINTS:
-            return None
-        return (
-            f"n must be at most {MOST_POINTS} for latinmaximin, which judges each exchange by all distances; "
-            f"got n={n}, nearest is {MOST_POINTS}"
-        )
+        return too_many(n, MOST_POINTS, "for latinmaximin, which judges each exchange by all distances")
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
@@ -96,8 +91,7 @@ class LatinMaximin:
         strata = rng.permuted(np.tile(np.arange(n), (d, 1)), axis=1)
         if d > 1 and n > 2:
             strata = self.optimised(strata, rng)
-        x = (strata.T + rng.random(d)) / n
-        return np.ascontiguousarray(np.minimum(x, 1 - 2.0**-53))
+        return placed_in_strata(np.ascontiguousarray(strata.T), rng.random(d), n)
 
     def optimised(self, strata: NDArray[np.int64], rng: np.random.Generator) -> NDArray[np.int64]:
         """Make exchanges that lower phi_p.

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.ranges import too_many
 
 BITS = 53  # of a coordinate
 MOST_BITS = 24  # log2 of the most points
@@ -73,8 +74,8 @@ def doubled(net: NDArray[np.int64], m: int, rng: np.random.Generator) -> NDArray
     bits = (m + 1) // 2
     digits = net >> (BITS - bits)
     if m % 2:  # each cell of 2**(m - 1) holds two points, at opposite corners: the others are taken in turn
-        way = np.tile(rng.integers(0, 2, size=2 ** (m - 1)), 2)
-        digits = digits ^ np.stack([way, 1 - way])
+        way = int(rng.integers(0, 2))
+        digits = digits ^ np.array([[way], [1 - way]])
     x = missing_digits(digits[0], bits, digits[1], net, m)
     y = missing_digits(digits[1], bits, digits[0], net[::-1], m)
     free = BITS - m - 1
@@ -84,16 +85,23 @@ def doubled(net: NDArray[np.int64], m: int, rng: np.random.Generator) -> NDArray
 
 @dataclass(frozen=True)
 class ProgressiveMultiJitter:
-    """First n points of a pmj02 sequence, each prefix of 2**m points a (0, m, 2)-net in base 2.
+    """First n points of a pmj02 sequence, a (0, 2)-sequence in base 2.
+
+    Every 2**m points from a multiple of 2**m on are a (0, m, 2)-net: all prefixes of 2**m points, and what
+    stands between them.
 
     Notes
     -----
     The sequence is doubled time and again. From 4**k points on, the new point of a cell of the grid of 4**k
-    comes into the subquadrant opposite to the old one; from 2 4**k on, into one of the two left, by a
-    coin for each cell, then into the other. With its subquadrant a point's strata on both axes are given: the
-    digits are those that the old points leave to it (``missing_digits``), which the paper finds by trial, and
-    its place in the stratum is uniform. The paper's variant that chooses among candidates by distance is not
-    made.
+    comes into the subquadrant opposite to the old one; from 2 4**k on, into one of the two left, then into
+    the other. With its subquadrant a point's strata on both axes are given: the digits are those that the old
+    points leave to it (``missing_digits``), which the paper finds by trial, and its place in the stratum is
+    uniform.
+
+    Which of the two comes first is one coin for all cells, which is what makes a (0, 2)-sequence (Helmer et
+    al. 2021). A coin for each cell, as in the paper's first algorithm, makes nets of the prefixes alone, and
+    the paper itself balances these choices between the powers of four. Its variant that chooses among
+    candidates by distance is not made.
 
     References
     ----------
@@ -130,9 +138,7 @@ class ProgressiveMultiJitter:
         """
         if d != 2:
             return f"pmj02 is a sequence in the plane; got d={d}, use d=2"
-        if n > 2**MOST_BITS:
-            return f"n must be at most 2**{MOST_BITS} for pmj02; got n={n}, nearest is {2**MOST_BITS}"
-        return None
+        return too_many(n, 2**MOST_BITS, "for pmj02")
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, 2) float64; RefusalError where ``refusal`` has a reason."""

@@ -12,7 +12,9 @@ STEPS = 100  # Newton's; a dozen are enough from uniform points
 HALVINGS = 40  # of one step, before it is given up
 
 
-def equal_areas(x: FloatArray, weight: FloatArray, tolerance: float) -> tuple[FloatArray, PowerDiagram]:
+def equal_areas(
+    x: FloatArray, weight: FloatArray, tolerance: float, diagram: PowerDiagram | None = None
+) -> tuple[FloatArray, PowerDiagram]:
     """Find the weights for which every power cell has the area 1/n.
 
     Parameters
@@ -23,6 +25,8 @@ def equal_areas(x: FloatArray, weight: FloatArray, tolerance: float) -> tuple[Fl
         Weights to start from, in units of squared length; where they hide a point, zero weights instead.
     tolerance : float
         Largest |n area - 1| of a cell that is good enough, > 0.
+    diagram : PowerDiagram, optional
+        The cells of x by that weight, where they are known.
 
     Returns
     -------
@@ -52,7 +56,7 @@ def equal_areas(x: FloatArray, weight: FloatArray, tolerance: float) -> tuple[Fl
     through optimal transport", ACM Trans. Graphics 31(6), 2012, Section 4.
     """
     n = len(x)
-    diagram = power_diagram(x, weight)
+    diagram = power_diagram(x, weight) if diagram is None else diagram
     if diagram.mass.min() < 0.02 / n:
         weight = np.zeros(n)
         diagram = power_diagram(x)

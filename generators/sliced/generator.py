@@ -9,12 +9,14 @@ from typing import ClassVar
 import numpy as np
 
 from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.memory import too_large
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import Family
 from gbnbench.generators.sliced.ball_to_cube import ball_to_cube
 
 LARGEST_DIMENSION = 64  # that the publication's map serves
 WORK = 1e10  # most projections of points: some minutes
+STEP_BYTES = 40  # a projection, and what is made of it
 BITS = 62  # of a key that holds a projection and the number of its point
 FARTHEST = 2.0  # no projection is as far out
 
@@ -91,6 +93,8 @@ class Sliced:
             )
         if d > LARGEST_DIMENSION:
             return f"d must be at most {LARGEST_DIMENSION} for sliced transport; got d={d}"
+        if reason := too_large(STEP_BYTES * float(n) * self.directions):
+            return f"steps of n={n} points along directions={self.directions} {reason}; take fewer of either"
         projections = float(n) * self.directions * max(self.iterations, 1)
         if projections > WORK:
             return (

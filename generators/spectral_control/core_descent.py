@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from gbnbench.core.torus import FloatArray, wrap
+from gbnbench.core.torus import FloatArray, densest_spacing, wrap
 from gbnbench.generators.spectral_control.limited_memory_bfgs import minimise
 from gbnbench.generators.spectral_control.named_profiles import StepProfile
 from gbnbench.generators.spectral_control.ring_cost import RingCost, rings_below
@@ -42,6 +42,29 @@ def descend_to_core(
     side = math.pow(n, 1 / d)
     cost = RingCost(rings_below(n, d, StepProfile(edge), edge), MARGIN * core)
     return wrap(minimise(cost, side * x, STEPS, ENOUGH, progress).x / side)
+
+
+def widest_core(d: int) -> float:
+    """Bound the least distance that points can keep, in spacings: of the densest packing for d <= 3.
+
+    Parameters
+    ----------
+    d : int
+        Dimension.
+
+    Returns
+    -------
+    float
+        Beyond 3D that of balls that fill space, which none reach.
+
+    Examples
+    --------
+    >>> [round(widest_core(d), 3) for d in (1, 2, 3, 4)]
+    [1.0, 1.075, 1.122, 1.342]
+    """
+    if d <= 3:
+        return densest_spacing(1, d)
+    return 2 * math.exp((math.lgamma(d / 2 + 1) - d / 2 * math.log(math.pi)) / d)
 
 
 def least_distance(x: FloatArray) -> float:

@@ -16,7 +16,7 @@ from gbnbench.generators.gauss_newton.modes import edge_binding
 from gbnbench.generators.gauss_newton.solver import solve_for_amplitudes
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.monitor import Monitor
-from gbnbench.generators.protocol import Family
+from gbnbench.generators.protocol import MOST_ITERATIONS, Family
 from gbnbench.generators.spectral_control.band import BandGenerator, check_edge
 from gbnbench.generators.spectral_control.target_profiles import Exponential, Table, TargetSetting, as_target
 
@@ -75,8 +75,8 @@ class Deep(BandGenerator):
         if self.c is not None and not (math.isfinite(self.c) and self.c > 0):
             raise InputError(f"c must be positive and finite; got {self.c}")
         check_edge(self.edge)
-        if self.gradients < 0:
-            raise InputError(f"gradients must be 0 or more; got {self.gradients}")
+        if not 0 <= self.gradients <= MOST_ITERATIONS:
+            raise InputError(f"gradients must be 0 to {MOST_ITERATIONS}; got {self.gradients}")
         table = self._table()
         if table is not None and self.edge is not None and self.edge > table.edge:
             raise InputError(f"edge must be at most the last nu of the target, {table.edge}; got {self.edge}")

@@ -10,8 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.memory import too_large
 from gbnbench.core.torus import FloatArray, wrap
-from gbnbench.generators.gauss_newton.modes import largest_square
+from gbnbench.generators.gauss_newton.modes import ball_count, largest_square
 from gbnbench.generators.gauss_newton.product_cost import wave_sum_operations
 from gbnbench.generators.gauss_newton.targets import TargetPower
 from gbnbench.generators.monitor import Monitor, refuse_all_but_progress
@@ -24,6 +25,7 @@ HIGHEST = 2.0  # nu up to which a target is met by default, in the plane
 BARE = 0.1  # level of the target's pair correlation below which pairs are kept apart
 ENOUGH = 1e-10  # cost a point at which a set is at its target: rings within 1e-4 of it
 SUMS = 3  # of waves, an evaluation: amplitudes, and a gradient that costs two
+MODE_BYTES = 32  # a frequency and axis, of the half that is listed and what is kept of it
 WORK = 5e12  # most operations of a set: some minutes
 
 
@@ -68,7 +70,7 @@ class RingMeans(ABC):
         return of_the_plane(HIGHEST, d) if self.highest is None else self.highest
 
     def refusal(self, n: int, d: int) -> str | None:
-        """Say why a set of n points in d dimensions would take too long.
+        """Say why a set of n points in d dimensions would take too long, or nothing is asked of it.
 
         Parameters
         ----------
@@ -81,7 +83,15 @@ class RingMeans(ABC):
             The reason; None where it does not.
         """
         highest = self.highest_nu(d)
-        operations = SUMS * wave_sum_operations(n, d, largest_square(n, d, highest)) * max(self.iterations, 1)
+        square = largest_square(n, d, highest)
+        if square == 0:
+            return (
+                f"no frequency of n={n} points in d={d} has nu below {highest:.4g}, so that nothing would be "
+                f"asked of them: the lowest has {math.pow(n, -1 / d):.4g}; raise highest"
+            )
+        if reason := too_large(MODE_BYTES * d * ball_count(d, square)):
+            return f"the frequencies of n={n} points in d={d} up to nu={highest:.4g} {reason}; lower highest"
+        operations = SUMS * wave_sum_operations(n, d, square) * max(self.iterations, 1)
         if operations <= WORK:
             return None
         return (

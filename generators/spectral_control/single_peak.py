@@ -9,7 +9,7 @@ from typing import ClassVar
 from gbnbench.core.errors import InputError
 from gbnbench.generators.protocol import Family
 from gbnbench.generators.spectral_control.band import check_edge
-from gbnbench.generators.spectral_control.named_profiles import PeakProfile, of_the_plane
+from gbnbench.generators.spectral_control.named_profiles import MOST_POWER, PeakProfile, of_the_plane
 from gbnbench.generators.spectral_control.ring_means import RingMeans
 
 EDGE = 0.8  # in the plane
@@ -41,8 +41,10 @@ class SinglePeak(RingMeans):
     -----
     P = G * (power delta(nu - edge) + H(nu - edge)), G being the Gaussian: the publication's family. The
     defaults are ours: the least peak, in steps of 0.01, whose pair correlation in the plane is nowhere below
-    -0.01 at this edge and width. A wider edge needs a higher peak, and beyond 0.85 no peak will do; what no
-    process can have is met as nearly as the points can, and ``target_fit`` says how nearly.
+    -0.01 at this edge and width. A wider edge needs a higher peak, and beyond 0.86 no peak will do; what no
+    process can have is met as nearly as the points can, and ``target_fit`` says how nearly. Beyond the plane
+    100 iterations are too few: 1,000 points in 3D have a mean power of .07 where none is asked, and 2e-4
+    after 400.
 
     References
     ----------
@@ -69,8 +71,8 @@ class SinglePeak(RingMeans):
     def __post_init__(self) -> None:
         super().__post_init__()
         check_edge(self.edge)
-        if self.power is not None and not (math.isfinite(self.power) and self.power >= 0):
-            raise InputError(f"power must be 0 or more and finite; got {self.power}")
+        if self.power is not None and not 0 <= self.power <= MOST_POWER:
+            raise InputError(f"power must be 0 to {MOST_POWER:g}; got {self.power}")
         if self.width is not None and not (math.isfinite(self.width) and self.width > 0):
             raise InputError(f"width must be positive and finite, in nu; got {self.width}")
 

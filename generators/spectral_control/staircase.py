@@ -9,7 +9,7 @@ from typing import ClassVar
 from gbnbench.core.errors import InputError
 from gbnbench.generators.protocol import Family
 from gbnbench.generators.spectral_control.band import check_edge
-from gbnbench.generators.spectral_control.named_profiles import StairProfile, of_the_plane
+from gbnbench.generators.spectral_control.named_profiles import MOST_POWER, StairProfile, of_the_plane
 from gbnbench.generators.spectral_control.ring_means import RingMeans
 
 EDGE = 0.775  # in the plane
@@ -73,8 +73,8 @@ class Staircase(RingMeans):
         check_edge(self.edge)
         if self.end is not None and not math.isfinite(self.end):
             raise InputError(f"end must be finite, in nu; got {self.end}")
-        if not (math.isfinite(self.level) and self.level > 0):
-            raise InputError(f"level must be positive and finite; got {self.level}")
+        if not 0 < self.level <= MOST_POWER:
+            raise InputError(f"level must be above 0 and at most {MOST_POWER:g}; got {self.level}")
         plane = self.profile(2)
         if not plane.end > plane.edge:
             raise InputError(f"end must be above the edge, {plane.edge:.4g}; got {plane.end:.4g}")

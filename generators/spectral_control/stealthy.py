@@ -17,9 +17,9 @@ from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.optimiser import Nesterov
 from gbnbench.generators.gbn.step_sizes import step_size
 from gbnbench.generators.monitor import Monitor, refuse_all_but_progress
-from gbnbench.generators.protocol import Family
+from gbnbench.generators.protocol import MOST_ITERATIONS, Family
 from gbnbench.generators.spectral_control.band import BandGenerator, check_edge
-from gbnbench.generators.spectral_control.core_descent import descend_to_core, least_distance
+from gbnbench.generators.spectral_control.core_descent import descend_to_core, least_distance, widest_core
 from gbnbench.generators.spectral_control.empty_band import band_power, last_step
 from gbnbench.generators.spectral_control.set_progress import SetProgress
 
@@ -98,8 +98,8 @@ class Stealthy(BandGenerator):
     def __post_init__(self) -> None:
         check_edge(self.edge)
         for name in ("gradients", "most"):
-            if (getattr(self, name) or 0) < 0:
-                raise InputError(f"{name} must be 0 or more; got {getattr(self, name)}")
+            if not 0 <= (getattr(self, name) or 0) <= MOST_ITERATIONS:
+                raise InputError(f"{name} must be 0 to {MOST_ITERATIONS}; got {getattr(self, name)}")
         if not (math.isfinite(self.power) and self.power > 0):
             raise InputError(f"power must be positive; got {self.power}")
         if not (math.isfinite(self.core) and self.core >= 0):
@@ -110,6 +110,24 @@ class Stealthy(BandGenerator):
     def band_edge(self, d: int) -> float:
         """Edge of the empty band in d dimensions, in nu."""
         return edge_binding(SHARE, d) if self.edge is None else self.edge
+
+    def refusal(self, n: int, d: int) -> str | None:
+        """Say why n points in d dimensions cannot have an empty band, or a core beside it.
+
+        Parameters
+        ----------
+        n, d : int
+            Points and dimension.
+
+        Returns
+        -------
+        str or None
+            The reason: that of every band, or that no points keep the core.
+        """
+        if n > 1 and self.core > (widest := widest_core(d)):
+            said = f"no n={n} points in d={d} can be core={self.core:.4g} spacings apart: the densest packing"
+            return f"{said} has {widest:.4g}" + (" at most" if d > 3 else "")
+        return super().refusal(n, d)
 
     def too_bound(self, n: int, d: int, bound: float) -> str:
         """Say that an empty band binds too many coordinates, and what would do.

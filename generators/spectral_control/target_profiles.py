@@ -37,6 +37,14 @@ class Exponential:
         return power
 
 
+class _RowError(InputError):
+    """A row of a table is no nu and power; row counts from 0."""
+
+    def __init__(self, row: int, said: str) -> None:
+        super().__init__(f"row {row + 1}: {said}")
+        self.row, self.said = row, said
+
+
 @dataclass(frozen=True)
 class Table:
     """Power at rising nu, its logarithm joined by straight lines, constant below the first.
@@ -67,12 +75,12 @@ class Table:
             raise InputError(f"a target needs two rows of nu and power or more; got {len(self.nu)}")
         for k, (nu, power) in enumerate(zip(self.nu, self.power, strict=True)):
             if not (math.isfinite(power) and power > 0):
-                raise InputError(
-                    f"the power of a target must be positive and finite; got {power} in row {k + 1}: "
-                    "1e-30 is none at all in double"
+                raise _RowError(
+                    k,
+                    f"the power of a target must be positive and finite; got {power}: 1e-30 is almost none",
                 )
             if not (math.isfinite(nu) and nu >= 0 and (k == 0 or nu > self.nu[k - 1])):
-                raise InputError(f"the nu of a target must be >= 0 and rise; got {nu} in row {k + 1}")
+                raise _RowError(k, f"the nu of a target must be >= 0 and rise; got {nu}")
 
     @property
     def edge(self) -> float:
@@ -111,7 +119,7 @@ class Table:
             If the file cannot be read, a row is not numbers, or the table is not a target.
         """
         try:
-            with Path(path).open(newline="", encoding="utf-8") as file:
+            with Path(path).open(newline="", encoding="utf-8-sig") as file:
                 lines = [(number, row) for number, row in enumerate(csv.reader(file), 1) if any(row)]
         except (OSError, UnicodeDecodeError, csv.Error) as error:
             raise FormatError(path, f"a target cannot be read: {error}") from None
@@ -128,7 +136,9 @@ class Table:
                     path, f"a target needs a number for nu and one for power; got {','.join(row)!r}", number
                 ) from None
         try:
-            return cls.of(rows)
+            return cls.of(np.reshape(rows, (-1, 2)))
+        except _RowError as error:
+            raise FormatError(path, error.said, lines[error.row][0]) from None
         except InputError as error:
             raise FormatError(path, str(error)) from None
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import keyword
+import math
 import os
 import re
 import shlex
@@ -12,6 +14,7 @@ from typing import Any, cast
 
 from gbnbench.core.cache_folder import user_folder
 from gbnbench.core.errors import FormatError, InputError
+from gbnbench.core.readable_text import in_one_line
 from gbnbench.core.settings import SPECIFICATION, nearest
 from gbnbench.generators.kind_check import checked_kind
 from gbnbench.generators.protocol import FAMILIES, Family, Generator
@@ -125,7 +128,7 @@ def definition(name: str, table: object, folder: Path) -> ProgramDefinition:
     return ProgramDefinition(
         name=name,
         command=_command(table["command"], folder, settings, dimensions),
-        summary=table.get("summary", f"external program: {table['command']}"),
+        summary=table.get("summary", f"external program: {in_one_line(' '.join(table['command'].split()))}"),
         family=cast("Family | None", family),
         reference=table.get("reference", ""),
         dimensions=dimensions,
@@ -157,7 +160,7 @@ def _command(
 
 
 def _setting(name: str, value: object) -> ProgramSetting:
-    if not re.fullmatch(r"[A-Za-z]\w*", name) or name == "output":
+    if not re.fullmatch(r"[A-Za-z]\w*", name) or name == "output" or keyword.iskeyword(name):
         raise InputError(f"a setting must be named as a variable is, and not output; got {name!r}")
     fits = isinstance(value, Mapping) and set(value) == {"default", "meaning"}
     if not fits or not isinstance(value["default"], (bool, int, float, str)):  # type: ignore[index]
@@ -165,6 +168,8 @@ def _setting(name: str, value: object) -> ProgramSetting:
             f'setting {name} must read {{ default = 0.5, meaning = "what it is" }}; got {value!r}'
         )
     found = cast("Mapping[str, Any]", value)
+    if isinstance(found["default"], float) and not math.isfinite(found["default"]):
+        raise InputError(f"the default of setting {name} must be finite; got {found['default']}")
     return ProgramSetting(name, found["default"], str(found["meaning"]))
 
 

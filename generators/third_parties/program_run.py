@@ -12,12 +12,11 @@ import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-import numpy as np
-
 from gbnbench.core.errors import GbnbenchError
 from gbnbench.core.process_end import cause_of_end
+from gbnbench.core.readable_text import in_one_line
 from gbnbench.core.torus import FloatArray
-from gbnbench.io.points import load
+from gbnbench.io.points import ReadingOptions, read_sets
 
 OUTPUT = "output"  # the placeholder of the file that is to be written
 
@@ -98,16 +97,18 @@ def run_program(
         if not points.is_file():
             raise GbnbenchError(f"{name} drew no set: {shown}: wrote no file {points.name}")
         try:
-            x = load(points)
+            sets = read_sets(points, ReadingOptions(shape_told=True)).sets
         except GbnbenchError as error:
             fault = str(error).replace(
                 f"{points.parent}{os.sep}", "" if into_file else "standard output, as "
             )
+            if " --" in fault:
+                fault += f"; those are options for files: a program must write its n={n} points of [0, 1)"
             raise GbnbenchError(f"{name} drew no set: {shown}: {fault}") from None
-        if not isinstance(x, np.ndarray) or x.shape != (n, d):
-            got = f"shape {x.shape}" if isinstance(x, np.ndarray) else f"{len(x)} sets of several sizes"
+        if len(sets) != 1 or sets[0].shape != (n, d):
+            got = f"shape {sets[0].shape}" if len(sets) == 1 else f"{len(sets)} sets"
             raise GbnbenchError(f"{name} drew no set of n={n}, d={d}: {shown}: wrote {got}")
-        return x
+        return sets[0]
 
 
 def _ended(
@@ -119,8 +120,9 @@ def _ended(
             words, cwd=folder, stdin=subprocess.DEVNULL, stdout=outputs[0], stderr=outputs[1],
             start_new_session=True,
         )  # fmt: skip
-    except OSError as error:
-        raise GbnbenchError(f"{name} drew no set: {shown}: cannot be started: {error.strerror}") from None
+    except (OSError, ValueError) as error:  # ValueError: a zero byte in a word
+        why = error.strerror if isinstance(error, OSError) else error
+        raise GbnbenchError(f"{name} drew no set: {in_one_line(shown)}: cannot be started: {why}") from None
     try:
         return process.wait(timeout)
     except subprocess.TimeoutExpired:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray, spacing, wrap
-from gbnbench.generators.protocol import Family
+from gbnbench.generators.protocol import MOST_ITERATIONS, Family
 from gbnbench.generators.voronoi.cells import Cells, move_to_centroids, toroidal_cells
 
 
@@ -67,8 +67,8 @@ class Lloyd:
     method: Literal["auto", "lloyd", "lbfgs"] = "auto"
 
     def __post_init__(self) -> None:
-        if self.iterations is not None and self.iterations < 0:
-            raise InputError(f"iterations must be >= 0; got {self.iterations}")
+        if self.iterations is not None and not 0 <= self.iterations <= MOST_ITERATIONS:
+            raise InputError(f"iterations must be 0 to {MOST_ITERATIONS}; got {self.iterations}")
         if not self.tolerance >= 0:
             raise InputError(f"tolerance must be >= 0 spacings; got {self.tolerance}")
 

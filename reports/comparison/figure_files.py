@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from gbnbench.core.atomic_write import write_whole
-from gbnbench.reports import fonts, style
+from gbnbench.reports import style
 from gbnbench.reports.comparison import (
     gallery,
     loglog,
@@ -25,6 +25,7 @@ from gbnbench.reports.comparison import (
     valence,
     zone_plate,
 )
+from gbnbench.reports.fonts_in_pdf import lean_fonts
 from gbnbench.reports.source_groups import Group, groups, members
 from gbnbench.runs.comparison_result import Run, SourceResult
 from gbnbench.studies.drawing import make_each
@@ -72,6 +73,7 @@ def png(figure: Figure, dpi: float = style.DPI) -> bytes:
         Content of the file.
     """
     pixels, stream = io.BytesIO(), io.BytesIO()
+    _leave_empty_labels(figure)
     FigureCanvasAgg(figure)
     figure.savefig(pixels, format="rgba", dpi=dpi)
     width, height = (int(inches * dpi) for inches in figure.get_size_inches())
@@ -85,9 +87,18 @@ def png(figure: Figure, dpi: float = style.DPI) -> bytes:
 def pdf(figure: Figure) -> bytes:
     """Render a figure as PDF, without a date, so that equal figures give equal bytes."""
     stream = io.BytesIO()
-    with fonts.without_layout_tables():
+    _leave_empty_labels(figure)
+    with lean_fonts():
         figure.savefig(stream, format="pdf", dpi=200, metadata={"CreationDate": None, "Producer": None})
     return stream.getvalue()
+
+
+def _leave_empty_labels(figure: Figure) -> None:
+    """Give axes without a label a fixed place for it: to find one, all their numbers are laid out again."""
+    for ax in figure.axes:
+        for axis in (ax.xaxis, ax.yaxis):
+            if not axis.get_label_text():
+                axis.set_label_coords(0.5, 0.5)
 
 
 def stem(run: Run, name: str, group: Group) -> str:
@@ -122,6 +133,7 @@ def planned(run: Run) -> list[tuple[str, Callable[[Run, Group | None], Figure], 
     return plan
 
 
+@style.styled
 def write_figures(run: Run, folder: str | Path, drawn: dict[str, bytes] | None = None) -> list[Path]:
     """Draw every figure that the run has data for.
 

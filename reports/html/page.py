@@ -51,6 +51,7 @@ def write_report(run: Run, path: str | Path, drawn: Mapping[str, bytes] | None =
     write_whole(Path(path), page(run, drawn or {}).encode("utf-8"))
 
 
+@style.styled
 def page(run: Run, drawn: Mapping[str, bytes] = MappingProxyType({})) -> str:
     """Return the page as text; every label, path and setting in it is escaped.
 

@@ -17,8 +17,9 @@ from gbnbench import __version__
 from gbnbench.execution.progress import Progress
 from gbnbench.io.points import ReadingOptions
 from gbnbench.runs.comparison_result import Run
-from gbnbench.runs.resumable import Task, run_tasks
+from gbnbench.runs.resumable import run_tasks
 from gbnbench.runs.sources import DEFAULT_READING, resolve
+from gbnbench.runs.task import Task
 from gbnbench.runs.task_folder import Arrays, TaskFolder
 from gbnbench.studies.comparison import run_comparison
 from gbnbench.studies.integration.study import run_integration_study

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import json
 import math
 import tomllib
 
@@ -10,11 +11,14 @@ import mpmath
 import numpy as np
 import pytest
 
+from gbnbench.analysis.spatial.delaunay import neighbours
 from gbnbench.benchmarks.claims import (
     box,
     complexity,
     convergence,
+    discrete_methods,
     half_space,
+    high_dimensions,
     integration_errors,
     long_descent,
     periodic_kernel,
@@ -23,9 +27,9 @@ from gbnbench.benchmarks.claims import (
 from gbnbench.benchmarks.claims.claim import BESIDE, COLUMNS, VERDICTS, verdict
 from gbnbench.benchmarks.claims.page import filled, number, page
 from gbnbench.benchmarks.claims.registry import CLAIMS, MEASURES
-from gbnbench.benchmarks.claims.run import fill, main, measure, named, read
+from gbnbench.benchmarks.claims.run import fill, main, measure, named, read, record_machine
 from gbnbench.benchmarks.claims.sets import MissingError, SetCache
-from gbnbench.core.errors import InputError
+from gbnbench.core.errors import GbnbenchError, InputError
 from gbnbench.generators.gbn.kernel_profile import theta
 from tests.oracles.theta import jacobi
 from tests.paths import ROOT
@@ -34,7 +38,6 @@ TABLE = ROOT / "benchmarks" / "results" / "claims" / "claims.csv"
 # Claims whose numbers need no sets and no clock.
 EXACT = (
     "weight", "leak", "nearest-image", "eq-22-23", "profiles", "eq-1", "eq-24", "eq-47", "freedom", "digits",
-    "kernel-profiles",
 )  # fmt: skip
 
 
@@ -134,6 +137,45 @@ def test_further_draws_are_others():
     exponents = half_space.redrawn(SetCache(), "jittered", 2, further=2)
     assert len(exponents) == len(set(exponents)) == 2
     np.testing.assert_allclose(exponents, -1.5, atol=0.1)
+
+
+def test_delaunay_neighbours_in_any_dimension():
+    rng = np.random.default_rng(5)
+    x = rng.random((150, 3))
+    assert high_dimensions.mean_degree(x, 0.6) == pytest.approx(neighbours(x)[0].degree.mean(), rel=1e-12)
+    assert high_dimensions.mean_degree(rng.random((30, 2)), 1.0) == 6
+    with pytest.raises(GbnbenchError, match="is too narrow"):
+        high_dimensions.mean_degree(x, 0.05)
+
+
+def test_discrete_methods_stop_where_no_swap_gains():
+    pattern = "voidcluster[sigma=4,share=0.0625,initial={},shift=false]"
+    assert discrete_methods.swap_gain(pattern.format(0.0625), 4, 64) < 1e-11
+    assert discrete_methods.swap_gain(pattern.format(0.5), 4, 64) > 1e-3
+    assert discrete_methods.exchanges_left(1.0, 64) == 0
+    assert discrete_methods.exchanges_left(1.0, 64, iterations=0) > 10
+
+
+def test_the_better_fit():
+    told = {"profile_residual_db": 1.0, "powerlaw_residual_db": 1.3}
+    assert profile.family(told) == "exponential"
+    assert profile.family(told | {"profile_residual_db": 2.0}) == "power law"
+    assert profile.family(told | {"profile_residual_db": 1.5}) == "undecided"
+
+
+def test_machines_are_listed_with_their_claims(tmp_path):
+    path = tmp_path / "machine.json"
+    for name, processor in (("a", "one"), ("b", "one"), ("a", "two")):
+        record_machine(path, name, {"processor": processor})
+    assert json.loads(path.read_text()) == [
+        {"claims": ["b"], "processor": "one"},
+        {"claims": ["a"], "processor": "two"},
+    ]
+
+
+def test_every_claim_of_the_table_has_its_machine():
+    listed = json.loads(TABLE.with_name("machine.json").read_text())
+    assert sorted(name for one in listed for name in one["claims"]) == sorted(read(TABLE))
 
 
 def test_exponents_of_times():

@@ -14,8 +14,9 @@ import pytest
 
 from gbnbench.core.errors import InputError, UnfinishedError
 from gbnbench.execution.progress import Progress
-from gbnbench.runs.resumable import Task, TaskRun, run_tasks
+from gbnbench.runs.resumable import TaskRun, run_tasks
 from gbnbench.runs.resumable_folder import ResumableFolder
+from gbnbench.runs.task import Task
 from gbnbench.runs.task_folder import TaskFolder
 
 
@@ -186,3 +187,17 @@ def test_results_stand_in_the_order_of_the_tasks_whichever_was_there_first(tmp_p
     run = TaskRun(tasks, folder)
     assert [finished.key for finished in run.complete(None, Progress())] == ["roots/3", "roots/5"]
     assert list(run.results) == ["roots/3", "roots/4", "roots/5"]
+
+
+@pytest.mark.slow
+def test_something_is_done_while_a_worker_proves_the_device(tmp_path):
+    order = []
+
+    class Order(Heard):
+        def start(self, total, done, doing):
+            order.append(doing)
+
+    tasks = [Task("a/3", "roots 3", roots, (3,))]
+    run_tasks(tasks, opened(tmp_path), 1, Order(), "rooting", lambda: order.append("meanwhile"))
+    assert order[0].startswith("checking the device")
+    assert order[1:] == ["meanwhile", "rooting"]

@@ -13,8 +13,18 @@ from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
 from gbnbench.analysis.spectrum.evaluators.kept_memory import kept
 from gbnbench.analysis.spectrum.evaluators.point_slots import TABLE_BYTES, Slots, choose_slots, tile_rows
 from gbnbench.analysis.spectrum.evaluators.prepared_cube import PreparedCube
+from gbnbench.analysis.spectrum.evaluators.small_cube import MOST_WORK
 from gbnbench.analysis.spectrum.evaluators.two_group_product import product_errors
-from gbnbench.analysis.spectrum.evaluators.work_model import ENTRY, SET_UP, TILE, WRITTEN, device_cost
+from gbnbench.analysis.spectrum.evaluators.work_model import (
+    CARRIED_POINT,
+    ENTRY,
+    LAUNCHED,
+    SET_UP,
+    TILE,
+    WRITTEN,
+    device_cost,
+    narrow,
+)
 from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest
 from gbnbench.core.torus import FloatArray
 
@@ -29,7 +39,10 @@ class CubeProduct(DeviceEvaluator):
 
     def work(self, request: SpectrumRequest) -> float:
         """Count the pairs of frequencies, the tables, the powers that are written, and the set-up."""
-        return self._product_work(request) + SET_UP
+        work, p, n = self._product_work(request), self.on_device, request.n
+        small = p.runtime.device.is_cpu and work <= MOST_WORK
+        carried = request.realizations * n * CARRIED_POINT
+        return work + narrow(p) * (carried + SET_UP + (0 if small else LAUNCHED))
 
     def _product_work(self, request: SpectrumRequest) -> float:
         p, n = self.on_device, request.n

@@ -8,7 +8,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.analysis.precision import SUM_POINTS, Precision, padded
+from gbnbench.analysis.precision import Precision, padded
 from gbnbench.analysis.spectrum.error_model import (
     Coordinates,
     Errors,
@@ -19,7 +19,7 @@ from gbnbench.analysis.spectrum.error_model import (
 from gbnbench.analysis.spectrum.evaluators.device_evaluator import DeviceEvaluator
 from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
 from gbnbench.analysis.spectrum.evaluators.two_group_product import norms_of
-from gbnbench.analysis.spectrum.evaluators.work_model import COSINE, SET_UP, device_cost
+from gbnbench.analysis.spectrum.evaluators.work_model import COSINE, SET_UP, device_cost, narrow
 from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest
 from gbnbench.core.torus import FloatArray
 
@@ -37,7 +37,7 @@ class DirectSum(DeviceEvaluator):
 
     def work(self, request: SpectrumRequest) -> float:
         """Count the sines and cosines, and the set-up."""
-        return super().work(request) + SET_UP
+        return super().work(request) + narrow(self.on_device) * SET_UP
 
     def cost(self, request: SpectrumRequest) -> EvaluationCost:
         """Estimate the sum's cost on the device."""
@@ -127,7 +127,7 @@ def run_length(p: Precision, m: int, n: int) -> int:
     """
     device = p.runtime.device
     items = device.compute_units * (ITEMS if device.is_cpu else GPU_ITEMS)
-    runs = max(1, min(-(-items // m), -(-n // (SUM_POINTS * p.lanes))))
+    runs = max(1, min(-(-items // m), -(-n // (p.sum_points * p.lanes))))
     return padded(-(-n // runs), p.lanes)
 
 
@@ -152,7 +152,7 @@ def listed_errors(p: Precision, n: int, largest: int, length: int, at: Coordinat
     Errors
     """
     beyond = p.lanes.bit_length() + 2 + -(-n // length)
-    in_registers = min(SUM_POINTS, -(-length // p.lanes))
+    in_registers = min(p.sum_points, -(-length // p.lanes))
     return sum_errors(
         p.name, "double" if p.sum is np.float64 else "float", at, largest, 0, in_registers, beyond
     )

@@ -17,12 +17,15 @@ from numpy.typing import NDArray
 from gbnbench.analysis.precision import Precision, padded
 from gbnbench.analysis.spectrum.digits import Axes, even_division, half_space, multiples
 from gbnbench.analysis.spectrum.evaluators.frequency_group import Group
-from gbnbench.analysis.spectrum.evaluators.point_slots import Slots, tile_rows
+from gbnbench.analysis.spectrum.evaluators.point_slots import Slots, items_of, tile_rows
 from gbnbench.core.errors import RefusalError
 from gbnbench.opencl import Program
 
 MOST_ENTRIES = 1 << 15  # table entries for one point, of the two smaller tables of a group
 DIGITS_GROUP = 64  # frequencies that a work-group decodes
+ITEM_VECTORS = (
+    16  # vectors of points that a work-item of a CPU tabulates, at most: to start one takes as long as one
+)
 
 
 @dataclass(frozen=True)
@@ -142,7 +145,7 @@ class FrequencyTables:
         """
         small = () if folded or self.width > 1 else ("small_cube.cl",)
         return self.p.program(
-            *("tables.cl", "product.cl", "power.cl", *small),
+            *("tables.cl", "lane_sums.cl", "product.cl", "power.cl", *small),
             ROWS=self.rows,
             COLUMNS=self.width,
             ENTRIES=self.entries,
@@ -155,9 +158,9 @@ class FrequencyTables:
         """Build the kernel of tables in the layout that spread.cl reads."""
         return self.p.program("tables.cl", ENTRIES=self.entries, BY_POINT=1)
 
-    def table_sizes(self, length: int) -> tuple[int, int]:
-        """Count the numbers in a slot's leading and trailing table, for a slot of ``length`` points."""
-        return self.tiles * self.rows * length * 2, self.columns * length * 2
+    def table_sizes(self, pitch: int) -> tuple[int, int]:
+        """Count the numbers in a slot's leading and trailing table, of ``pitch`` points a tile."""
+        return self.tiles * self.rows * pitch * 2, self.columns * pitch * 2
 
     def tabulate(
         self,
@@ -191,10 +194,13 @@ class FrequencyTables:
         begin : int
             First point of the run.
         """
-        local = self.p.runtime.group
+        local, vectors = self.p.runtime.group, -(-slots.length // self.p.lanes)
+        each = 1
+        if local == 1:
+            each = max(1, min(ITEM_VECTORS, vectors * groups[1] * sets * slots.splits // items_of(self.p)))
         program.run(
             "tables",
-            (padded(slots.length // self.p.lanes, local), groups[1], sets * slots.splits),
+            (padded(-(-vectors // each), local), groups[1], sets * slots.splits),
             (local, 1, 1),
             points.turns,
             points.weight,
@@ -209,7 +215,9 @@ class FrequencyTables:
             np.uint64(sizes[1]),
             np.uint32(begin),
             np.uint32(slots.length),
+            np.uint32(slots.pitch),
             np.uint32(slots.splits),
+            np.uint32(each * self.p.lanes),
         )
 
     @cached_property

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gbnbench.analysis.precision import SUM_POINTS, Precision, padded
+from gbnbench.analysis.precision import Precision, padded
 
 TABLE_BYTES = 4 << 20  # of both groups' tables of a slot, which then stay in cache
 AMPLITUDE_BYTES = 256 << 20  # of the amplitudes of a batch, or of the rows of one pass over the points
@@ -31,11 +31,15 @@ class Slots:
         Slots of a set.
     length : int
         Points that a slot takes in one launch, a multiple of the lanes.
+    pitch : int
+        Points from one tile of a table to the next: ``length``, or a few more where that would put all
+        tiles in the same lines of a cache.
     """
 
     sets: int
     splits: int
     length: int
+    pitch: int
 
     @property
     def count(self) -> int:
@@ -51,19 +55,21 @@ class Slots:
         """Count the launches that n points take."""
         return -(-n // self.span)
 
-    def sums(self, n: int, lanes: int) -> int:
+    def sums(self, n: int, p: Precision) -> int:
         """Count the register sums that a slot adds up one after another.
 
         Parameters
         ----------
-        n, lanes : int
-            Points of a set, and width of a vector.
+        n : int
+            Points of a set.
+        p : Precision
+            Precision on the device.
 
         Returns
         -------
         int
         """
-        return -(-self.length // (SUM_POINTS * lanes)) * self.launches(n)
+        return -(-self.length // (p.sum_points * p.lanes)) * self.launches(n)
 
 
 def tile_rows(p: Precision) -> int:
@@ -93,7 +99,7 @@ def choose_slots(p: Precision, n: int, sets: int, rows: int, columns: int) -> Sl
     -------
     Slots
     """
-    chunk = SUM_POINTS * p.lanes
+    chunk = p.sum_points * p.lanes
     room = max(chunk, TABLE_BYTES // ((rows + columns) * 2 * np.dtype(p.real).itemsize) // chunk * chunk)
     whole = padded(n, p.lanes)
     amplitudes = rows * columns * 8 * np.dtype(p.sum).itemsize
@@ -101,4 +107,5 @@ def choose_slots(p: Precision, n: int, sets: int, rows: int, columns: int) -> Sl
     tiles = rows // tile_rows(p) * columns
     splits = min(-(-items_of(p) // (tiles * batch)), -(-whole // chunk))
     launches = -(-whole // max(room, splits * chunk))
-    return Slots(batch, splits, padded(-(-whole // (launches * splits)), p.lanes))
+    length = padded(-(-whole // (launches * splits)), p.lanes)
+    return Slots(batch, splits, length, length + (p.lanes if p.lanes > 1 else 0))

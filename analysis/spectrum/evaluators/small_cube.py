@@ -65,6 +65,7 @@ class SmallCube:
             product.tables[1],
             np.uint64(product.sizes[1]),
             np.uint32(slots.length),
+            np.uint32(slots.pitch),
             np.uint32(slots.splits),
             np.uint32(sets),
             np.uint32(tables.a.count),

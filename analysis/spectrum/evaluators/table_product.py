@@ -6,13 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from gbnbench.analysis.precision import SUM_POINTS, padded
+from gbnbench.analysis.precision import padded
 from gbnbench.analysis.spectrum.evaluators.frequency_tables import FrequencyTables
 from gbnbench.analysis.spectrum.evaluators.point_slots import items_of
 from gbnbench.opencl import Program
 
 COLUMN_BYTES = 512 << 10  # of trailing tables that all row tiles are multiplied with before the next
-LEAST_COLUMNS = 32  # columns in these at least, so that fetching a row tile pays
 
 
 def multiply(
@@ -21,6 +20,7 @@ def multiply(
     tables: tuple[Any, Any],
     sizes: tuple[int, int],
     length: int,
+    pitch: int,
     slots: int,
     bounds: Any,
     amplitude: Any,
@@ -38,8 +38,8 @@ def multiply(
         Leading and trailing table.
     sizes : (int, int)
         Numbers from one slot's tables to the next slot's; 0 for a table that all slots share.
-    length : int
-        Points of a slot.
+    length, pitch : int
+        Points of a slot, and points from one tile of a table to the next.
     slots : int
         Number of slots.
     bounds : buffer
@@ -49,30 +49,32 @@ def multiply(
     again : bool
         Add to the amplitudes that are there.
     """
-    p, width, step, each = frequencies.p, frequencies.width, length, 1
+    p, width, tiles = frequencies.p, frequencies.width, frequencies.tiles
+    tiles_each = each = 1
     if width == 1:
-        of_a_point = sizes[1] // frequencies.columns // length * np.dtype(p.real).itemsize
-        step = min(length, max(SUM_POINTS * p.lanes, COLUMN_BYTES // (LEAST_COLUMNS * of_a_point)))
-        blocks = min(frequencies.columns, -(-items_of(p) // (frequencies.tiles * slots)))
-        most = max(1, COLUMN_BYTES // (step * of_a_point))
-        each = -(-frequencies.columns // max(blocks, -(-frequencies.columns // most)))
-    columns = -(-frequencies.columns // each)
-    items = (frequencies.tiles, columns) if width == 1 else (padded(columns, width), frequencies.tiles)
-    for begin in range(0, length, step):
-        program.run(
-            "product",
-            (*items, slots),
-            (width, 1, 1),
-            tables[0],
-            np.uint64(sizes[0]),
-            tables[1],
-            np.uint64(sizes[1]),
-            np.uint32(length),
-            np.uint32(begin),
-            np.uint32(min(begin + step, length)),
-            bounds,
-            np.uint32(frequencies.columns),
-            np.uint32(each),
-            amplitude,
-            np.uint32(again),
-        )
+        of_a_point = sizes[1] // frequencies.columns // pitch * np.dtype(p.real).itemsize
+        most = max(2, COLUMN_BYTES // (min(length, p.sum_points * p.lanes) * of_a_point))
+        blocks, items = -(-frequencies.columns // most), -(-items_of(p) // slots)
+        tiles_each = -(-tiles // min(tiles, -(-items // blocks)))
+        blocks = max(blocks, -(-items // -(-tiles // tiles_each)))
+        each = padded(-(-frequencies.columns // blocks), 2)  # two columns share the rows in registers
+    columns, tile_blocks = -(-frequencies.columns // each), -(-tiles // tiles_each)
+    items_wanted = (tile_blocks, columns) if width == 1 else (padded(columns, width), tile_blocks)
+    program.run(
+        "product",
+        (*items_wanted, slots),
+        (width, 1, 1),
+        tables[0],
+        np.uint64(sizes[0]),
+        tables[1],
+        np.uint64(sizes[1]),
+        np.uint32(pitch),
+        np.uint32(length),
+        bounds,
+        np.uint32(tiles),
+        np.uint32(tiles_each),
+        np.uint32(frequencies.columns),
+        np.uint32(each),
+        amplitude,
+        np.uint32(again),
+    )

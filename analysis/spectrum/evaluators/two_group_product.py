@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.analysis.precision import SUM_POINTS, Precision, padded
+from gbnbench.analysis.precision import Precision, padded
 from gbnbench.analysis.spectrum.error_model import Coordinates, Errors, sum_errors
 from gbnbench.analysis.spectrum.evaluators.frequency_group import Group
 from gbnbench.analysis.spectrum.evaluators.frequency_tables import (
@@ -24,6 +24,7 @@ from gbnbench.analysis.spectrum.evaluators.frequency_tables import (
 )
 from gbnbench.analysis.spectrum.evaluators.point_slots import COMPENSATED_FROM, Slots, choose_slots
 from gbnbench.analysis.spectrum.evaluators.table_product import multiply
+from gbnbench.analysis.spectrum.evaluators.turn_rows import TurnRows
 from gbnbench.core.torus import FloatArray
 
 
@@ -72,10 +73,10 @@ class TwoGroupProduct:
         rows, columns = self.frequencies.tiles * self.frequencies.rows, self.frequencies.columns
         self.slots = choose_slots(p, n, sets, rows, columns)
         self.stride = padded(n, self.slots.span)
-        compensated = self.slots.sums(n, p.lanes) > COMPENSATED_FROM
+        compensated = self.slots.sums(n, p) > COMPENSATED_FROM
         self._bounds = self.frequencies.all_columns if bounds is None else p.runtime.upload(bounds)
         self.program = self.frequencies.program(compensated)
-        self.sizes = self.frequencies.table_sizes(self.slots.length)
+        self.sizes = self.frequencies.table_sizes(self.slots.pitch)
         real, total = np.dtype(p.real).itemsize, np.dtype(p.sum).itemsize
         of_tables = [size * self.slots.count * real for size in self.sizes]
         of_amplitudes = self.slots.count * rows * columns * (8 if compensated else 4) * total
@@ -86,6 +87,8 @@ class TwoGroupProduct:
             # the memory held, since denormals take a processor a hundred cycles each.
             p.runtime.clear(self.tables[0], of_tables[0])
         self.amplitude = p.runtime.empty(of_amplitudes)
+        self._turns = TurnRows(p, min(sets, self.slots.sets), n, d, self.stride)
+        self.nbytes += self._turns.nbytes
 
     def batches(self, x: FloatArray, weights: FloatArray | None = None) -> Iterator[tuple[int, int]]:
         """Evaluate the amplitudes of one batch of sets after another, and leave each on the device.
@@ -114,6 +117,7 @@ class TwoGroupProduct:
                 )
                 self.multiply(count, again=begin > 0)
             yield first, count
+            self.p.runtime.finish()  # before the next points take the place of these, or nothing holds them
 
     def upload(self, x: FloatArray, weights: FloatArray | None) -> DevicePoints:
         """Upload a batch of sets.
@@ -129,7 +133,8 @@ class TwoGroupProduct:
         -------
         DevicePoints
         """
-        turns = self.p.runtime.upload(self.p.turns(x, self.stride))
+        self._turns(x)
+        turns = self._turns.buffer
         if weights is None:
             return DevicePoints(turns, self._ones, self.stride, 0)
         own = self._upload_weights(weights)
@@ -163,6 +168,7 @@ class TwoGroupProduct:
                 self.tables,
                 self.sizes,
                 self.slots.length,
+                self.slots.pitch,
                 sets * self.slots.splits,
             ),
             bounds=self._bounds,
@@ -192,9 +198,9 @@ def product_errors(p: Precision, n: int, slots: Slots, fmax: int, at: Coordinate
     -------
     Errors
     """
-    sums = slots.sums(n, p.lanes)
-    beyond = p.lanes.bit_length() + (2 if sums > COMPENSATED_FROM else sums) + slots.splits
-    in_registers = min(SUM_POINTS, -(-slots.length // p.lanes))
+    sums = slots.sums(n, p)
+    beyond = (2 if sums > COMPENSATED_FROM else sums) + slots.splits
+    in_registers = min(p.sum_points, -(-slots.length // p.lanes)) + p.lanes.bit_length()
     return sum_errors(p.name, "double" if p.sum is np.float64 else "float", at, fmax, 3, in_registers, beyond)
 
 

@@ -1,7 +1,9 @@
 """Work of evaluations in multiply-adds, and the time it takes on an OpenCL device.
 
 The constants were measured on CPUs. They count the work for each point on a pair of a leading and a trailing
-frequency, the work on the tables, and what is done once with each power.
+frequency, the work on the tables, and what is done once with each point and each power. What is no product of
+vectors gains nothing of wide ones: it is counted in narrow multiply-adds, those of 32 bytes, two of
+which pass in one of 64.
 """
 
 from __future__ import annotations
@@ -16,10 +18,28 @@ from gbnbench.opencl.peak_rate import launch_seconds, peak
 # Multiply-adds for a pair of frequencies and a point (four, and the waste of a tile), for an entry of a
 # table, for a cosine and sine, for a power that is written, and for a pair that is reduced to its shell.
 TILE, ENTRY, COSINE, WRITTEN, SHELL = 5.0, 40.0, 200.0, 20.0, 550.0
-SET_UP = 1.4e6  # multiply-adds that take as long as all else of a call
+# Narrow multiply-adds for a point that is brought to the device, and those that take as long as the launches
+# of a product that is no small cube, and as all else of a call. Fitted to 62 cubes in 1D to 3D.
+CARRIED_POINT, LAUNCHED, SET_UP = 300.0, 1.5e6, 1.4e6
 SET_UP_SECONDS = 4.2e-11  # of a core, for each multiply-add of a set-up
 CALL_SECONDS = 1e-4  # for every request, where there are no launches
 NUMPY_RATE = 4e9  # multiply-adds that numpy does in a second on one core
+
+
+def narrow(p: Precision) -> float:
+    """Count the multiply-adds of the device's vectors that pass in the time of one of a vector of 32 bytes.
+
+    Parameters
+    ----------
+    p : Precision
+        Precision on the device.
+
+    Returns
+    -------
+    float
+        2 with AVX-512, 1 with vectors of 32 bytes or less.
+    """
+    return max(1.0, p.lanes * np.dtype(p.real).itemsize / 32)
 
 
 def device_cost(

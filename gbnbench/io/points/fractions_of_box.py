@@ -45,7 +45,7 @@ def fractions_of_box(path: Path, content: FileContent, options: ReadingOptions) 
         dimensions = sorted({one.points.shape[1] for one in content.sets})
         raise FormatError(path, f"its sets have different dimensions: {dimensions}")
     for one in content.sets:
-        if one.bare:
+        if one.bare and not options.shape_told:
             _refuse_transposed(path, one)
             refuse_row_numbers(path, one)
     box = _box(path, content.box, options, d)

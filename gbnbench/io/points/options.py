@@ -37,6 +37,8 @@ class ReadingOptions:
         Bring points outside into the box by whole sides.
     window : bool
         Whether ``gbnbench analyze --window`` tells the box, so that errors speak of it.
+    shape_told : bool
+        Whether the writer was told n and d, as programs are: few rows of many columns are points then.
 
     Examples
     --------
@@ -51,6 +53,7 @@ class ReadingOptions:
     bounds: tuple[float, ...] | None = None
     wrap: bool = False
     window: bool = False
+    shape_told: bool = False
 
     def __post_init__(self) -> None:
         if self.period is not None and self.bounds is not None:

@@ -16,8 +16,8 @@ from gbnbench.core.settings import specification
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.monitor import Monitor, MonitoredGenerator
 from gbnbench.generators.protocol import Generator, realization_rng
-from gbnbench.runs.resumable import Task
 from gbnbench.runs.sources import Source
+from gbnbench.runs.task import Task
 
 INSTANCE, SHIFT = 2**31 + 1, 2**31 + 2  # first words of spawn keys, far from any realization's number
 BLOCK_POINTS, BLOCK_SETS = 16_384, 32  # of a block; fixed, so that blocks do not depend on the machine

@@ -4,6 +4,11 @@ The energy is E = 1/2 integral of (A - T)^2, where A sums the points' Gaussians.
 of points over a Gaussian of variance (t s)^2 + 1/12, s being the kernels' width there and 1/12 the variance
 of a square pixel. At t = 1 a set that has the density leaves nothing to be gained (the method is faithful);
 near 0 pixels are points, edges are sharpened, and points gather in clumps.
+
+At the borders of a bounded density T falls off as it does at t = 1, whatever t is: the density is continued
+by its mirror image, spread, and multiplied by the share of a Gaussian of width s around each place that lies
+inside. A constant density then is the uniform method's in a box (Eq. 24). Where T fell off more steeply than
+the points' Gaussians can, they would line up along the border.
 """
 
 from __future__ import annotations
@@ -12,7 +17,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from scipy.special import erf
 
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density
@@ -80,11 +85,14 @@ def attraction_levels(
     # The transform's ends meet: a kernel at one border must not see what is spread at the other one.
     apart = reach * on_ink * math.hypot(1, part)
     room = max(LEAST_ROOM, max(density.shape) // 2)
-    margin = 0 if density.toroidal else max(4, min(math.ceil(apart / 2), room))
+    margin = 0 if density.toroidal else max(4, min(math.ceil(apart), room))
     grid = padded_grid(density.shape, margin)
-    most = math.inf if density.toroidal else 2 * margin / (reach * math.hypot(1, part))
-    log_width = np.minimum(widths.log_width[inked], math.log(most))
-    spectrum = _spread_spectrum(grid, density.of_points(n), log_width, inked, part)
+    most = math.inf if density.toroidal else margin / (reach * math.hypot(1, part))
+    log_width = np.minimum(grid.reflected(widths.log_width), math.log(most))
+    spectrum = _spread_spectrum(grid, grid.reflected(density.of_points(n)), log_width, part)
+    if margin:
+        field = grid.sampled(spectrum, grid.padded) * _share_inside(grid, np.exp(log_width))
+        spectrum = grid.transform(field * (n / field.sum()))
     largest = BEYOND_INK * on_ink
     levels: list[Level] = []
     while True:
@@ -103,10 +111,20 @@ def attraction_levels(
             return tuple(levels)
 
 
-def _spread_spectrum(
-    grid: PaddedGrid, rho: FloatArray, logs: FloatArray, inked: NDArray[np.bool_], part: float
-) -> ComplexArray:
+def _share_inside(grid: PaddedGrid, width: FloatArray) -> FloatArray:
+    """Part of a Gaussian around each padded pixel that lies over the domain."""
+    share = np.ones(grid.padded)
+    for a, (size, whole) in enumerate(zip(grid.shape, grid.padded, strict=True)):
+        at = (np.arange(whole) + 0.5 - grid.margin).reshape([-1 if b == a else 1 for b in range(share.ndim)])
+        scale = math.sqrt(2) * width
+        share *= 0.5 * (erf(at / scale) + erf((size - at) / scale))
+    return share
+
+
+def _spread_spectrum(grid: PaddedGrid, rho: FloatArray, log_width: FloatArray, part: float) -> ComplexArray:
     """Spectrum of T: a sum over a ladder of widths, among which each pixel's share is interpolated."""
+    inked = rho > 0
+    logs = log_width[inked]
     least, step = float(logs.min()), math.log(LADDER)
     at = (logs - least) / step
     last = max(1, math.ceil(float(at.max()) - 1e-9))
@@ -130,7 +148,7 @@ def _spread_spectrum(
             continue
         share[inked] = rho[inked] * of_ink
         width = part * math.exp(least + j * step)
-        spread = grid.smoothed(grid.spectrum(share), width**2 + PIXEL)
+        spread = grid.smoothed(grid.transform(share), width**2 + PIXEL)
         total = spread if total is None else total + spread
     assert total is not None  # noqa: S101 - some pixel has ink
     return total

@@ -33,10 +33,22 @@ class PaddedGrid:
     padded: tuple[int, ...]
 
     def spectrum(self, field: FloatArray) -> ComplexArray:
-        """Transform a field on the pixels; the last axis keeps its half."""
+        """Transform a field on the pixels, with zeros around it; the last axis keeps its half."""
         whole = np.zeros(self.padded)
         whole[tuple(slice(self.margin, self.margin + size) for size in self.shape)] = field
+        return self.transform(whole)
+
+    def transform(self, whole: FloatArray) -> ComplexArray:
+        """Transform a field on all padded pixels; the last axis keeps its half."""
         return fft.rfftn(whole, workers=-1)
+
+    def reflected(self, field: FloatArray) -> FloatArray:
+        """Continue a field into the margin by its mirror images."""
+        if self.margin == 0:
+            return field
+        sides = zip(self.shape, self.padded, strict=True)
+        beyond = [(self.margin, whole - size - self.margin) for size, whole in sides]
+        return np.pad(field, beyond, "symmetric")
 
     def smoothed(self, spectrum: ComplexArray, variance: float) -> ComplexArray:
         """Multiply a spectrum with that of a Gaussian of unit mass.

@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 
+from gbnbench.analysis.reconstruction.blurred_difference import blurred_difference
 from gbnbench.analysis.reconstruction.density_estimates import ESTIMATES, reconstructed_density
 from gbnbench.analysis.reconstruction.image_quality import image_quality
 from gbnbench.analysis.reconstruction.kernel_sums import kernel_sums
@@ -119,3 +120,11 @@ def test_wrong_arguments_are_refused_in_words(arguments, words):
         reconstructed_density(**given)
     with pytest.raises(InputError, match="one shape"):
         image_quality(np.ones((3, 3)), np.ones((3, 4)))
+
+
+def test_a_blurred_difference_is_that_of_counts():
+    density = np.ones((16, 16))
+    one_each = np.argwhere(density) + 0.5
+    assert blurred_difference(one_each, density, 2.0) == pytest.approx(0)
+    shifted = np.where(one_each[:, :1] < 8, one_each, one_each - [8, 0])  # all in the upper half
+    assert blurred_difference(shifted, density, 0.1, toroidal=True) == pytest.approx(1)

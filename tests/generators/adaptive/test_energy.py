@@ -8,6 +8,7 @@ import math
 import numpy as np
 import pytest
 
+from gbnbench.doctor.numpy_references import numpy_box_gradient
 from gbnbench.generators.adaptive.density import as_density
 from gbnbench.generators.adaptive.gbn.energy import AdaptiveEnergy
 from gbnbench.generators.adaptive.gbn.kernel_widths import kernel_widths
@@ -55,7 +56,7 @@ def test_float_agrees_with_double():
 
 @pytest.mark.parametrize("spread", [0.0, 0.5, 1.0])
 def test_the_energy_is_the_double_sum_over_points_and_pixels(spread):
-    density, n = as_density(_bumps((30, 26))), 40
+    density, n = as_density(_bumps((30, 26)), toroidal=True), 40
     energy = _energy(density, n, "double", spread=spread)
     x = np.random.default_rng(3).random((n, 2)) * density.shape
     found = energy(x)
@@ -66,11 +67,14 @@ def test_the_energy_is_the_double_sum_over_points_and_pixels(spread):
         return np.exp(-distance2 / (2 * variance)) / (2 * np.pi * variance)
 
     v = found.widths**2
-    between = ((x[:, None] - x) ** 2).sum(axis=2)
-    to_pixels = ((x[:, None] - centres) ** 2).sum(axis=2)
     of_pixels = spread**2 * np.exp(2 * widths.log_width.ravel()) + 1 / 12
-    pulls = (density.of_points(n).ravel() * gauss(to_pixels, v[:, None] + of_pixels)).sum()
-    expected = 0.5 * gauss(between, v[:, None] + v).sum() - pulls
+    expected = 0.0
+    for image in itertools.product(range(-2, 3), repeat=2):
+        shift = np.array(image) * density.shape
+        between = ((x[:, None] - x + shift) ** 2).sum(axis=2)
+        to_pixels = ((x[:, None] - centres + shift) ** 2).sum(axis=2)
+        expected += 0.5 * gauss(between, v[:, None] + v).sum()
+        expected -= (density.of_points(n).ravel() * gauss(to_pixels, v[:, None] + of_pixels)).sum()
     # Shares are interpolated among a ladder of widths.
     assert found.energy == pytest.approx(expected, rel=2e-5)
 
@@ -90,6 +94,18 @@ def test_a_constant_density_gives_the_gradient_of_the_uniform_method(shape, n):
         uniform -= (kernel[..., None] * there).sum(axis=1) / (sigma * spacing) ** 2
     mass = (2 * math.pi * sigma**2 * spacing**2) ** (d / 2)  # of the uniform kernel
     assert found.gradient * mass == pytest.approx(uniform, abs=1e-12 * np.abs(uniform).max())
+
+
+@pytest.mark.parametrize("spread", [0.0, 0.6, 1.0])
+def test_a_constant_density_in_a_box_gives_the_gradient_of_the_bounded_method(spread):
+    n, side = 100, 60
+    density = as_density(np.ones((side, side)))
+    x = np.random.default_rng(5).random((n, 2)) * side
+    found = _energy(density, n, "double", spread=spread)(x)
+    spacing = side / math.sqrt(n)
+    uniform = numpy_box_gradient(x / side, 1.0) / spacing
+    mass = 2 * math.pi * spacing**2
+    assert found.gradient * mass == pytest.approx(uniform, abs=1e-9 * np.abs(uniform).max())
 
 
 @pytest.mark.parametrize("smoothing", [0.5, 1.0])

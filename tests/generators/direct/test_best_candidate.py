@@ -54,6 +54,13 @@ def test_the_least_distance_rises_with_the_candidates() -> None:
     assert least(30) > least(1) > 0.3 / np.sqrt(150)
 
 
-def test_no_candidates_are_refused() -> None:
+@pytest.mark.parametrize("candidates", [0, 10**9])
+def test_candidates_out_of_range_are_refused(candidates: int) -> None:
     with pytest.raises(InputError, match="candidates"):
-        BestCandidate(candidates=0)
+        BestCandidate(candidates)
+
+
+def test_the_most_points_fall_with_the_candidates() -> None:
+    assert "nearest is 4096" in str(BestCandidate().refusal(5000, 5))
+    assert "nearest is 409" in str(BestCandidate(100).refusal(5000, 5))
+    assert "nearest is 6553" in str(BestCandidate(100).refusal(65_536, 2))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial import Delaunay
 
-from gbnbench.core.errors import InputError
+from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.periodic_delaunay import with_images
 from gbnbench.core.torus import FloatArray, densest_spacing, toroidal_distance
 from gbnbench.generators.direct.bridson import Bridson
@@ -115,12 +115,36 @@ def test_bridson_s_front_leaves_no_large_hole(n: int, d: int) -> None:
         assert largest_empty_circle(x) < 1.3 * least_distance(x)
 
 
+@pytest.mark.parametrize(("candidates", "n", "d"), [(1, 64, 2), (4, 200, 1)])
+def test_a_front_that_dies_out_gives_no_set(candidates: int, n: int, d: int) -> None:
+    """Its radius would be lowered to nothing; two candidates in 2D are enough."""
+    with pytest.raises(RefusalError, match=f"front with {candidates} candidates dies out"):
+        Bridson(candidates)(n, d, np.random.default_rng(1))
+    assert least_distance(Bridson(2)(64, 2, np.random.default_rng(1))) > 0.5 * densest_spacing(64, 2)
+
+
+def test_a_radius_next_to_nothing_is_no_radius() -> None:
+    assert len(DartThrowing(radius=1e-308)(16, 2, np.random.default_rng(1))) == 16
+
+
+def test_sizes_that_would_take_for_ever_are_refused() -> None:
+    assert DartThrowing().refusal(16_384, 6) is None
+    assert "nearest is 4096" in str(DartThrowing().refusal(16_384, 8))
+    assert "nearest is 40 " in str(DartThrowing(attempts=10**6).refusal(64, 8)) + " "
+    assert Bridson().refusal(100_000, 3) is None
+    for candidates, n, d in ((30, 16_384, 8), (30, 4096, 100), (10_000, 100_000, 2)):
+        assert "with" in str(Bridson(candidates).refusal(n, d))
+    assert Bridson(10_000).refusal(1, 100) is None
+
+
 @pytest.mark.parametrize(
     ("kind", "settings", "word"),
     [
         (DartThrowing, {"radius": 1.5}, "radius"),
         (DartThrowing, {"attempts": 0}, "attempts"),
+        (DartThrowing, {"attempts": 10**20}, "attempts"),
         (Bridson, {"candidates": 0}, "candidates"),
+        (Bridson, {"candidates": 10**400}, "candidates"),
     ],
 )
 def test_settings_out_of_range_are_refused(kind: type, settings: dict[str, float], word: str) -> None:

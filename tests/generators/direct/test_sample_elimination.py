@@ -44,7 +44,23 @@ def test_halves_of_a_progressive_order_are_eliminations() -> None:
         assert np.array_equal(np.sort(kept), np.arange(n))
 
 
-@pytest.mark.parametrize("settings", [{"inputs": 1}, {"alpha": 0}, {"beta": 1.1}, {"gamma": -1}])
+@pytest.mark.parametrize(
+    "settings",
+    [
+        *({"inputs": 1}, {"alpha": 0}, {"beta": 1.1}, {"gamma": -1}, {"beta": float("nan")}),
+        *({"inputs": 1e6}, {"alpha": float("inf")}, {"gamma": float("inf")}),
+    ],
+)
 def test_settings_out_of_range_are_refused(settings: dict[str, float]) -> None:
     with pytest.raises(InputError, match=next(iter(settings))):
         SampleElimination(**settings)
+
+
+def test_most_points_are_those_whose_pairs_fit_memory() -> None:
+    """Ten million pairs at some 300 bytes each."""
+    for d in (2, 6, 12):
+        reason = str(SampleElimination().refusal(10**7, d))
+        n = int(reason.rsplit(" ", 1)[1])
+        assert SampleElimination().refusal(n, d) is None
+        assert n > 890
+    assert SampleElimination().refusal(16_384, 2) is None

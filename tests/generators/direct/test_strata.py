@@ -74,6 +74,11 @@ def test_latin_power_follows_its_closed_form(n: int, d: int, fmax: int) -> None:
     assert np.all(np.abs(mean - (1 + (n - 1) * np.prod(factor, axis=1))) < 5 * error)
 
 
+@pytest.mark.parametrize("name", ["grid", "jittered"])
+def test_one_point_is_a_grid_in_any_dimension(name: str) -> None:
+    assert generate(name, n=1, d=100).shape == (1, 100)
+
+
 def test_whole_roots_survive_rounding() -> None:
     for d in range(1, 9):
         for m in (1, 2, 3, 7, 10, 31):

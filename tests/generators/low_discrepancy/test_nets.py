@@ -35,6 +35,15 @@ def test_every_prefix_of_two_to_the_m_is_a_net(name: str) -> None:
         assert [net_quality(x[: 2**m]) for m in range(11)] == [0] * 11
 
 
+@pytest.mark.parametrize("name", ["sobol", "pmj02"])
+def test_every_stretch_of_two_to_the_m_is_a_net(name: str) -> None:
+    """What makes a (0, 2)-sequence, rather than nets of the prefixes alone."""
+    for seed in range(3):
+        x = generate(name, n=256, d=2, seed=seed)
+        for m in range(9):
+            assert {net_quality(x[first : first + 2**m]) for first in range(0, 256, 2**m)} == {0}
+
+
 @pytest.mark.parametrize(
     ("d", "quality", "bound"),
     [(2, (0,) * 8, 0), (3, (0, 1, 1, 1, 1, 1, 1, 1), 1), (4, (0, 1, 2, 2, 2, 2, 2, 3), 3),
@@ -98,7 +107,7 @@ def test_the_change_is_that_of_the_energy_summed_anew(m: int, sigma: float) -> N
             assert change[k] == pytest.approx(plain(other) - start, abs=3e-3)
 
 
-@pytest.mark.parametrize("n", [2, 64, 512])
+@pytest.mark.parametrize("n", [2, 64, 128])
 def test_blue_nets_are_nets(n: int) -> None:
     for sigma in (0.4, 1.0):
         x = BlueNets(sigma=sigma, iterations=30)(n, 2, np.random.default_rng(n))
@@ -109,6 +118,6 @@ def test_sizes_and_settings_are_refused() -> None:
     assert "nearest is 1024" in str(BlueNets().refusal(1000, 2))
     assert "nearest is 512" in str(BlueNets().refusal(700, 2))
     assert "nearest is 65536" in str(BlueNets().refusal(2**17, 2))
-    for settings in ({"sigma": 0.1}, {"iterations": -1}):
+    for settings in ({"sigma": 0.1}, {"sigma": float("nan")}, {"iterations": -1}):
         with pytest.raises(InputError, match=next(iter(settings))):
             BlueNets(**settings)  # type: ignore[arg-type]

@@ -38,6 +38,13 @@ def test_cmj_rows_share_the_order_of_their_columns() -> None:
         assert len(np.unique(sub[cell[:, 1] == row])) == 1
 
 
+def test_the_largest_power_tells_exchanges_apart() -> None:
+    """Sums of distance**-100 stay finite, and the least distance grows."""
+    drawn = [LatinMaximin(100, steps)(200, 2, np.random.default_rng(3)) for steps in (0, 2)]
+    least = [np.min(toroidal_distance(x[:, None], x[None]) + np.eye(200)) for x in drawn]
+    assert least[1] > 3 * least[0]
+
+
 def phi(x: FloatArray, power: int) -> float:
     distance = toroidal_distance(x[:, None], x[None])
     return float((distance[np.triu_indices(len(x), 1)] ** -float(power)).sum() ** (1 / power))
@@ -60,8 +67,9 @@ def test_four_points_reach_the_optimum() -> None:
 
 
 def test_settings_out_of_range_are_refused() -> None:
-    for settings in ({"power": 1}, {"steps": -1}):
+    for settings in ({"power": 1}, {"power": 101}, {"steps": -1}, {"steps": float("inf")}):
         with pytest.raises(InputError, match=next(iter(settings))):
             LatinMaximin(**settings)  # type: ignore[arg-type]
+    assert len(CorrelatedMultiJitter(1e308)(9, 2, np.random.default_rng(1))) == 9
     with pytest.raises(InputError, match="aspect"):
         CorrelatedMultiJitter(0)

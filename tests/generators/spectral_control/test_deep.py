@@ -134,11 +134,11 @@ class TestTarget:
     @pytest.mark.parametrize(
         ("text", "says"),
         [
-            ("0,1e-9\n0.5,-1\n", "power of a target must be positive and finite; got -1.0 in row 2"),
+            ("0,1e-9\n0.5,-1\n", "line 2: the power of a target must be positive and finite; got -1.0"),
             ("0,1e-9\n0.5,nan\n", "power of a target must be positive"),
-            ("0.5,1\n0.2,1\n", "nu of a target must be >= 0 and rise; got 0.2 in row 2"),
+            ("0.5,1\n0.2,1\n", "line 2: the nu of a target must be >= 0 and rise; got 0.2"),
             ("0,1\n", "two rows of nu and power or more; got 1"),
-            ("", r"must be \(k, 2\) numbers"),
+            ("", "two rows of nu and power or more; got 0"),
             ("0,1\n0.2,much\n", "line 2: a target needs a number for nu and one for power; got '0.2,much'"),
             ("0,1\n0.2\n", "line 2: a target needs a number"),
         ],
@@ -160,8 +160,8 @@ class TestTarget:
     [
         ({"c": 0.0}, "c must be positive"),
         ({"c": math.inf}, "c must be positive"),
-        ({"edge": 0.0}, "edge must be positive"),
-        ({"gradients": -1}, "gradients must be 0 or more"),
+        ({"edge": 0.0}, "edge must be 1e-9 to 1e9"),
+        ({"gradients": -1}, "gradients must be 0 to 1000000"),
         ({"target": 3.0}, r"a target must be \(k, 2\) numbers"),
         (
             {"target": ((0.0, 1e-9), (0.5, 1.0)), "edge": 0.6},

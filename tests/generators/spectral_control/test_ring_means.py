@@ -94,13 +94,13 @@ class TestTargeted:
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        ("step[edge=0]", "edge must be positive"),
+        ("step[edge=0]", "edge must be 1e-9 to 1e9"),
         ("step[highest=-1]", "highest must be positive"),
         ("step[core=-1]", "core must be 0 or more"),
         ("step[iterations=-1]", "iterations must be 0 or more"),
-        ("peak[power=-1]", "power must be 0 or more"),
+        ("peak[power=-1]", r"power must be 0 to 1e\+06"),
         ("peak[width=0]", "width must be positive"),
-        ("staircase[level=0]", "level must be positive"),
+        ("staircase[level=0]", r"level must be above 0 and at most 1e\+06"),
         ("staircase[edge=0.8,end=0.8]", "end must be above the edge, 0.8; got 0.8"),
     ],
 )

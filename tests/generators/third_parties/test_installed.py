@@ -42,6 +42,13 @@ class Half:
 """
 
 
+def told_of(member: str, value: str) -> str:
+    """Write the class with one member more."""
+    return CLASS.format(name="half").replace(
+        "    side: float", f"    {member}: ClassVar[object] = {value}\n    side: float"
+    )
+
+
 @pytest.fixture
 def install(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     """Leave a package as an installer would: a module of this text, and entry points into it."""
@@ -90,6 +97,26 @@ def test_a_class_is_known_by_its_name(install) -> None:
         (CLASS.format(name="half").replace("__call__", "call"), "half = {0}:Half", "Half lacks __call__"),
         (CLASS.format(name="half").replace("= 0.5", ""), "half = {0}:Half", "each setting needs a default"),
         (CLASS.format(name="half").replace("side:", "seed:"), "half = {0}:Half", "Half has seed: rename it"),
+        (
+            CLASS.format(name="half").replace("side:", "family:"),
+            "half = {0}:Half",
+            "Half has family: rename it",
+        ),
+        (CLASS.format(name="half").replace("side: float", "side: list"), "half = {0}:Half", "Half has side"),
+        (
+            CLASS.format(name="half").replace("side: float", "side: 'No'"),
+            "half = {0}:Half",
+            "'No' is not defined",
+        ),
+        (told_of("dimensions", "(1,)"), "half = {0}:Half", "dimensions of Half must be (least, most)"),
+        (
+            told_of("dimensions", "(3, 2)"),
+            "half = {0}:Half",
+            "and >= 1, most None where there is no end; got (3, 2)",
+        ),
+        (told_of("family", "3"), "half = {0}:Half", "family of Half must be one line of text; got 3"),
+        (told_of("toroidal", "'no'"), "half = {0}:Half", "toroidal of Half must be True or False; got 'no'"),
+        (told_of("reference", "'a\\nb'"), "half = {0}:Half", "reference of Half must be one line of text"),
     ],
 )
 def test_what_cannot_be_used_is_told_and_costs_only_itself(

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import gbnbench
+from gbnbench.cli import run
 from gbnbench.core.cpu_time import cpu_seconds
 from gbnbench.core.errors import GbnbenchError, InputError, RefusalError
 from gbnbench.generators.protocol import realization_rng
@@ -34,7 +35,11 @@ if mode == "dies":
 rows = [[rng.random() for _ in range(d)] for _ in range(n + (mode == "many"))]
 if mode == "outside":
     rows[1][0] = 1.5
+if mode == "rounding":
+    rows[1][0] = -1e-9
 text = "".join(" ".join(map(repr, row)) + "\\n" for row in rows)
+if mode == "colour":
+    sys.exit("%c[31mred%c" % (27, 0))
 if mode == "garbage":
     text = "not a number\\n"
 if mode != "silent":
@@ -71,6 +76,11 @@ def test_it_draws_from_a_seed_of_the_realizations_stream(programs, output: str) 
         assert np.array_equal(x[k].ravel(), [rng.random() for _ in range(21)])
 
 
+def test_few_points_of_many_dimensions_are_not_taken_for_transposed(programs) -> None:
+    programs(told("plain", more="dimensions = [1]"))
+    assert gbnbench.generate("mine", n=2, d=20).shape == (2, 20)
+
+
 def test_settings_stand_in_the_command_and_in_the_run_folder(programs, tmp_path: Path) -> None:
     path = programs(told("{mode}", more='settings.mode = { default = "plain", meaning = "What it does." }'))
     assert gbnbench.generate("mine", n=3).shape == (3, 2)
@@ -98,7 +108,9 @@ def test_settings_stand_in_the_command_and_in_the_run_folder(programs, tmp_path:
         ("dies", "its process was killed by SIGABRT"),
         ("many", r"mine drew no set of n=3, d=2: .*: wrote shape \(4, 2\)"),
         ("outside", r"points.txt, line 2: .*1\.5"),
+        ("rounding", "brings it in; those are options for files: a program must write its n=3 points"),
         ("garbage", "points.txt, line 1: "),
+        ("colour", r"exit code 1: \\x1b\[31mred\\x00$"),
         ("silent", "wrote no file points.txt"),
     ],
 )
@@ -122,6 +134,17 @@ def test_no_shell_reads_the_command(programs, tmp_path: Path) -> None:
     with pytest.raises(GbnbenchError, match=r"'>' stolen"):
         gbnbench.generate("mine", n=3)
     assert not list(tmp_path.rglob("stolen"))
+
+
+def test_a_zero_byte_in_a_command_is_told(programs) -> None:
+    programs('[generators.mine]\ncommand = "true {n} {seed} a\\u0000b"\n')
+    with pytest.raises(GbnbenchError, match=r"cannot be started: embedded null byte"):
+        gbnbench.generate("mine", n=3)
+
+
+def test_a_setting_may_be_called_steps(programs, tmp_path: Path) -> None:
+    programs(told("{steps}", more='settings.steps = { default = "plain", meaning = "What it does." }'))
+    assert run(["generate", "mine", "-n", "3", "-o", str(tmp_path / "x.txt")]) == 0
 
 
 def test_a_program_that_is_not_there_is_a_refusal(programs) -> None:
@@ -165,6 +188,24 @@ def test_cpu_seconds_count_those_of_programs(programs) -> None:
         (
             "[generators.mine]\ncommand = 'x {n} {seed}'\nsettings.seed = { default = 3, meaning = 'b' }",
             "a setting of a generator must not be named as a keyword of generate",
+        ),
+        (
+            "[generators.mine]\ncommand = 'x {n} {seed} {class}'\n"
+            "settings.class = { default = 3, meaning = 'b' }",
+            "a setting must be named as a variable is",
+        ),
+        (
+            "[generators.mine]\ncommand = 'x {n} {seed} {family}'\n"
+            "settings.family = { default = 'a', meaning = 'b' }",
+            "a setting of a generator must not be named as a member of generators",
+        ),
+        (
+            "[generators.mine]\ncommand = 'x {n} {seed} {a}'\nsettings.a = { default = nan, meaning = 'b' }",
+            "the default of setting a must be finite; got nan",
+        ),
+        (
+            "[generators.mine]\ncommand = 'x {n} {seed}'\nsummary = \"two\\nlines\"",
+            "must be one line of text; got 'two",
         ),
         ("[generators]\nmine = 3", "it must be a table"),
         ("[generators.'mi ne']\ncommand = 'x {n} {seed}'", "a name must be free of blanks"),

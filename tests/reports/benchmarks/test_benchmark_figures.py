@@ -10,7 +10,8 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
 
-from gbnbench.reports.benchmarks import scaling, speed_error
+from gbnbench.generators.registry import GENERATORS
+from gbnbench.reports.benchmarks import generators, scaling, speed_error
 from gbnbench.reports.comparison.figure_files import pdf, png
 
 MACHINE = {
@@ -171,3 +172,16 @@ def test_without_a_peak_the_panel_says_so():
     assert words.count("peak not measured") == 3
     assert "n = 4,096" in words
     assert "n = 64" in words
+
+
+def test_floors_against_time_name_every_generator():
+    names = list(GENERATORS)
+    seconds = np.geomspace(3e-4, 10, len(names))
+    floors = np.geomspace(1, 1e-30, len(names))
+    rows = [(1024, 2, *row) for row in zip(names, seconds, floors, strict=True)]
+    table = pd.DataFrame(rows, columns=["n", "d", "generator", "cpu_s", "noise_floor"])
+    table.loc[len(table)] = (1024, 2, "lloyd", np.nan, np.nan)  # refused
+    drawn = generators.figure(table)
+    shown = [text.get_text() for ax in drawn.axes for text in ax.texts]
+    assert sorted(shown) == sorted(names)
+    assert png(drawn)

@@ -22,7 +22,7 @@ from gbnbench.analysis.spectrum.evaluators.gridded.product import (
 )
 from gbnbench.analysis.spectrum.evaluators.kaiser_bessel import nodes_for
 from gbnbench.analysis.spectrum.evaluators.point_slots import TABLE_BYTES
-from gbnbench.analysis.spectrum.evaluators.work_model import ENTRY, TILE, WRITTEN, device_cost
+from gbnbench.analysis.spectrum.evaluators.work_model import ENTRY, TILE, WRITTEN, device_cost, narrow
 from gbnbench.analysis.spectrum.limits import BYTES, MEMORY_SHARE
 from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest
 from gbnbench.core.memory import memory_limit
@@ -74,7 +74,7 @@ class GriddedProduct(DeviceEvaluator):
 
     def work(self, request: SpectrumRequest) -> float:
         """Count the points carried to the grid, the product of its nodes, and the set-up."""
-        return self._product_work(request) + SET_UP
+        return self._product_work(request) + narrow(self.on_device) * SET_UP
 
     def _product_work(self, request: SpectrumRequest) -> float:
         p, n, d, f = self.on_device, request.n, request.d, request.fmax

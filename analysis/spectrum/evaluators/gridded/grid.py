@@ -64,7 +64,7 @@ class Grid:
         pairs = f.tiles * f.rows * f.columns * 4 * np.dtype(p.sum).itemsize
         held = max(per_point * self._stride * real, (self._grid_size * real + pairs) // GRIDS_A_TABLE)
         self.sets = max(1, min(sets, BATCH_BYTES // held))
-        self._slots = Slots(self.sets, 1, self._chunk)
+        self._slots = Slots(self.sets, 1, self._chunk, self._chunk)
         self._point_size = per_point * self._chunk
         self._trailing_size = 2 * f.table_sizes(self._folded)[1]
         self._points = p.runtime.empty(self._point_size * self.sets * real)
@@ -172,6 +172,7 @@ class Grid:
                 self.program,
                 (self._leading, self._trailing),
                 (0, self._trailing_size),
+                self._folded,
                 self._folded,
                 count,
             ),

@@ -58,5 +58,5 @@ def node_table(p: Precision, d: int, fmax: int, nodes: int) -> Any:
     ones = p.runtime.upload(np.ones(folded, p.real))
     points = DevicePoints(p.runtime.upload(at_nodes), ones, folded, 0)
     table = p.runtime.empty(f.table_sizes(folded)[0] * np.dtype(p.real).itemsize)
-    f.tabulate(f.program(folded=True), (0, 1), points, (table, table), Slots(1, 1, folded), (0, 0), 1)
+    f.tabulate(f.program(folded=True), (0, 1), points, (table, table), Slots(1, 1, folded, folded), (0, 0), 1)
     return table

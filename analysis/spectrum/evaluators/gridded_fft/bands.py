@@ -17,7 +17,7 @@ CACHE_BYTES = 1 << 20  # of a grid that needs no sorting
 BAND_ROWS = 64  # rows of a band of a larger grid, in two dimensions
 DIVIDED_FROM = 1 << 22  # nodes that the points of a set reach, from which it is worth dividing among cores
 CROWDED = 32  # points in a bin from which they are summed in several runs
-RUN_SHARE = 0.25  # nodes that are added up for the runs, over those that points reach
+RUN_SHARE, SPACE_RUN_SHARE = 0.25, 0.05  # nodes added up for the runs, over those reached; in space far ones
 
 
 @dataclass(frozen=True)
@@ -101,7 +101,7 @@ def binned(p: Precision, grid: RealGrid, x: FloatArray) -> BinnedPoints:
     BinnedPoints
     """
     turns = p.turns(x, x.shape[1])
-    bin_of = bins(turns, grid)
+    bin_of = _bins_on_line(x, grid) if grid.d == 1 else bins(turns, grid)
     return BinnedPoints(x, turns, bin_of, bin_counts(bin_of, grid))
 
 
@@ -127,7 +127,7 @@ def dealt_to_bands(p: Precision, grid: RealGrid, points: BinnedPoints) -> Bands:
     bands, rows = _division(p.runtime.device.compute_units, grid, sets, n)
     starts = np.full((sets, bands + 1), n, np.uint32)
     starts[:, 0] = 0
-    if bands == runs == 1 and grid.size * grid.itemsize <= CACHE_BYTES:
+    if grid.d == 1 or (bands == runs == 1 and grid.size * grid.itemsize <= CACHE_BYTES):
         return Bands(turns, None, starts, rows, crowd, runs)
     few = counts.shape[1] <= 1 << 16  # NumPy sorts 16 bits by radix
     order = np.argsort(bin_of.astype(np.uint16) if few else bin_of, axis=1, kind="stable")
@@ -196,16 +196,15 @@ def run_count(grid: RealGrid, n: int, crowd: int) -> int:
     """
     if crowd <= CROWDED:
         return 1
-    affordable = RUN_SHARE * n * grid.width**grid.d / grid.size
+    share = RUN_SHARE if grid.d < 3 else SPACE_RUN_SHARE
+    affordable = share * n * grid.width**grid.d / grid.size
     return max(1, min(math.isqrt(crowd), int(affordable)))
 
 
 def _division(cores: int, grid: RealGrid, sets: int, n: int) -> tuple[int, int]:
     """Count the bands of a set, and the rows of one: at least the window's reach, and whole bins."""
     bands = 1
-    if (
-        grid.d == 2 and grid.size * grid.itemsize > CACHE_BYTES
-    ):  # a band stays in the cache while it is filled
+    if grid.d == 2 and grid.size * grid.itemsize > CACHE_BYTES:  # a band stays in the cache
         bands = max(1, grid.nodes // BAND_ROWS)
     elif grid.d > 1 and sets % cores and n * grid.width**grid.d > DIVIDED_FROM:
         bands = max(1, min(cores, grid.nodes // grid.width))
@@ -243,3 +242,9 @@ def cells(turns: NDArray[Any], nodes: int) -> NDArray[np.int64]:
     high += low
     high >>= half
     return high.view(np.int64)  # below 2^32
+
+
+def _bins_on_line(x: FloatArray, grid: RealGrid) -> NDArray[np.int64]:
+    """Bins on a line, where they decide on runs alone: a rounding may take a point to the next one."""
+    found = (x[:, :, 0] * (grid.nodes / grid.width)).astype(np.int64)
+    return np.minimum(found, grid.bins - 1, out=found)

@@ -23,16 +23,17 @@ from gbnbench.analysis.spectrum.evaluators.gridded_fft.host_transform import sha
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.plane_transform import plane_serves, transform_numbers
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.powers import fft_powers, sets_together
 from gbnbench.analysis.spectrum.evaluators.protocol import Evaluator
-from gbnbench.analysis.spectrum.evaluators.work_model import device_cost
+from gbnbench.analysis.spectrum.evaluators.work_model import device_cost, narrow
 from gbnbench.analysis.spectrum.limits import BYTES, MEMORY_SHARE
 from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest
 from gbnbench.core.memory import memory_limit
 from gbnbench.core.torus import FloatArray
 
-# Multiply-adds of the product that take as long as a point on each axis, a node that it reaches, in the cache
-# and beyond it, a node and level of the transform, a power, and a call. Fitted to the CPU times of 38 cubes
-# on one Intel core, n = 16 to 16,384 and F = 4 to 4,096 in 1D to 3D: 8 in 10 are within 15%.
+# Narrow multiply-adds (work_model.py) that take as long as a point on each axis, a node that it reaches, in
+# the cache and beyond it, a node and level of the transform, a power, and a call. Fitted to the CPU times of
+# 38 cubes on one Intel core, n = 16 to 16,384 and F = 4 to 4,096 in 1D to 3D: 8 in 10 are within 15%.
 POINT, REACHED, FAR_REACHED, LEVEL, WRITTEN, SET_UP = 610.0, 7.6, 10.9, 4.9, 78.0, 3.5e6
+LINE_POINT, LINE_SET_UP = 530.0, 2.7e6  # of a point and of a call on a line; fitted to 30 spectra there
 PLANE_LEVEL = 3.6  # of a node and level in the plane, powers included; fitted to 34 cubes there
 LARGEST_TYPICAL = 9.0  # typical error in units of rounding, beyond which crowded points go to the product
 
@@ -79,7 +80,8 @@ class GriddedFFT(DeviceEvaluator):
 
     def work(self, request: SpectrumRequest) -> float:
         """Count the points carried to the grid, its transform, the powers written, and the set-up."""
-        return self._arithmetic(request) + SET_UP
+        set_up = LINE_SET_UP if request.d == 1 else SET_UP
+        return self._arithmetic(request) + narrow(self.on_device) * set_up
 
     def _arithmetic(self, request: SpectrumRequest) -> float:
         grid = real_grid(request.d, request.fmax, self.precision)
@@ -87,11 +89,12 @@ class GriddedFFT(DeviceEvaluator):
         # In the plane bands of a grid stay in the cache.
         far = request.d == AXES and grid.size * grid.itemsize > CACHE_BYTES
         reached = FAR_REACHED if far else REACHED
-        points = request.n * (POINT * request.d + reached * grid.width**request.d)
+        point = LINE_POINT if request.d == 1 else POINT * request.d
+        points = request.n * (point + reached * grid.width**request.d)
         levels, outputs = nodes * math.log2(nodes), (2 * request.fmax + 1) ** request.d
         plane = request.d == 2 and plane_serves(self.on_device, grid)
         each = points + (PLANE_LEVEL * levels if plane else LEVEL * levels + WRITTEN * outputs)
-        return float(request.realizations * each)
+        return float(narrow(self.on_device) * request.realizations * each)
 
     def cost(self, request: SpectrumRequest) -> EvaluationCost:
         """Estimate the cost on the device, the grids of a batch and their transforms included."""

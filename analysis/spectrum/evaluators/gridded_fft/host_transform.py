@@ -12,7 +12,6 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-import scipy.fft
 from numpy.typing import NDArray
 
 from gbnbench.analysis.precision import Precision
@@ -94,7 +93,7 @@ class HostTransform:
         write_harmonics(grid, self.nodes[: points.sets], transformed, rt.device.compute_units)
         self.power.run(
             "grid_power",
-            {1: (1, 1), 2: (base, 1), 3: (base, base)}[grid.d],
+            {2: (base, 1), 3: (base, base)}[grid.d],
             (1, 1),
             self.transforms,
             np.uint64(transformed[0].size * 2),
@@ -144,18 +143,40 @@ def host_transform(p: Precision, grid: RealGrid, sets: int) -> HostTransform:
     )
 
 
+def real_transform(real: NDArray[Any], out: NDArray[Any], threads: int) -> None:
+    """Transform rows of reals.
+
+    Parameters
+    ----------
+    real : (rows, m) float64 or float32
+        The rows.
+    out : (rows, m // 2 + 1) complex128 or complex64
+        Their harmonics, which are written.
+    threads : int
+        Threads that share the rows.
+    """
+    if ducc_available():
+        import ducc0
+
+        ducc0.fft.r2c(real, axes=(1,), nthreads=threads, out=out)
+    else:
+        from scipy import fft
+
+        out[...] = fft.rfft(real, axis=1, workers=threads)
+
+
 def ducc_available() -> bool:
     """Tell whether ducc0 is installed and loads here."""
     return loads("ducc0")
 
 
 def shape_of_harmonics(grid: RealGrid) -> tuple[int, ...]:
-    """Shape of what ``write_harmonics`` writes for one set: the last axis has f >= 0.
+    """Shape of the transform of one grid: the last axis has f >= 0.
 
     On the others negative harmonics stand behind the positive ones; the first keeps all of the grid's.
     """
     m, f = grid.nodes, grid.fmax
-    return {1: (f + 1,), 2: (m, f + 1), 3: (m, 2 * f + 1, f + 1)}[grid.d]
+    return {1: (m // 2 + 1,), 2: (m, f + 1), 3: (m, 2 * f + 1, f + 1)}[grid.d]
 
 
 def write_harmonics(grid: RealGrid, nodes: NDArray[Any], out: NDArray[Any], threads: int) -> None:
@@ -185,10 +206,9 @@ def write_harmonics(grid: RealGrid, nodes: NDArray[Any], out: NDArray[Any], thre
                 middle = _complex(block[: len(planes)], 1, threads)
                 to[first : first + step, : f + 1] = middle[:, : f + 1]
                 to[first : first + step, f + 1 :] = middle[:, m - f :]
-    if grid.d > 1:
-        found = _complex(out, 1, threads)
-        if found is not out:
-            out[...] = found
+    found = _complex(out, 1, threads)
+    if found is not out:
+        out[...] = found
 
 
 def _rows(real: NDArray[Any], out: NDArray[Any], threads: int) -> None:
@@ -203,6 +223,8 @@ def _real(real: NDArray[Any], threads: int) -> NDArray[Any]:
         import ducc0
 
         return np.asarray(ducc0.fft.r2c(real, axes=(real.ndim - 1,), nthreads=threads))
+    import scipy.fft  # a fifth of a second, which few processes need
+
     return scipy.fft.rfft(real, axis=-1, workers=threads)
 
 
@@ -213,4 +235,6 @@ def _complex(part: NDArray[Any], axis: int, threads: int) -> NDArray[Any]:
 
         ducc0.fft.c2c(part, axes=(axis,), nthreads=threads, out=part)
         return part
+    import scipy.fft
+
     return scipy.fft.fft(part, axis=axis, workers=threads, overwrite_x=True)

@@ -69,7 +69,7 @@ def spread_points(p: Precision, grid: RealGrid, bands: Bands, weights: FloatArra
         values, stride = _in_order(p, weights, bands.order, sets, n)
         weight, means = rt.upload(values), _means(p, grid, weights, sets, n, bands.runs)
     arguments = (
-        rt.upload(bands.turns),
+        rt.shared(bands.turns) if grid.d == 1 else rt.upload(bands.turns),
         np.uint32(n),
         weight,
         np.uint32(stride),

@@ -41,7 +41,7 @@ def test_sets_in_batches_that_they_do_not_fill(monkeypatch, precision, n, fmax, 
 @pytest.mark.parametrize("precision", ["double", "float"])
 @pytest.mark.parametrize("n", [1, 2, 3, 4, 5, 7, 8, 9, 127, 513, 1025, 2047])
 def test_points_that_fill_no_lanes_and_no_run(precision, n):
-    check(precision_of(precision), on_grid((2, n, 2), n), 2, np.random.default_rng(n).random(n) + 0.1)
+    check(precision_of(precision), on_grid((2, n, 2), n), 4, np.random.default_rng(n).random(n) + 0.1)
 
 
 @pytest.mark.parametrize("precision", ["double", "float"])
@@ -54,7 +54,7 @@ def test_many_points_take_several_launches_and_keep_their_rounding(monkeypatch, 
     n, fmax = 128 * p.lanes * (COMPENSATED_FROM + 5) * (1 if form == "cpu" else 2) + 3, 12
     divided = cheapest_division(2, fmax, point_slots.tile_rows(p))
     slots = TwoGroupProduct(p, n, 2, 1, Group(divided.leading), Group(divided.trailing)).slots
-    assert slots.sums(n, p.lanes) > COMPENSATED_FROM
+    assert slots.sums(n, p) > COMPENSATED_FROM
     assert slots.launches(n) > 1
     x = on_grid((1, n, 2), n)
     x[0, : n // 2] = x[0, : n // 2] / 8 + 0.25  # half of them in a cluster, so that the sums are large

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gbnbench.analysis.precision import SUM_POINTS, Precision, precision_of
+from gbnbench.analysis.precision import Precision, precision_of
 from gbnbench.analysis.spectrum.evaluators.direct_sum import listed_power, run_length
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.core.errors import InputError
@@ -90,7 +90,7 @@ def test_a_run_is_whole_vectors_and_no_shorter_than_a_sum_in_registers(m, n):
         p = FORMS[form]()
         length = run_length(p, m, n)
         assert length % p.lanes == 0
-        assert length >= min(n, SUM_POINTS * p.lanes // 2)
+        assert length >= min(n, p.sum_points * p.lanes // 2)
         assert length < n + p.lanes
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.fft import next_fast_len
 
 from gbnbench.analysis.precision import Precision, precision_of
 from gbnbench.analysis.spectrum.evaluators.cube_product import cube_powers
@@ -11,7 +12,7 @@ from gbnbench.analysis.spectrum.evaluators.gridded_fft import bands as bands_mod
 from gbnbench.analysis.spectrum.evaluators.gridded_fft import host_transform
 from gbnbench.analysis.spectrum.evaluators.gridded_fft import powers as powers_module
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.bands import bin_counts, bins, cells
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import real_grid, window_terms
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import next_fast_length, real_grid, window_terms
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.powers import fft_powers
 from gbnbench.analysis.spectrum.evaluators.kaiser_bessel import window
 from gbnbench.analysis.spectrum.periodogram import periodogram
@@ -37,6 +38,11 @@ def library(request, monkeypatch):
     if request.param == "ducc0" and not host_transform.ducc_available():
         pytest.skip("ducc0 is not installed")
     monkeypatch.setattr(host_transform, "ducc_available", lambda: request.param == "ducc0")
+
+
+def test_lengths_of_fast_transforms_are_those_of_scipy():
+    for least in (*range(1, 3000), 10**6 + 1, 2**20, 2**20 + 1, 3**13 - 1):
+        assert next_fast_length(least) == next_fast_len(least, real=True)
 
 
 @pytest.mark.usefixtures("library")

@@ -92,7 +92,8 @@ def test_rows_beyond_the_last_frequency_hold_numbers_not_what_the_memory_held():
     assert tables.a.count < tables.tiles * tables.rows
     list(product.batches(np.random.default_rng(0).random((1, 20, 2))))
     leading = runtime().download(product.tables[0], np.empty(product.sizes[0], p.real))
-    by_row = leading.reshape(tables.tiles, product.slots.length // p.lanes, tables.rows, 2, p.lanes)
+    by_row = leading.reshape(tables.tiles, product.slots.pitch // p.lanes, tables.rows, 2, p.lanes)
+    by_row = by_row[:, : product.slots.length // p.lanes]
     beyond = by_row[-1, :, tables.a.count - tables.tiles * tables.rows :]
     assert not beyond.any()
     assert by_row[-1, :, 0].any()

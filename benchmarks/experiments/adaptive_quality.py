@@ -1,0 +1,167 @@
+"""Quality and cost of adaptive generators on scikit-image's pictures, for docs/adaptive.md.
+
+    python -m gbnbench.benchmarks.experiments.adaptive_quality benchmarks/results/adaptive/quality.csv
+    python -m gbnbench.benchmarks.experiments.adaptive_quality --table benchmarks/results/adaptive/quality.csv
+
+The first measures, set by set, and goes on where it was stopped; the second prints a table.
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from skimage import color, data
+
+from gbnbench.analysis.reconstruction.blurred_difference import blurred_difference
+from gbnbench.analysis.reconstruction.density_estimates import reconstructed_density
+from gbnbench.analysis.reconstruction.image_quality import image_quality
+from gbnbench.analysis.reconstruction.kernel_sums import kernel_sums
+from gbnbench.core.torus import FloatArray
+from gbnbench.generators.adaptive.density import Density, as_density
+from gbnbench.generators.adaptive.gbn.attraction import attraction_levels
+from gbnbench.generators.adaptive.gbn.energy import REACH, RESOLUTION
+from gbnbench.generators.adaptive.gbn.kernel_widths import kernel_widths
+from gbnbench.generators.adaptive.registry import ADAPTIVE_GENERATORS, adaptive_points
+
+IMAGES = ("camera", "coins", "astronaut")
+POINTS, SEEDS = 10_000, 3
+BLUR = 16.0  # pixels
+COLUMNS = ["image", "method", "n", "seed", "CPU s", "variance", "F16", "PSNR", "SSIM"]
+COLUMNS += ["PSNR mirrored", "SSIM mirrored"]
+
+
+def darkness(name: str) -> FloatArray:
+    """Give a picture of scikit-image in grey, dark being large.
+
+    Parameters
+    ----------
+    name : str
+        Of a function of ``skimage.data``.
+
+    Returns
+    -------
+    (rows, columns) float64
+        0 to 255.
+    """
+    image = np.asarray(getattr(data, name)())
+    grey = 255 * color.rgb2gray(image) if image.ndim == 3 else image.astype(np.float64)
+    dark: FloatArray = 255 - np.asarray(grey, np.float64)
+    return dark
+
+
+def relative_variance(points: FloatArray, density: Density) -> float:
+    """Give the mean over the density of ((A - T) / T)^2, with the faithful kernels: sigma = c = t = 1.
+
+    Parameters
+    ----------
+    points : (n, 2) float64
+        In pixels.
+    density : Density
+        Theirs.
+
+    Returns
+    -------
+    float
+    """
+    n = len(points)
+    widths = kernel_widths(density, n, 1.0, 1.0)
+    level = attraction_levels(density, n, widths, 1.0, RESOLUTION["float"], REACH["float"])[0]
+    first = np.rint(0.5 - level.first).astype(int)
+    target = level.values[tuple(slice(a, a + size) for a, size in zip(first, density.shape, strict=True))]
+    pixels = np.minimum(points.astype(np.intp), np.array(density.shape) - 1)
+    variances = np.exp(2 * widths.log_width[tuple(pixels.T)])
+    places = np.argwhere(np.ones(density.shape)).astype(np.float64) + 0.5
+    found = kernel_sums(places, points, 1 / (2 * np.pi * variances), variances).reshape(density.shape)
+    relative = ((found - target) / np.maximum(target, 1e-12)) ** 2
+    return float((relative * density.of_points(n)).sum() / n)
+
+
+def measured(image: str, method: str, n: int, seed: int) -> list[object]:
+    """Draw one set and measure it.
+
+    Parameters
+    ----------
+    image, method : str
+        The picture, and the generator.
+    n, seed : int
+        Points, and the seed.
+
+    Returns
+    -------
+    list
+        A row of the table.
+    """
+    dark = darkness(image)
+    density = as_density(dark)
+    begun = time.process_time()
+    x = adaptive_points(method, density, n, seed=seed)
+    cost = time.process_time() - begun
+    authors, mirrored = (
+        image_quality(
+            reconstructed_density(x, dark.shape, average="mean", iterations=15, reflected=reflected), dark
+        )
+        for reflected in (False, True)
+    )
+    variance, blurred = relative_variance(x, density), blurred_difference(x, density.values, BLUR)
+    return [
+        image, method, n, seed, cost, variance, blurred,
+        authors.psnr, authors.ssim, mirrored.psnr, mirrored.ssim,
+    ]  # fmt: skip
+
+
+def markdown(table: pd.DataFrame) -> str:
+    """Write the table for the page: means over seeds.
+
+    Parameters
+    ----------
+    table : pandas.DataFrame
+        Rows of ``measured``.
+
+    Returns
+    -------
+    str
+    """
+    lines = [
+        "| picture | method | sets | CPU s | variance | F16 | PSNR, dB | SSIM | mirrored: PSNR | SSIM |",
+        "|---|---|--:|--:|--:|--:|--:|--:|--:|--:|",
+    ]
+    for (image, method), part in table.groupby(["image", "method"], sort=False):
+        m = part.mean(numeric_only=True)
+        lines.append(
+            f"| {image} | {method} | {len(part)} | {m['CPU s']:.3g} | {m['variance']:.2e} | {m['F16']:.2e} | "
+            f"{m['PSNR']:.2f} | {m['SSIM']:.3f} | {m['PSNR mirrored']:.2f} | {m['SSIM mirrored']:.3f} |"
+        )
+    return "\n".join(lines)
+
+
+def main() -> None:
+    """Run the command."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("out", type=Path)
+    parser.add_argument("--table", action="store_true")
+    given = parser.parse_args()
+    if given.table:
+        print(markdown(pd.read_csv(given.out)))
+        return
+    done = pd.read_csv(given.out) if given.out.exists() else pd.DataFrame(columns=COLUMNS)
+    given.out.parent.mkdir(parents=True, exist_ok=True)
+    adaptive_points("gbn[gradients=1]", as_density(np.ones((64, 64))), 100)  # kernels are built
+    for seed in range(SEEDS):
+        for image in IMAGES:
+            for method in ADAPTIVE_GENERATORS:
+                if ((done["image"] == image) & (done["method"] == method) & (done["seed"] == seed)).any():
+                    continue
+                row = pd.DataFrame([measured(image, method, POINTS, seed)], columns=COLUMNS)
+                done = row if done.empty else pd.concat([done, row])
+                done.to_csv(given.out, index=False, float_format="%.4g")
+                print(row.to_string(index=False, header=False), flush=True)
+
+
+if __name__ == "__main__":
+    main()

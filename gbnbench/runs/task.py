@@ -1,0 +1,39 @@
+"""A piece of work: one call of a function, whose result is kept under a key."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Task:
+    """One call of a function.
+
+    Attributes
+    ----------
+    key : str
+        Unique among the tasks, and safe as a path, such as ``gbn_n64_d2/000000``.
+    label : str
+        What the user reads, such as ``gbn, n=64, d=2``.
+    function : callable
+        A function of a module, so that a worker process can import it.
+    arguments : tuple
+        Its arguments; they can be pickled.
+    requires : tuple of str
+        Keys of the tasks that come first. The list of their results is one more argument of the function.
+    assemble : callable, optional
+        Makes the result that is kept from what the function returned and the list of the results required. It
+        runs in this process, so that large arrays do not travel back from a worker.
+    done : str
+        What the progress says when the task is finished; the label where it is empty.
+    """
+
+    key: str
+    label: str
+    function: Callable[..., Any]
+    arguments: tuple[Any, ...] = ()
+    requires: tuple[str, ...] = ()
+    assemble: Callable[[Any, list[Any]], Any] | None = None
+    done: str = ""
