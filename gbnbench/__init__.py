@@ -7,6 +7,7 @@ The names below load their modules when first used, so that importing gbnbench c
 - ``integrate(sources, ...)``: variance of integrals estimated by their points, as an ``Integration``;
 - ``generate(name, n=, d=, seed=, realizations=, **settings)``: point sets from a generator;
 - ``generator_table()``: every generator with its family, dimensions, cost and reference;
+- ``stipple(image, n)``: points whose density follows an image, a volume or a function, as a ``Stippling``;
 - ``load(path)``, ``save(path, x)``: point-set files;
 - ``wrap(x)``, ``scale(x, low, high)``: points brought onto the unit torus [0, 1)^d;
 - ``periodogram(x, fmax)``: exact power at every integer frequency; ``radial(spectrum)``: its radial mean;
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
     from gbnbench.api.compare import compare
     from gbnbench.api.comparison import Comparison
     from gbnbench.api.integration import Integration, integrate
+    from gbnbench.api.stipple import Stippling, stipple
     from gbnbench.core.errors import GbnbenchError
     from gbnbench.core.results.radial import ShellSpectrum
     from gbnbench.core.results.spectrum import Spectrum
@@ -50,6 +52,7 @@ __all__ = [
     "ShellSpectrum",
     "Spectrum",
     "SpectrumPlan",
+    "Stippling",
     "WindowEstimates",
     "compare",
     "generate",
@@ -64,6 +67,7 @@ __all__ = [
     "save",
     "scale",
     "shells",
+    "stipple",
     "wrap",
 ]
 
@@ -74,6 +78,7 @@ _MODULES = {
     "ShellSpectrum": "gbnbench.core.results.radial",
     "Spectrum": "gbnbench.core.results.spectrum",
     "SpectrumPlan": "gbnbench.analysis.spectrum.spectrum_plan",
+    "Stippling": "gbnbench.api.stipple",
     "WindowEstimates": "gbnbench.analysis.window.estimates",
     "compare": "gbnbench.api.compare",
     "generate": "gbnbench.generators.registry",
@@ -88,6 +93,7 @@ _MODULES = {
     "save": "gbnbench.io.points",
     "scale": "gbnbench.core.torus",
     "shells": "gbnbench.analysis.spectrum.shell_spectrum",
+    "stipple": "gbnbench.api.stipple",
     "wrap": "gbnbench.core.torus",
 }
 

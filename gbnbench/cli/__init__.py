@@ -24,6 +24,7 @@ from gbnbench.cli.integrate import integrate
 from gbnbench.cli.report import report
 from gbnbench.cli.spectrum import spectrum
 from gbnbench.cli.standard_streams import in_words, lasting_streams
+from gbnbench.cli.stipple import stipple
 from gbnbench.core.errors import GbnbenchError
 from gbnbench.core.garbage import collect_rarely
 from gbnbench.core.memory import memory_limit, too_little
@@ -31,7 +32,7 @@ from gbnbench.core.memory import memory_limit, too_little
 BAD, STOPPED, PIPE = 2, 130, 141  # exit codes; 0 is done, 1 is worse than a baseline or a failed check
 
 TASKS: dict[str, tuple[click.Command, ...]] = {
-    "Start here": (compare, spectrum, analyze, generate, generators, convert),
+    "Start here": (compare, spectrum, analyze, generate, generators, stipple, convert),
     "Studies": (integrate, figures, report),
     "This machine": (check, bench, devices, doctor),
 }

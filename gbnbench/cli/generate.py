@@ -67,7 +67,7 @@ def generate(
         raise InputError(f"a trace is a .csv file; got {trace}")
     generator = find(name)
     for path in (out, trace, checkpoint):
-        _check_folder(path)
+        check_folder(path)
     if checkpoint is not None and checkpoint.absolute() in (out.absolute(), trace and trace.absolute()):
         raise InputError(f"a checkpoint needs a file of its own; got {checkpoint} for two")
     gbn = generator if isinstance(generator, GaussianBlueNoise) else None
@@ -98,8 +98,8 @@ def generate(
         remove_leftovers_of(checkpoint)
 
 
-def _check_folder(path: Path | None) -> None:
-    """Refuse, before any work, a file that could not be written."""
+def check_folder(path: Path | None) -> None:
+    """Refuse, before any work, a file that could not be written; None is no file."""
     if path is None:
         return
     if not path.parent.is_dir():

@@ -1,0 +1,197 @@
+"""Stipplings laid out on paper, and written as what a file's suffix names."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from gbnbench.core.errors import InputError
+from gbnbench.core.torus import FloatArray
+from gbnbench.io.points.writer import write_atomically
+from gbnbench.reports.stippling.eps import eps
+from gbnbench.reports.stippling.gcode import GcodeTemplate, gcode
+from gbnbench.reports.stippling.page import DotLayer, Page
+from gbnbench.reports.stippling.pdf import pdf
+from gbnbench.reports.stippling.png import png
+from gbnbench.reports.stippling.svg import svg
+from gbnbench.studies.stippling.tour import path_length, tour
+
+if TYPE_CHECKING:
+    from gbnbench.api.stipple import Stippling
+
+WIDTH_MM = 160.0
+INKS = {
+    "black": "#000000", "cyan": "#00aeef", "magenta": "#ec008c", "yellow": "#fff200",
+}  # fmt: skip
+Dots = Literal["equal", "tone"]
+PICTURES: dict[str, Callable[[Page], bytes]] = {".svg": svg, ".pdf": pdf, ".eps": eps}
+TEXTS = (".txt", ".csv")
+SUFFIXES = (".png", *PICTURES, ".gcode", *TEXTS)
+
+
+def check_picture(path: Path) -> None:
+    """Refuse a file whose suffix names nothing that is written.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Raises
+    ------
+    InputError
+        If it is none of ``SUFFIXES``.
+    """
+    if path.suffix.lower() not in SUFFIXES:
+        known = ", ".join(SUFFIXES)
+        raise InputError(f"{path}: stipplings are written as {known}; got extension {path.suffix!r}")
+
+
+def in_tour_order(made: Stippling) -> tuple[Stippling, float]:
+    """Put the points in the order of a short path through all of them.
+
+    Parameters
+    ----------
+    made : Stippling
+        In two dimensions.
+
+    Returns
+    -------
+    stippling : Stippling
+        In the new order.
+    length : float
+        Of the path, in pixels.
+    """
+    from dataclasses import replace
+
+    order = tour(made.points)
+    ordered = replace(made, points=made.points[order], amplitudes=made.amplitudes[order])
+    return ordered, path_length(ordered.points)
+
+
+def page_of(
+    layers: Mapping[str, Stippling],
+    *,
+    width_mm: float = WIDTH_MM,
+    dots: Dots = "equal",
+    dot_mm: float | None = None,
+) -> Page:
+    """Lay stipplings on one page.
+
+    Parameters
+    ----------
+    layers : mapping of str to Stippling
+        Stipplings in two dimensions of one size, by the names of their inks, in the order of printing.
+    width_mm : float
+        Of the page, above 0; its height follows.
+    dots : {"equal", "tone"}
+        Dots of one size, or areas in proportion to the amplitudes.
+    dot_mm : float, optional
+        Diameter of equal dots, above 0; by default dots cover as much as the image is dark, overlaps apart.
+
+    Returns
+    -------
+    Page
+
+    Raises
+    ------
+    InputError
+        If a number is out of range, or the points are of a volume.
+    """
+    first = next(iter(layers.values()))
+    if len(first.size) != 2:
+        raise InputError("points of a volume lie on no page: write them as .txt or .csv")
+    for name, value in (("width_mm", width_mm), ("dot_mm", dot_mm)):
+        if value is not None and not (math.isfinite(value) and value > 0):
+            raise InputError(f"{name} must be above 0; got {value}")
+    mm = width_mm / first.size[0]
+    sheets = []
+    for name, made in layers.items():
+        radius = made.radius * mm if dot_mm is None else dot_mm / 2
+        shares = np.sqrt(made.amplitudes) if dots == "tone" else np.ones(len(made.points))
+        sheets.append(DotLayer(name, INKS.get(name, "#000000"), made.points * mm, radius * shares))
+    counts = ", ".join(f"{len(made.points)} dots of {name}" for name, made in layers.items())
+    text = f"{counts}; {first.method}, seed {first.seed}, gbnbench {first.version}"
+    return Page(width_mm, first.size[1] * mm, tuple(sheets), first.name, text)
+
+
+def text_of(layers: Mapping[str, Stippling], suffix: str) -> bytes:
+    """Write points with their amplitudes as rows of numbers, in pixels.
+
+    Parameters
+    ----------
+    layers : mapping of str to Stippling
+        By the names of their inks.
+    suffix : {".txt", ".csv"}
+        Rows parted by blanks below a comment, or a table of commas with names.
+
+    Returns
+    -------
+    bytes
+        UTF-8; with more than one ink a .txt has a comment before each, and a .csv a column ``ink``.
+    """
+    if suffix == ".csv":
+        import pandas as pd
+
+        tables = [made.to_frame() for made in layers.values()]
+        if len(layers) > 1:
+            for name, table in zip(layers, tables, strict=True):
+                table.insert(0, "ink", name)
+        text: str = pd.concat(tables).to_csv(index=False, lineterminator="\n")
+        return text.encode()
+    lines = []
+    for name, made in layers.items():
+        size = " x ".join(map(str, made.size))
+        axes = " ".join("xyz"[: len(made.size)])
+        lines.append(f"# {axes} amplitude, {name}: in pixels of {size}, y down from the upper border")
+        rows: FloatArray = np.column_stack([made.points, made.amplitudes])
+        lines += [" ".join(map(repr, row)) for row in rows.tolist()]
+    return ("\n".join(lines) + "\n").encode()
+
+
+def write_stippling(
+    path: Path,
+    layers: Mapping[str, Stippling],
+    *,
+    width_mm: float = WIDTH_MM,
+    dots: Dots = "equal",
+    dot_mm: float | None = None,
+    dpi: float = 300.0,
+    template: GcodeTemplate | None = None,
+) -> None:
+    """Write a file, whole or not at all.
+
+    Parameters
+    ----------
+    path : Path
+        Its suffix names the format.
+    layers : mapping of str to Stippling
+        By the names of their inks.
+    width_mm, dots, dot_mm
+        As ``page_of`` takes them.
+    dpi : float
+        Pixels an inch of a PNG.
+    template : GcodeTemplate, optional
+        Lines of a .gcode; by default those of a pen that Z lifts.
+
+    Raises
+    ------
+    InputError
+        If the suffix or a number is wrong, or the place cannot be written.
+    """
+    check_picture(path)
+    suffix = path.suffix.lower()
+    if suffix in TEXTS:
+        write_atomically(path, text_of(layers, suffix))
+        return
+    page = page_of(layers, width_mm=width_mm, dots=dots, dot_mm=dot_mm)
+    if suffix == ".png":
+        write_atomically(path, png(page, dpi))
+    elif suffix == ".gcode":
+        write_atomically(path, gcode(page, template or GcodeTemplate()))
+    else:
+        write_atomically(path, PICTURES[suffix](page))

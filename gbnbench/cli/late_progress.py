@@ -1,0 +1,42 @@
+"""Progress of one long draw, which begins to show when a second has passed."""
+
+from __future__ import annotations
+
+import contextlib
+import time
+from collections.abc import Callable, Iterator
+
+PATIENCE = 1.0  # seconds before progress is shown
+
+
+@contextlib.contextmanager
+def late_progress(quiet: bool) -> Iterator[Callable[[int, int, str], None]]:
+    """Give a function that is told of steps.
+
+    Parameters
+    ----------
+    quiet : bool
+        Show nothing.
+
+    Yields
+    ------
+    callable
+        Takes (steps done, steps in all, what is being done).
+    """
+    from gbnbench.execution import progress
+
+    began = time.monotonic()
+    with contextlib.ExitStack() as stack:
+        shown: progress.Progress | None = None
+        counted = 0
+
+        def tell(done: int, total: int, doing: str) -> None:
+            nonlocal shown, counted
+            if shown is not None:
+                shown.advance(doing, done - counted)
+            elif time.monotonic() - began >= PATIENCE:
+                shown = stack.enter_context(progress.choose(quiet))
+                shown.start(total, done, doing)
+            counted = done
+
+        yield tell

@@ -1,0 +1,1 @@
+"""Stipplings on paper: dots in millimetres as SVG, PDF, EPS, PNG and G-code."""
