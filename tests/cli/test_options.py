@@ -38,8 +38,8 @@ SHARED = {
     "--family": "compare generators integrate",
     "--preset": "compare integrate",
     "--realizations": "compare spectrum generate generators integrate",
-    "--device": "compare spectrum analyze generate generators stipple integrate figures check devices doctor, "
-    f"{BENCHES}",
+    "--device": "compare spectrum analyze generate generators stipple integrate figures check devices "
+    f"doctor, {BENCHES}",
 }
 
 
