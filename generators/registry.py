@@ -25,7 +25,6 @@ from gbnbench.generators.fpo.generator import FarthestPoint
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.kernel_based.electrostatic import Electrostatic
 from gbnbench.generators.kernel_based.kernel_density import KernelDensityModel
-from gbnbench.generators.kernel_based.kernel_energy import KernelEnergy
 from gbnbench.generators.kernel_based.particle_hydrodynamics import ParticleHydrodynamics
 from gbnbench.generators.kernel_based.progressive_gbn import ProgressiveGaussianBlueNoise
 from gbnbench.generators.kernel_based.spectral_sampling import SpectralSampling
@@ -82,7 +81,6 @@ GENERATORS: dict[str, type[ListedGenerator]] = {
     "sliced": Sliced,
     "voidcluster": VoidAndCluster,
     "kdm": KernelDensityModel,
-    "kernelenergy": KernelEnergy,
     "electrostatic": Electrostatic,
     "sph": ParticleHydrodynamics,
     "oztireli": SpectralSampling,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from skimage.metrics import structural_similarity
@@ -61,5 +62,5 @@ def image_quality(reconstruction: FloatArray, image: FloatArray) -> ImageQuality
     psnr = 10 * math.log10(peak**2 / error) if error > 0 else math.inf
     if min(image.shape) < WINDOW:
         return ImageQuality(psnr, math.nan, gain)
-    ssim = structural_similarity(scaled, image, data_range=peak, win_size=WINDOW)  # type: ignore[no-untyped-call]
-    return ImageQuality(psnr, float(ssim), gain)
+    found: Any = structural_similarity(scaled, image, data_range=peak, win_size=WINDOW)  # type: ignore[no-untyped-call]
+    return ImageQuality(psnr, float(found), gain)

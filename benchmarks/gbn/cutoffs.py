@@ -16,7 +16,7 @@ from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.operation_counts import CUTOFF
 from gbnbench.generators.gbn.optimiser import Nesterov
-from gbnbench.generators.gbn.step_sizes import step_size
+from gbnbench.generators.gbn.step_sizes import gaussian_curvature, step_size
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.opencl import runtime
 
@@ -82,7 +82,10 @@ def forces(n: int, d: int, seconds: float, probes: int) -> Iterator[dict[str, An
     precisions = ("double", "float") if runtime().device.has_double else ("float",)
     start = realization_rng(0, 0).random((1, n, d))
     settled = Nesterov(
-        energy_evaluation(n, d, SIGMA, precisions[0]), start, step_size(n, d, SIGMA), sigma=SIGMA
+        energy_evaluation(n, d, SIGMA, precisions[0]),
+        start,
+        step_size(n, d, SIGMA),
+        curvature=gaussian_curvature(d, SIGMA),
     )
     while settled.gradients < SETTLE:
         settled.advance()

@@ -20,7 +20,7 @@ from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.operation_counts import CUTOFF
 from gbnbench.generators.gbn.optimiser import Descent, Nesterov
-from gbnbench.generators.gbn.step_sizes import authors_step, step_size
+from gbnbench.generators.gbn.step_sizes import authors_step, gaussian_curvature, step_size
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.opencl import runtime
 
@@ -107,7 +107,7 @@ def _optimiser(case: FloorCase, curve: Curve, start: FloatArray) -> tuple[str, D
     step = authors_step(n, d) if curve.step == "authors" else step_size(n, d, SIGMA)
     if curve.method == "descent":
         return energy.method, Descent(energy, start, step)
-    return energy.method, Nesterov(energy, start, step, sigma=SIGMA)
+    return energy.method, Nesterov(energy, start, step, curvature=gaussian_curvature(d, SIGMA))
 
 
 def measured(x: FloatArray) -> dict[str, float]:

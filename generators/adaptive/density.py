@@ -119,7 +119,8 @@ def density_of(
     InputError
         If what comes out is no density, or not one number a pixel.
     """
-    centres = np.stack(np.meshgrid(*(np.arange(size) + 0.5 for size in shape), indexing="ij"), axis=-1)
+    lines = [np.arange(size, dtype=np.float64) + 0.5 for size in shape]
+    centres: FloatArray = np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1)
     found = np.asarray(function(centres.reshape(-1, len(shape))))
     if found.shape != (centres[..., 0].size,):
         raise InputError(

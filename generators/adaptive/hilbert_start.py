@@ -41,8 +41,8 @@ def hilbert_start(density: Density, n: int, rng: np.random.Generator) -> FloatAr
     drawn = (rng.random() + (np.arange(n) + JITTER * rng.random(n)) / n) % 1 * share[-1]
     pixel = np.minimum(np.searchsorted(share, drawn, side="right"), len(places) - 1)
     inside = np.minimum(rng.random((n, density.d)), np.nextafter(1, 0))
-    start: FloatArray = places[pixel] + inside
-    return start
+    start: FloatArray = places[pixel].astype(np.float64)
+    return start + inside
 
 
 def hilbert_index(places: NDArray[np.intp]) -> NDArray[np.int64]:

@@ -24,6 +24,9 @@ class Sweeps:
     ----------
     x : (sets, n, 2) float64
         Points on the unit torus; copied.
+    local : bool
+        Look for the largest gap beside the former neighbours of a point alone; moves on the host, where gaps
+        are wide, look everywhere.
 
     Attributes
     ----------
@@ -33,7 +36,8 @@ class Sweeps:
         Moves made on the host.
     """
 
-    def __init__(self, x: FloatArray) -> None:
+    def __init__(self, x: FloatArray, local: bool = False) -> None:
+        self._local = local
         self._runtime = runtime()
         if not self._runtime.device.has_double:
             raise DeviceError(
@@ -69,6 +73,7 @@ class Sweeps:
         """Move every point of the active sets once; return how many changed place in each set."""
         n = self._x.shape[1]
         self._state[:] = np.where(active[:, None], (0, 0, 0, 0), (n, 0, 0, 0))
+        self._state[:, 3] = self._local
         while np.any(self._state[:, 0] < n):
             lost = np.flatnonzero((self._state[:, 0] < n) & ~self._triangulated)
             if lost.size:

@@ -6,13 +6,23 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
 from gbnbench.core.errors import InputError
 from gbnbench.generators.gbn.box import BoxEnergy, box_curvature
 from gbnbench.generators.gbn.energy import default_precision, energy_evaluation
+from gbnbench.generators.gbn.mesh_evaluation import MOST, MeshEvaluation
+from gbnbench.generators.gbn.pair_kernels import KernelName, transform
 from gbnbench.generators.gbn.plan import EnergyPlan, plan_energy
 from gbnbench.generators.gbn.projective import ProjectiveEnergy, subsets
 from gbnbench.generators.gbn.protocol import EnergyEvaluation
-from gbnbench.generators.gbn.step_sizes import stable_step, step_size
+from gbnbench.generators.gbn.step_sizes import (
+    Curvature,
+    gaussian_curvature,
+    mode_step,
+    stable_step,
+    step_size,
+)
 
 LEAST_CUTOFF = 0.5  # sigmas
 
@@ -23,7 +33,7 @@ class EnergySettings:
 
     Attributes
     ----------
-    sigma, cutoff, edge, precision, domain, projections, projection_edge
+    sigma, cutoff, edge, precision, domain, projections, projection_edge, kernel, power
         As ``GaussianBlueNoise`` has them.
 
     Raises
@@ -39,6 +49,8 @@ class EnergySettings:
     domain: Literal["torus", "box"]
     projections: str
     projection_edge: float
+    kernel: KernelName = "gaussian"
+    power: float = 0.5
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.sigma) and 0.3 <= self.sigma <= 3):
@@ -70,12 +82,21 @@ class EnergySettings:
                 "projections go with the whole energy; got cutoff or edge beside them: leave these out, or "
                 "truncate the projections by projection_edge"
             )
+        if not 0 < self.power < 3:
+            raise InputError(f"power must be above 0 and below the dimension; got {self.power}")
+        if self.kernel != "gaussian" and not (self.plain and self.precision != "float"):
+            raise InputError(
+                f"kernel={self.kernel} is summed whole over the torus, in double; leave out cutoff, edge, "
+                "domain, projections and precision=float beside it"
+            )
 
     def refusal(self, n: int, d: int) -> str | None:
         """Say why this energy cannot be had for n points in d dimensions; the whole kernel always can.
 
         Parameters and returns are those of ``GaussianBlueNoise.refusal``.
         """
+        if self.kernel != "gaussian":
+            return self._mesh_refusal(n, d)
         side = n ** (1 / d)
         if self.projections != "none":
             try:
@@ -94,6 +115,20 @@ class EnergySettings:
             return (
                 f"edge must be at least {1 / side:.3g} for n={n}, d={d}, or no frequency is left; "
                 f"got {self.edge}"
+            )
+        return None
+
+    def _mesh_refusal(self, n: int, d: int) -> str | None:
+        if d > 3:
+            return (
+                f"d must be 1, 2 or 3 for kernel={self.kernel}, summed over a mesh; got d={d}, nearest is 3"
+            )
+        if self.kernel == "riesz" and self.power >= d:
+            return f"power must be below the dimension for riesz energies; got power={self.power:g} in d={d}"
+        if n > MOST[d]:
+            return (
+                f"n must be at most {MOST[d]} in {d}D for kernel={self.kernel}, minutes of sums; got n={n}, "
+                f"nearest is {MOST[d]}"
             )
         return None
 
@@ -124,6 +159,8 @@ class EnergySettings:
         DeviceError
             If there is no device, or it has no such precision.
         """
+        if self.kernel != "gaussian":
+            return MeshEvaluation(self.kernel, n, d, self.sigma, self.power)
         precision = self.chosen_precision
         if self.domain == "box":
             return BoxEnergy(n, d, self.sigma, precision)
@@ -146,10 +183,29 @@ class EnergySettings:
         """
         if self.domain == "box":
             return stable_step(box_curvature(n, d, self.sigma), d, self.sigma)
+        if self.kernel != "gaussian":
+            return mode_step(self.curvature(d))
         return step_size(n, d, self.sigma)
 
+    def curvature(self, d: int) -> Curvature:
+        """Return the curvature of the torus's whole energy along modes of displacement.
+
+        Parameters
+        ----------
+        d : int
+            Dimension.
+
+        Returns
+        -------
+        callable
+            lambda_q at |q|^2, q = 2 pi f n^(-1/d).
+        """
+        if self.kernel == "gaussian":
+            return gaussian_curvature(d, self.sigma)
+        return lambda q2: q2 * transform(self.kernel, np.sqrt(q2), d, self.sigma, self.power)
+
     def plan(self, n: int, d: int, sets: int) -> EnergyPlan | None:
-        """Plan how it is evaluated; None in the box and with projections, where there is no choice.
+        """Plan how it is evaluated; None in the box, with projections and under other kernels: one way alone.
 
         Parameters
         ----------
@@ -162,7 +218,7 @@ class EnergySettings:
         -------
         EnergyPlan or None
         """
-        if self.domain == "box" or self.projections != "none":
+        if self.domain == "box" or self.projections != "none" or self.kernel != "gaussian":
             return None
         cutoff, edge = self.cutoff or None, self.edge or None
         return plan_energy(n, d, self.sigma, self.chosen_precision, sets=sets, cutoff=cutoff, edge=edge)

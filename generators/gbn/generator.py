@@ -17,9 +17,9 @@ from gbnbench.generators.gauss_newton.modes import bound_coordinates
 from gbnbench.generators.gbn.batches import optimise_in_batches
 from gbnbench.generators.gbn.box import fold
 from gbnbench.generators.gbn.energy_settings import EnergySettings
-from gbnbench.generators.gbn.kernel import energy_error, uniform_energy
-from gbnbench.generators.gbn.operation_counts import theta_at_0
-from gbnbench.generators.gbn.optimiser import Descent, Nesterov
+from gbnbench.generators.gbn.minimisers import open_minimiser
+from gbnbench.generators.gbn.optimiser import Descent
+from gbnbench.generators.gbn.pair_kernels import KernelName
 from gbnbench.generators.gbn.polish import empty_band
 from gbnbench.generators.gbn.step_sizes import authors_step
 from gbnbench.generators.monitor import Monitor
@@ -66,12 +66,21 @@ class GaussianBlueNoise:
         Highest nu, in its own spacings, that the energy of a projection sees; 0 for all.
     polish : float
         An extension of the paper: empty the band 0 < nu <= polish afterwards, 0.25 say; 0 leaves it.
+    kernel : {"gaussian", "distance", "log", "riesz", "multiquadric", "inverse", "matern", "vonmises"}
+        Other kernels in the Gaussian's place, d <= 3: -r, -log r, r**-power; -sqrt(r**2 + sigma**2) and the
+        inverse of that root, the Matérn kernel of smoothness 5/2, von Mises densities on the axes.
+    power : float
+        Of "riesz": 0 < power < d.
 
     Notes
     -----
     Starts from uniform random points: starts from jittered or regular ones keep a memory of their grid. A
     power below about 1e-30 cannot be reached in double; sets with an excess below 6e-7 in 2D are partly
     crystalline.
+
+    Whatever the kernel, the energy is a squared error of integration in its reproducing kernel Hilbert space,
+    which Gräf, Potts & Steidl (2012) minimise by conjugate gradients and such sums. Kernels whose transform
+    falls as a power bind high frequencies too, and so order the points.
     """
 
     name: ClassVar[str] = "gbn"
@@ -94,6 +103,8 @@ class GaussianBlueNoise:
     projections: str = "none"
     projection_edge: float = 0.0
     polish: float = 0.0
+    kernel: KernelName = "gaussian"
+    power: float = 0.5
 
     def __post_init__(self) -> None:
         for name in ("gradients", "iterations"):
@@ -187,6 +198,8 @@ class GaussianBlueNoise:
             self.domain,
             self.projections,
             self.projection_edge,
+            self.kernel,
+            self.power,
         )
 
     @property
@@ -218,23 +231,8 @@ class GaussianBlueNoise:
     def _optimiser(self, starts: FloatArray) -> Descent:
         _, n, d = starts.shape
         settings = self.energy
-        energy, step = settings.open(n, d), self._step(settings, n, d)
-        # The transform of a kernel cut off in space is negative in places: its energy falls below that of
-        # uniform points, which is no end.
-        enough = -math.inf if self.cutoff and not self.excess else self.excess
-        optimiser: Descent
-        if self.iterations or self.method == "descent":
-            optimiser = Descent(energy, starts, step, enough)
-        else:
-            # The lowest band's preconditioner knows the torus's whole energy alone: in the box, and in one
-            # dimension below an edge, it diverges.
-            noise = energy_error(d, self.sigma, settings.chosen_precision)
-            band = self.sigma if settings.plain else None
-            optimiser = Nesterov(energy, starts, step, enough, noise=noise, sigma=band)
-        if settings.plain:
-            alone = theta_at_0(n, d, self.sigma) ** d  # each point with its own images
-            optimiser.constant = (uniform_energy(d, self.sigma) - alone) / 2
-        return optimiser
+        descent = bool(self.iterations) or self.method == "descent"
+        return open_minimiser(settings, starts, self._step(settings, n, d), self.excess, descent)
 
     def _step(self, energy: EnergySettings, n: int, d: int) -> float:
         if self.step == "auto":

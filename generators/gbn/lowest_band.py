@@ -1,8 +1,8 @@
 """Preconditioner of the lowest band: its modes of displacement, divided by their own curvature.
 
-A displacement u_k = q cos(q.x_k) changes the density at q alone, with the curvature
-lambda_q = |q|^2 (2 pi)^(d/2) sigma^d exp(-sigma^2 |q|^2 / 2), which falls with |q|^2: in large sets the
-lowest modes need far more steps than the middle band. Only nu <= 0.15 is treated; reaching nu >= 0.4 hurts.
+A displacement u_k = q cos(q.x_k) changes the density at q alone, with the curvature lambda_q = |q|^2 w(q), w
+being the kernel's transform. For a Gaussian it falls with |q|^2: in large sets the lowest modes need far more
+steps than the middle band. Only nu <= 0.15 is treated; reaching nu >= 0.4 hurts.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from scipy import fft, sparse
 
 from gbnbench.core.torus import FloatArray
+from gbnbench.generators.gbn.step_sizes import Curvature
 
 EDGE = 0.15  # in nu
 STEP = 0.75  # of the grid, in spacings: the cubic spline's aliases are 3e-4 of the band
@@ -27,9 +28,16 @@ class LowestBandPreconditioner:
     Points give their forces to a grid by cubic B-splines and take displacements from it by the same weights,
     so that the correction is a symmetric operator of the forces; single precision is more than it needs,
     since the forces that it reads vanish where it has done its work.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    curvature : callable
+        lambda_q at |q|^2, q = 2 pi f n^(-1/d).
     """
 
-    def __init__(self, n: int, d: int, sigma: float) -> None:
+    def __init__(self, n: int, d: int, curvature: Curvature) -> None:
         side = n ** (1 / d)
         self._n, self._d, self._side = n, d, side
         self._cells = fft.next_fast_len(max(4, math.ceil(side / STEP)), real=True)
@@ -39,7 +47,7 @@ class LowestBandPreconditioner:
         q2 = sum((2 * math.pi / side * axis) ** 2 for axis in f)
         inside = (q2 > 0) & (q2 <= (2 * math.pi * EDGE) ** 2)
         q2 = np.where(inside, q2, 1.0)
-        self._curvature = q2 * (2 * math.pi) ** (d / 2) * sigma**d * np.exp(-(sigma**2) * q2 / 2)
+        self._curvature = curvature(q2)
         spline = np.ones(())
         for axis in f:
             spline = spline * np.sinc(axis / self._cells) ** 4

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn.lowest_band import LowestBandPreconditioner
 from gbnbench.generators.gbn.protocol import EnergyEvaluation
+from gbnbench.generators.gbn.step_sizes import Curvature
 
 PATIENCE = 20  # steps over which a rise of the excess energy halves the step
 PRECONDITION_ABOVE = 45  # spacings a side; below, 300 gradients bring the lowest modes down by themselves
@@ -117,10 +118,11 @@ class Nesterov(Descent):
         As for ``Descent``.
     noise : float
         Error of the excess energy; a smaller rise does not count as one.
-    sigma : float, optional
-        Kernel width in spacings. Where it is given, boxes of more than 45 spacings a side (2,048 points in
-        the plane) have their lowest band preconditioned, whose modes are too slow for any step that the
-        middle band allows.
+    curvature : callable, optional
+        That of the energy's modes. Where it is given, wide boxes have their lowest band preconditioned, whose
+        modes are too slow for any step that the middle band allows, or too fast for it.
+    wide : float
+        Spacings a side above which they have; 45, or 2,048 points in the plane, is right for Gaussians.
 
     Notes
     -----
@@ -135,7 +137,8 @@ class Nesterov(Descent):
         step: float,
         excess: float = 0.0,
         noise: float = 0.0,
-        sigma: float | None = None,
+        curvature: Curvature | None = None,
+        wide: float = PRECONDITION_ABOVE,
     ) -> None:
         super().__init__(energy, x, step, excess)
         sets, n, d = x.shape
@@ -143,10 +146,9 @@ class Nesterov(Descent):
         self._y = np.array(x)  # where the next gradient is taken
         self._momentum = np.ones(sets)
         self._recent = np.full((sets, PATIENCE + 1), np.nan)  # excess energies, the last one last
-        treated = sigma is not None and d <= 3 and self._side > PRECONDITION_ABOVE
         self._bands = (
-            [LowestBandPreconditioner(n, d, sigma) for _ in range(sets)]
-            if sigma is not None and treated
+            [LowestBandPreconditioner(n, d, curvature) for _ in range(sets)]
+            if curvature is not None and d <= 3 and self._side > wide
             else []
         )
 

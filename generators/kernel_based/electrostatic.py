@@ -8,10 +8,11 @@ from typing import ClassVar
 
 import numpy as np
 
-from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray, wrap
-from gbnbench.generators.kernel_based.ewald import EwaldEnergy
+from gbnbench.generators.gbn.ewald import EwaldEnergy
 from gbnbench.generators.protocol import MOST_ITERATIONS, Family
+from gbnbench.generators.set_by_set import SetBySet, Told
 
 FORCE = {2: 2 * math.pi, 3: 4 * math.pi}  # of transforms 1 / k**2, over forces 1 / r and 1 / r**2
 EVERY = 10  # iterations from one shaking to the next
@@ -20,7 +21,7 @@ MOST = 20_000
 
 
 @dataclass(frozen=True)
-class Electrostatic:
+class Electrostatic(SetBySet):
     """Equal charges that repel one another in a uniform background, shaken ever less.
 
     Parameters
@@ -94,15 +95,14 @@ class Electrostatic:
             return f"n must be at most {MOST}, minutes of sums; got n={n}, nearest is {MOST}"
         return None
 
-    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
-        """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+    def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
+        """Draw one realization, as ``SetBySet.one_set`` says."""
         x = rng.random((n, d))
         if n == 1:
             return x
         energy = EwaldEnergy(n, d, 2.0 - d)
         for i in range(1, self.iterations + 1):
+            told((i - 1) / self.iterations)
             step = -self.tau * FORCE[d] * energy(x)[1]
             length = np.linalg.norm(step, axis=1, keepdims=True)
             step /= np.maximum(length, 1.0)

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
 
-from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.kernel_based.density_raster import DensityRaster
 from gbnbench.generators.protocol import MOST_ITERATIONS, Family
+from gbnbench.generators.set_by_set import SetBySet, Told
 
 # The author's program at its density of 0.43 a pixel, where a spacing is 4.06 pixels, in spacings.
 DRIFT = 0.695  # times the integral of sign(sum of kernels - 1) exp(-pi u**2) u, u in spacings
@@ -22,7 +24,7 @@ MOST = 100_000
 
 
 @dataclass(frozen=True)
-class KernelDensityModel:
+class KernelDensityModel(SetBySet):
     """Points as interacting particles whose kernels are to add up to the density, at a temperature.
 
     Parameters
@@ -101,27 +103,33 @@ class KernelDensityModel:
             return f"n must be at most {MOST} for steps point by point; got n={n}, nearest is {MOST}"
         return None
 
-    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
-        """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+    def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
+        """Draw one realization, as ``SetBySet.one_set`` says."""
         sizes = [n]
         for _ in range(self.levels - 1):
             sizes.insert(0, -(-sizes[0] // 2**d))
         raster = DensityRaster(sizes[0], d)
         x = initial_points(raster, rng)
-        self._relax(raster, x, rng)
-        for size in sizes[1:]:
+        before, work = 0, sum(sizes)
+        self._relax(raster, x, rng, functools.partial(_part, told, 0.0, sizes[0] / work))
+        for size, coarser in zip(sizes[1:], sizes, strict=False):
+            before += coarser
             finer = DensityRaster(size, d)
             x = split_points(x * (finer.side / raster.side), finer, rng)
             raster = finer
-            self._relax(raster, x, rng)
+            self._relax(raster, x, rng, functools.partial(_part, told, before / work, size / work))
         return wrap(x / raster.side)
 
-    def _relax(self, raster: DensityRaster, x: FloatArray, rng: np.random.Generator) -> None:
+    def _relax(self, raster: DensityRaster, x: FloatArray, rng: np.random.Generator, told: Told) -> None:
         noise = NOISE * math.sqrt(self.temperature) * raster.spacing
         for left in reversed(range(self.iterations)):
             langevin_step(raster, x, noise * rng.standard_normal(x.shape) if left else np.zeros_like(x))
+            told(1 - left / self.iterations)
+
+
+def _part(told: Told, start: float, length: float, share: float) -> None:
+    """Tell the share of a part as one of the whole."""
+    told(start + length * share)
 
 
 def langevin_step(raster: DensityRaster, x: FloatArray, noise: FloatArray) -> None:

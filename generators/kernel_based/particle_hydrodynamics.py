@@ -8,9 +8,10 @@ from typing import ClassVar
 
 import numpy as np
 
-from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.protocol import MOST_ITERATIONS, Family
+from gbnbench.generators.set_by_set import SetBySet, Told
 
 STIFFNESS = 0.04  # squared spacings a squared time step: sound travels a fifth of a spacing in a step
 DAMPING = 0.9  # of velocities, each step
@@ -22,7 +23,7 @@ SPIKY = {1: 2.0, 2: 10 / math.pi, 3: 15 / math.pi}
 
 
 @dataclass(frozen=True)
-class ParticleHydrodynamics:
+class ParticleHydrodynamics(SetBySet):
     """Particles of a damped fluid on the torus, moved by differences of their pressure.
 
     Parameters
@@ -99,14 +100,14 @@ class ParticleHydrodynamics:
             return f"n must be at most {MOST}, minutes of steps; got n={n}, nearest is {MOST}"
         return None
 
-    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
-        """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+    def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
+        """Draw one realization, as ``SetBySet.one_set`` says."""
         x = rng.random((n, d))
         side = n ** (1 / d)
         velocity = np.zeros((n, d))
-        for _ in range(self.iterations or max(200, math.ceil(6.25 * side - 1e-9))):
+        steps = self.iterations or max(200, math.ceil(6.25 * side - 1e-9))
+        for step in range(steps):
+            told(step / steps)
             velocity += STIFFNESS * pressure_acceleration(x, self.rest, self.support)
             velocity *= DAMPING
             length = np.linalg.norm(velocity, axis=1, keepdims=True)

@@ -7,17 +7,19 @@ from typing import ClassVar
 
 import numpy as np
 
-from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.kernel_based.progressive_order import progressive_order
+from gbnbench.generators.monitor import Monitor
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.set_by_set import SetBySet, Told
 
 MOST = 20_000
 
 
 @dataclass(frozen=True)
-class ProgressiveGaussianBlueNoise:
+class ProgressiveGaussianBlueNoise(SetBySet):
     """A Gaussian Blue Noise set, ordered so that its first m points are spread evenly for every m.
 
     Parameters
@@ -84,12 +86,13 @@ class ProgressiveGaussianBlueNoise:
             return f"n must be at most {MOST} to be ordered, in n**2; got n={n}, nearest is {MOST}"
         return reason
 
-    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
-        """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
-        x = self._unordered()(n, d, rng)
-        return np.ascontiguousarray(x[progressive_order(x, self.prefix_sigma)])
+    def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
+        """Draw one realization, as ``SetBySet.one_set`` says."""
+        monitor = Monitor(lambda done, most, _: told(done / most / 2))
+        x = self._unordered().draw(n, d, [rng], monitor)[0]
+        return np.ascontiguousarray(
+            x[progressive_order(x, self.prefix_sigma, lambda share: told((1 + share) / 2))]
+        )
 
     def _unordered(self) -> GaussianBlueNoise:
         return GaussianBlueNoise(sigma=self.sigma, gradients=self.gradients)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,7 +15,9 @@ SWEEPS = 20  # over the chosen points, of exchanges with points left out
 LEAST_GAIN = 1e-9
 
 
-def progressive_order(x: ArrayLike, sigma: float = 1.0) -> NDArray[np.intp]:
+def progressive_order(
+    x: ArrayLike, sigma: float = 1.0, told: Callable[[float], None] | None = None
+) -> NDArray[np.intp]:
     """Order points so that every prefix is spread as evenly as a choice among them can be.
 
     Parameters
@@ -24,6 +26,8 @@ def progressive_order(x: ArrayLike, sigma: float = 1.0) -> NDArray[np.intp]:
         Points on the unit torus.
     sigma : float
         Width of the Gaussian on the points of a prefix, in spacings of that prefix, 0.2 to 2.
+    told : callable, optional
+        Takes the share of the work that is done, 0 to 1, after each halving.
 
     Returns
     -------
@@ -62,6 +66,8 @@ def progressive_order(x: ArrayLike, sigma: float = 1.0) -> NDArray[np.intp]:
         middle = sigma * (math.sqrt(2) * size) ** (-1 / d)
         tail.insert(0, kept[_by_voids(points[kept], inside, middle)])
         kept = kept[inside]
+        if told is not None:
+            told(1 - (len(kept) / n) ** 2)
     return np.concatenate([kept, *tail])
 
 

@@ -8,10 +8,11 @@ from typing import ClassVar
 
 import numpy as np
 
-from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.kernel_based.steady_inverse import steady_inverse
 from gbnbench.generators.protocol import MOST_ITERATIONS, Family
+from gbnbench.generators.set_by_set import SetBySet, Told
 
 CANDIDATES = 4  # uniform points from which one is chosen
 REACH = 8.5  # sigmas, beyond which a Gaussian is rounding
@@ -20,7 +21,7 @@ MOST = 4096
 
 
 @dataclass(frozen=True)
-class SpectralSampling:
+class SpectralSampling(SetBySet):
     """Points that each add most to the span of the Gaussians on all: chosen among many, then moved uphill.
 
     Parameters
@@ -93,14 +94,13 @@ class SpectralSampling:
             return f"n must be at most {MOST}, whose n**2 kernels are inverted; got n={n}, nearest is {MOST}"
         return None
 
-    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
-        """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+    def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
+        """Draw one realization, as ``SetBySet.one_set`` says."""
         side = n ** (1 / d)
         width = self.sigma / side
         x = most_independent(rng.random((CANDIDATES * n, d)), n, width)
-        for _ in range(self.iterations):
+        for done in range(self.iterations):
+            told((done + 1) / (self.iterations + 1))
             step = self.step / side**2 * span_gradient(x, width)[1]
             length = np.linalg.norm(step, axis=1, keepdims=True) * side
             x = wrap(x + step / np.maximum(length / LONGEST, 1.0))

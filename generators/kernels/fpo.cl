@@ -1,8 +1,8 @@
-/* Farthest-point optimisation (Schlömer, Heck & Deussen 2011, global strategy) on a periodic Delaunay
- * triangulation.
+/* Farthest-point optimisation (Schlömer, Heck & Deussen 2011) on a periodic Delaunay triangulation.
  *
  * One work-item moves at most `budget` points of one set, in order from state.x on: point p leaves the
- * triangulation, the farthest point f of the rest is the centre of the largest circumcircle, and p goes to f
+ * triangulation, the farthest point f of the rest is the centre of the largest circumcircle (with the local
+ * strategy the largest of those through a former neighbour of p), and p goes to f
  * if r(f) exceeds p's own distance to its nearest neighbour, else stays.
  *
  * Removal clips ears off the hole left by p in order of |power of p| = incircle(a, b, c, p) / orient(a, b, c)
@@ -15,7 +15,7 @@
  * relative to a vertex or centre less than 1/2 away, which holds while every circumradius is below WIDEST =
  * 1/4 (-D). EQUAL (-D) is the relative gain in squared distance below which a point stays.
  *
- * state[set] is (next point, status, points moved so far, 0). Nothing is repaired here: a hole that is no
+ * state[set] is (next point, status, points moved so far, whether the strategy is local). Nothing is repaired here: a hole that is no
  * disc, a fan that is not counter-clockwise or a circle that is too wide ends the work with status 1 before
  * the point is moved, and the host takes over there with a fresh triangulation.
  */
@@ -83,15 +83,16 @@ __kernel void fpo(const int sets, const int n, const int leaves, const int budge
     __global int *leaving = all_leaving + at, *mark = all_mark + 2 * at;
     __global double *tree = all_tree + (size_t)set * 2 * leaves;
 
-    int rim[RIM], outer[RIM], slot[RIM + 2];
+    int rim[RIM], outer[RIM], slot[RIM + 2], neighbour[RIM];
     double2 q[RIM];
     double power[RIM];
 
     int moved = state[set].z;
+    const int local_strategy = state[set].w;
     const int first = state[set].x, last = min(n, first + budget);
     for (int v = first; v < last; v++) {
         const double2 p = points[v];
-        state[set] = (int4)(v, 1, moved, 0);    /* stands if the work ends inside this move */
+        state[set] = (int4)(v, 1, moved, local_strategy);    /* stands if the work ends inside this move */
 
         /* The hole: neighbours of v counter-clockwise, relative to p. */
         int k = 0, h = leaving[v];
@@ -100,7 +101,7 @@ __kernel void fpo(const int sets, const int n, const int leaves, const int budge
         do {
             int far_edge = next_edge(h);
             if (k == RIM) return;
-            rim[k] = origin[far_edge];
+            neighbour[k] = rim[k] = origin[far_edge];
             outer[k] = twin[far_edge];
             slot[k] = h >> 2;
             q[k] = shortest(points[rim[k]] - p);
@@ -108,7 +109,7 @@ __kernel void fpo(const int sets, const int n, const int leaves, const int budge
             h = twin[next_edge(far_edge)];
             k++;
         } while (h != start);
-        const int free0 = slot[k - 1], free1 = slot[k - 2];
+        const int free0 = slot[k - 1], free1 = slot[k - 2], neighbours = k;
         set_radius(tree, leaves, free0, -1.0);
         set_radius(tree, leaves, free1, -1.0);
 
@@ -164,8 +165,21 @@ __kernel void fpo(const int sets, const int n, const int leaves, const int budge
         }
 
         double2 f = p;
-        if (tree[1] > own * (1.0 + EQUAL)) {
-            seed = largest(tree, leaves);
+        int widest = 0;
+        if (local_strategy) {
+            widest = seed;
+            for (int i = 0; i < neighbours; i++) {
+                const int out = leaving[neighbour[i]];
+                h = out;
+                for (int turns = 0; turns < RIM; turns++) {
+                    if (tree[leaves + (h >> 2)] > tree[leaves + widest]) widest = h >> 2;
+                    h = next_edge(twin[h]);
+                    if (h == out) break;
+                }
+            }
+        } else widest = largest(tree, leaves);
+        if (tree[leaves + widest] > own * (1.0 + EQUAL)) {
+            seed = widest;
             f = centre[seed];
             moved++;
         }
@@ -234,7 +248,7 @@ __kernel void fpo(const int sets, const int n, const int leaves, const int budge
         points[v] = f;
     }
 
-    state[set] = (int4)(last, 0, moved, 0);
+    state[set] = (int4)(last, 0, moved, local_strategy);
     if (last == n) {
         double least = 1.0;
         for (int t = 0; t < 2 * n; t++)

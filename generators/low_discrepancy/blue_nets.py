@@ -8,7 +8,6 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.low_discrepancy.dyadic_net import (
     GaussianEnergy,
@@ -17,6 +16,7 @@ from gbnbench.generators.low_discrepancy.dyadic_net import (
 )
 from gbnbench.generators.protocol import Family
 from gbnbench.generators.ranges import check_range
+from gbnbench.generators.set_by_set import SetBySet, Told
 from gbnbench.generators.strata import placed_in_strata
 
 MOST_BITS = 16
@@ -24,7 +24,7 @@ CHANCE = 0.5  # that an exchange which lowers the energy is made
 
 
 @dataclass(frozen=True)
-class BlueNets:
+class BlueNets(SetBySet):
     """A (0, m, 2)-net whose points exchange coordinates as long as that lowers a Gaussian energy.
 
     Parameters
@@ -95,17 +95,17 @@ class BlueNets:
         nearest = low if n - low <= 2 * low - n or low == 2**MOST_BITS else 2 * low
         return f"n must be 2**m, at most 2**{MOST_BITS}, for bluenets; got n={n}, nearest is {nearest}"
 
-    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
-        """Draw one realization, (n, 2) float64; RefusalError where ``refusal`` has a reason."""
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+    def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
+        """Draw one realization, as ``SetBySet.one_set`` says."""
         m = n.bit_length() - 1
         y = random_net(m, rng)
         if m:
-            y = self.optimised(y, rng)
-        return placed_in_strata(np.stack([np.arange(n), y], axis=1), rng.random((n, 2)), n)
+            y = self.optimised(y, rng, told)
+        return placed_in_strata(np.stack([np.arange(n), y], axis=1), rng.random((n, d)), n)
 
-    def optimised(self, y: NDArray[np.int64], rng: np.random.Generator) -> NDArray[np.int64]:
+    def optimised(
+        self, y: NDArray[np.int64], rng: np.random.Generator, told: Told | None = None
+    ) -> NDArray[np.int64]:
         """Make exchanges that lower the energy.
 
         Parameters
@@ -114,6 +114,8 @@ class BlueNets:
             A net, stratum of y by that of x, m >= 1.
         rng : Generator
             Of the order of levels and of the coins.
+        told : callable, optional
+            Takes the share that is done.
 
         Returns
         -------
@@ -129,7 +131,9 @@ class BlueNets:
         energy = GaussianEnergy(m, self.sigma)
         moved_at, judged_at = np.zeros(n, dtype=np.int64), np.full(m, -1)
         time = 0
-        for _ in range(self.iterations):
+        for done in range(self.iterations):
+            if told is not None:
+                told(done / self.iterations)
             judged_better = False
             for level in rng.permutation(m):
                 time += 1

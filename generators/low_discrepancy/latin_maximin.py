@@ -8,10 +8,10 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import Family
 from gbnbench.generators.ranges import check_range, too_many
+from gbnbench.generators.set_by_set import SetBySet, Told
 from gbnbench.generators.strata import placed_in_strata
 
 PARTNERS = 24  # tried at a step
@@ -19,7 +19,7 @@ MOST_POINTS = 8192
 
 
 @dataclass(frozen=True)
-class LatinMaximin:
+class LatinMaximin(SetBySet):
     """A Latin hypercube in which the most crowded point exchanges a coordinate as long as that helps.
 
     Parameters
@@ -84,16 +84,16 @@ class LatinMaximin:
         """
         return too_many(n, MOST_POINTS, "for latinmaximin, which judges each exchange by all distances")
 
-    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
-        """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+    def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
+        """Draw one realization, as ``SetBySet.one_set`` says."""
         strata = rng.permuted(np.tile(np.arange(n), (d, 1)), axis=1)
         if d > 1 and n > 2:
-            strata = self.optimised(strata, rng)
+            strata = self.optimised(strata, rng, told)
         return placed_in_strata(np.ascontiguousarray(strata.T), rng.random(d), n)
 
-    def optimised(self, strata: NDArray[np.int64], rng: np.random.Generator) -> NDArray[np.int64]:
+    def optimised(
+        self, strata: NDArray[np.int64], rng: np.random.Generator, told: Told | None = None
+    ) -> NDArray[np.int64]:
         """Make exchanges that lower phi_p.
 
         Parameters
@@ -102,6 +102,8 @@ class LatinMaximin:
             A permutation of 0, ..., n - 1 an axis.
         rng : Generator
             Of axes and partners.
+        told : callable, optional
+            Takes the share that is done.
 
         Returns
         -------
@@ -115,6 +117,8 @@ class LatinMaximin:
         share = np.array([self._shares(strata, square, i).sum() for i in range(n)])
         rests_until = np.zeros(n)
         for step in range(int(self.steps * n)):
+            if told is not None and step % n == 0:
+                told(step / (self.steps * n))
             i = int(np.argmax(np.where(rests_until <= step, share, 0)))
             axis = int(rng.integers(d))
             partners = rng.integers(n - 1, size=min(PARTNERS, n - 1))

@@ -7,18 +7,20 @@ from typing import ClassVar
 
 import numpy as np
 
-from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.power_cells.diagram import PowerDiagram, power_diagram
 from gbnbench.generators.power_cells.equal_areas import equal_areas
 from gbnbench.generators.power_cells.regularity import break_regions, irregularity
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.set_by_set import SetBySet, Told
 
 AREAS = 1e-3  # relative error of each area while the points move: less changes nothing that can be measured
+USUAL = 10  # alternations until the gradient is small, for progress
 
 
 @dataclass(frozen=True)
-class OptimalTransport:
+class OptimalTransport(SetBySet):
     """Points at the centroids of power cells of equal area, on the way to an optimal transport plan.
 
     Parameters
@@ -106,21 +108,22 @@ class OptimalTransport:
         """
         return None if d == 2 else f"bnot cuts the plane into power cells; got d={d}, use d=2"
 
-    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
-        """Draw one realization, (n, 2) float64; RefusalError where ``refusal`` has a reason."""
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
-        x, diagram = self._alternate(rng.random((n, d)))
-        for _ in range(self.breaks):
+    def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
+        """Draw one realization, as ``SetBySet.one_set`` says."""
+        rounds = 1 + self.breaks
+        x, diagram = self._alternate(rng.random((n, d)), lambda share: told(share / rounds))
+        for k in range(self.breaks):
+            told((k + 1) / rounds)
             if diagram is None or not (regular := irregularity(diagram) < self.regularity).any():
                 break
-            x, diagram = self._alternate(break_regions(x, diagram, regular, rng))
+            x, diagram = self._alternate(break_regions(x, diagram, regular, rng), lambda _: None)
         return x
 
-    def _alternate(self, x: FloatArray) -> tuple[FloatArray, PowerDiagram | None]:
+    def _alternate(self, x: FloatArray, told: Told) -> tuple[FloatArray, PowerDiagram | None]:
         """Move points to the centroids until the gradient is small; with them their last diagram."""
         n, weight, diagram = len(x), np.zeros(len(x)), None
-        for _ in range(self.alternations):
+        for done in range(self.alternations):
+            told(min(done / min(USUAL, self.alternations), 1.0))
             weight, equal = equal_areas(x, weight, AREAS, diagram)
             x = wrap(x + equal.offset)
             diagram = power_diagram(x, weight, equal.reach)

@@ -8,10 +8,11 @@ from typing import ClassVar
 
 import numpy as np
 
-from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.errors import InputError
 from gbnbench.core.memory import too_large
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.set_by_set import SetBySet, Told
 from gbnbench.generators.sliced.ball_to_cube import ball_to_cube
 
 LARGEST_DIMENSION = 64  # that the publication's map serves
@@ -22,7 +23,7 @@ FARTHEST = 2.0  # no projection is as far out
 
 
 @dataclass(frozen=True)
-class Sliced:
+class Sliced(SetBySet):
     """Points of the ball moved by exact transport along random directions, then mapped to the cube.
 
     Parameters
@@ -103,32 +104,14 @@ class Sliced:
             )
         return None
 
-    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
-        """Draw one realization.
-
-        Parameters
-        ----------
-        n, d : int
-            Points and dimension.
-        rng : numpy.random.Generator
-            The stream that it is drawn from.
-
-        Returns
-        -------
-        (n, d) float64
-
-        Raises
-        ------
-        RefusalError
-            Where ``refusal`` has a reason.
-        """
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+    def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
+        """Draw one realization, as ``SetBySet.one_set`` says."""
         start = rng.standard_normal((n, d))
         length = np.sqrt(np.sum(start**2, axis=1, keepdims=True))
         x = start / length * rng.random((n, 1)) ** (1 / d)
         quantiles = ball_quantiles(n, d)
-        for _ in range(self.iterations):
+        for done in range(self.iterations):
+            told(done / self.iterations)
             x = x + transport(x, random_directions(self.directions, d, rng), quantiles)
         return np.clip((ball_to_cube(x) + 1) / 2, 0.0, np.nextafter(1.0, 0.0))
 

@@ -6,6 +6,7 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -16,6 +17,11 @@ from gbnbench.generators.gauss_newton.modes import ball_count, largest_square
 from gbnbench.generators.gauss_newton.product_cost import wave_sum_operations
 from gbnbench.generators.gauss_newton.targets import TargetPower
 from gbnbench.generators.monitor import Monitor, refuse_all_but_progress
+from gbnbench.generators.spectral_control.correlation_descent import (
+    LEVELS,
+    CorrelationDescent,
+    correlation_refusal,
+)
 from gbnbench.generators.spectral_control.limited_memory_bfgs import minimise
 from gbnbench.generators.spectral_control.named_profiles import of_the_plane
 from gbnbench.generators.spectral_control.ring_cost import RingCost, rings_below
@@ -25,6 +31,7 @@ HIGHEST = 2.0  # nu up to which a target is met by default, in the plane
 BARE = 0.1  # level of the target's pair correlation below which pairs are kept apart
 ENOUGH = 1e-10  # cost a point at which a set is at its target: rings within 1e-4 of it
 SUMS = 3  # of waves, an evaluation: amplitudes, and a gradient that costs two
+STEPS = 10  # of the descent by correlation, for each of ``iterations``: some 250 are taken
 MODE_BYTES = 32  # a frequency and axis, of the half that is listed and what is kept of it
 WORK = 5e12  # most operations of a set: some minutes
 
@@ -41,7 +48,11 @@ class RingMeans(ABC):
         Distance, in spacings, below which pairs repel; by default that up to which the pair correlation of
         the target is below a tenth. 0 for none.
     iterations : int
-        Most steps, >= 0.
+        Most steps, >= 0; of method=correlation ten times as many.
+    method : {"power", "correlation"}
+        "power" brings ring means of the power to the target, "correlation" the pair correlation function to
+        that of the target, in the plane, by the descent of Heck, Schlömer & Deussen (2013); ``core`` has no
+        part in it.
 
     Raises
     ------
@@ -52,6 +63,7 @@ class RingMeans(ABC):
     highest: float | None = None
     core: float | None = None
     iterations: int = 100
+    method: Literal["power", "correlation"] = "power"
 
     def __post_init__(self) -> None:
         if self.highest is not None and not (math.isfinite(self.highest) and self.highest > 0):
@@ -82,6 +94,8 @@ class RingMeans(ABC):
         str or None
             The reason; None where it does not.
         """
+        if self.method == "correlation":
+            return correlation_refusal(n, d)
         highest = self.highest_nu(d)
         square = largest_square(n, d, highest)
         if square == 0:
@@ -143,24 +157,38 @@ class RingMeans(ABC):
         if reason := self.refusal(n, d):
             raise RefusalError(reason)
         target, highest = self.profile(d), self.highest_nu(d)
+        if self.method == "correlation":
+            return self._by_correlation(CorrelationDescent(n, target, highest), rngs, monitor)
         side = math.pow(n, 1 / d)
         core = core_of(target, d, highest, BARE) if self.core is None else self.core
         cost = RingCost(rings_below(n, d, target, highest), core if core < side / 2 else 0.0)
         sets = []
         for k, rng in enumerate(rngs):
-            told = self._told(monitor, k, len(rngs))
+            told = self._told(monitor, k, len(rngs), self.iterations, "cost a point")
             end = minimise(cost, side * rng.random((n, d)), self.iterations, ENOUGH, told)
             sets.append(wrap(end.x / side))
         return np.stack(sets)
 
-    def _told(self, monitor: Monitor, k: int, sets: int) -> Callable[[int, float], None] | None:
-        """Progress of set k."""
+    def _by_correlation(
+        self, descent: CorrelationDescent, rngs: Sequence[np.random.Generator], monitor: Monitor
+    ) -> FloatArray:
+        sets = []
+        for k, rng in enumerate(rngs):
+            told = self._told(monitor, k, len(rngs), LEVELS, "misfit")
+            x = rng.random((descent.n, 2))
+            sets.append(descent.run(x, STEPS * self.iterations, told) if descent.n > 1 else x)
+        return np.stack(sets)
+
+    @staticmethod
+    def _told(
+        monitor: Monitor, k: int, sets: int, most: int, what: str
+    ) -> Callable[[int, float], None] | None:
+        """Progress of set k, of so many steps at most."""
         progress = monitor.progress
         if progress is None:
             return None
 
         def told(done: int, cost: float) -> None:
-            steps = k * self.iterations + done
-            progress(steps, sets * self.iterations, f"set {k + 1}, cost {cost:.1e} a point")
+            progress(k * most + done, sets * most, f"set {k + 1}, {what} {cost:.1e}")
 
         return told

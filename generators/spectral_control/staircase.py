@@ -28,7 +28,7 @@ class Staircase(RingMeans):
         Where it ends, in nu, above the edge; by default 1.38 in the plane.
     level : float
         Power of the stair, > 0.
-    highest, core, iterations
+    highest, core, iterations, method
         As those of ``targeted``.
 
     Raises
@@ -41,7 +41,8 @@ class Staircase(RingMeans):
     A stair lets the band be wider than the widest step. The defaults are read off two published sets of
     1,024 points, whose power is 1.3 between these two edges. No process has exactly that: its pair
     correlation would be -0.3 at 0.4 spacings. The published sets leave a power of 0.05 to 0.1 in the upper
-    half of the band; ours leave 5e-4 in it, and a stair a twentieth higher. A process can have
+    half of the band; ours leave 5e-4 in it, and a stair a twentieth higher: the publication's own optimiser,
+    which matches an estimate of the pair correlation function, is not here. A process can have
     ``edge=0.68,end=1.23,level=1.2``.
 
     References

@@ -42,7 +42,10 @@ class Targeted(RingMeans):
         Distance, in spacings, below which pairs repel; by default that up to which the pair correlation of
         the target, taken as 1 beyond ``highest``, is below a tenth. 0 for none.
     iterations : int
-        Most steps.
+        Most steps; of method=correlation ten times as many.
+    method : {"power", "correlation"}
+        Bring ring means of the power to the target, or in the plane the pair correlation function to that of
+        the target, by the descent of Heck, Schlömer & Deussen (2013), n up to 4,096.
 
     Raises
     ------

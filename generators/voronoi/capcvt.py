@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.power_cells.diagram import PowerDiagram, power_diagram
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.set_by_set import SetBySet, Told
 
 CORRECTIONS = 7  # pairs of steps and changes of the gradient that L-BFGS keeps
 
@@ -50,7 +52,7 @@ def energy_and_gradient(diagram: PowerDiagram, capacity: float) -> tuple[float, 
 
 
 @dataclass(frozen=True)
-class CapacityConstrainedVoronoi:
+class CapacityConstrainedVoronoi(SetBySet):
     """Uniform points moved to lower the energy of a centroidal Voronoi tessellation of nearly equal areas.
 
     Parameters
@@ -126,19 +128,18 @@ class CapacityConstrainedVoronoi:
         """
         return None if d == 2 else f"capcvt has its gradient for cells of the plane; got d={d}, use d=2"
 
-    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
-        """Draw one realization, (n, 2) float64; RefusalError where ``refusal`` has a reason."""
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+    def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
+        """Draw one realization, as ``SetBySet.one_set`` says."""
         from scipy.optimize import minimize
 
         def objective(places: NDArray[np.float64]) -> tuple[float, FloatArray]:
             energy, gradient = energy_and_gradient(power_diagram(wrap(places.reshape(n, 2))), self.capacity)
             return energy, gradient.ravel()
 
+        steps = itertools.count(1)
         found = minimize(
             objective,
-            rng.random(2 * n),
+            rng.random(n * d),
             jac=True,
             method="L-BFGS-B",
             options={
@@ -148,5 +149,6 @@ class CapacityConstrainedVoronoi:
                 "ftol": 0.0,
                 "gtol": 1e-9,
             },
+            callback=lambda _: told(next(steps) / (self.iterations + 1)),
         )
         return wrap(found.x.reshape(n, 2))

@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray, spacing, wrap
 from gbnbench.generators.protocol import MOST_ITERATIONS, Family
+from gbnbench.generators.set_by_set import SetBySet, Told
 from gbnbench.generators.voronoi.cells import Cells, move_to_centroids, toroidal_cells
 
 
 @dataclass(frozen=True)
-class Lloyd:
+class Lloyd(SetBySet):
     """Uniform points moved again and again to the centroids of their toroidal Voronoi cells.
 
     Parameters
@@ -89,19 +91,18 @@ class Lloyd:
         """
         return None if d <= 4 else f"d must be 1 to 4 for Lloyd's method; got d={d}, nearest is 4"
 
-    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
-        """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+    def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
+        """Draw one realization, as ``SetBySet.one_set`` says."""
         x = rng.random((n, d))
         if self.method == "lloyd" or (self.method == "auto" and d <= 2):
-            return self._by_lloyd(x, 200 if self.iterations is None else self.iterations)
-        return self._by_lbfgs(x, 30 if self.iterations is None else self.iterations)
+            return self._by_lloyd(x, 200 if self.iterations is None else self.iterations, told)
+        return self._by_lbfgs(x, 30 if self.iterations is None else self.iterations, told)
 
-    def _by_lloyd(self, x: FloatArray, iterations: int) -> FloatArray:
+    def _by_lloyd(self, x: FloatArray, iterations: int, told: Told) -> FloatArray:
         """Move all points to the centroids of their cells, again and again."""
         margin = None
-        for _ in range(iterations):
+        for done in range(iterations):
+            told(done / iterations)
             cells = toroidal_cells(x, margin)
             x = move_to_centroids(x, cells)
             if self._at_rest(cells):
@@ -109,7 +110,7 @@ class Lloyd:
             margin = 1.05 * cells.reach  # cells even out, and the border with them
         return x
 
-    def _by_lbfgs(self, x: FloatArray, iterations: int) -> FloatArray:
+    def _by_lbfgs(self, x: FloatArray, iterations: int, told: Told) -> FloatArray:
         """Lower the energy by L-BFGS, whose first step is one of Lloyd's where cells are equal."""
         from scipy.optimize import minimize
 
@@ -126,12 +127,14 @@ class Lloyd:
 
         if iterations == 0:
             return x
+        steps = itertools.count(1)
         try:
             found = minimize(
                 objective,
                 x.ravel(),
                 jac=True,
                 method="L-BFGS-B",
+                callback=lambda _: told(next(steps) / (iterations + 1)),
                 options={"maxiter": iterations, "maxfun": 20 * iterations, "ftol": 0.0, "gtol": 0.0},
             )
         except _AtRest as rest:

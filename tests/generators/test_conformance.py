@@ -23,7 +23,6 @@ QUICK: dict[str, dict[str, Any]] = {
     "oztireli": {"iterations": 3},
     "sph": {"iterations": 20},
     "kdm": {"iterations": 3},
-    "kernelenergy": {"gradients": 10},
     "electrostatic": {"iterations": 10},
     "sliced": {"iterations": 20},
     **{name: {"iterations": 4} for name in ("step", "peak", "staircase", "targeted")},

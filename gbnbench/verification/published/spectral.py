@@ -7,6 +7,7 @@ from gbnbench.core.torus import FloatArray
 from gbnbench.verification.published_figure import PublishedFigure
 
 STEP = "Heck, Schlömer & Deussen, Blue noise sampling with controlled aliasing, ACM Trans. Graph. 32(3), 2013"
+MATCHED = "step[method=correlation]"
 STEP_SETS = "measured on sets published by the deepsampling project"
 
 
@@ -36,6 +37,25 @@ SPECTRAL = (
     ),
     PublishedFigure(
         "step", "power_at_1", "5e-5 to 7e-5", 0.0, 7e-5, "at or below the published power", STEP_SETS,
+    ),
+    PublishedFigure(
+        MATCHED, "min_distance", ".22 to .23", 0.20, 0.26, "the least distances of sets spread by .02", STEP,
+    ),
+    PublishedFigure(
+        MATCHED, "mean_distance", ".65", 0.64, 0.665, "the spread over sets is .006; published to two digits",
+        STEP,
+    ),
+    PublishedFigure(MATCHED, "bond_order", ".36", 0.345, 0.375, "the spread over sets is .01", STEP),
+    PublishedFigure(
+        MATCHED, "effective_nyquist", ".570", 0.5595, 0.5755, "it is found in steps of .005", STEP,
+    ),
+    PublishedFigure(
+        MATCHED, oscillations_of_one_set, ".11 to .15", 0.09, 0.20,
+        "the spread over sets is .03 by this method too", STEP,
+    ),
+    PublishedFigure(
+        MATCHED, "noise_floor", "6.3e-3 to 6.9e-3", 4e-3, 1.6e-2,
+        "sets by this method have 5e-3 to 1.5e-2; two were published", STEP_SETS,
     ),
     PublishedFigure(
         "staircase", "power_at_1", "2.5e-3 to 9e-3", 0.0, 9e-3, "at or below the published power", STEP_SETS,

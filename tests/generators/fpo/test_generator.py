@@ -30,6 +30,13 @@ def test_distances_are_those_published(n: int, seed: int):
     assert distance.mean() - distance.min() < 0.012
 
 
+def test_the_local_strategy_reaches_the_same_distances():
+    x = FarthestPoint(strategy="local")(256, 2, np.random.default_rng(1))
+    distance = nearest_distances(x)
+    assert distance.min() >= 0.925
+    assert 0.926 < distance.mean() < 0.945
+
+
 def test_minimum_distance_never_falls_and_the_stop_rule_holds():
     unit = densest_spacing(256, 2)
     results = FarthestPoint().optimise(np.random.default_rng(11).random((4, 256, 2)))

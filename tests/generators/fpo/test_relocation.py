@@ -52,6 +52,32 @@ def test_sweeps_move_every_point_to_the_farthest_place(n: int, count: int):
     assert work.nearest[0] == pytest.approx(minimum_distance(x), abs=1e-9)
 
 
+def local_oracle_sweep(x: FloatArray) -> FloatArray:
+    x = x.copy()
+    for v in range(len(x)):
+        corners, _, _ = gaps(x)
+        neighbours = set(corners[np.any(corners == v, axis=1)].ravel().tolist()) - {v}
+        others = np.delete(np.arange(len(x)), v)
+        corners, centre, radius = gaps(x[others])
+        near = np.isin(others[corners], sorted(neighbours)).any(axis=1)
+        far = int(np.argmax(np.where(near, radius, 0)))
+        step = x[others] - x[v]
+        if radius[far] > np.linalg.norm(step - np.round(step), axis=1).min():
+            x[v] = centre[far]
+    return x
+
+
+def test_local_sweeps_look_beside_former_neighbours():
+    work = Sweeps(np.random.default_rng(0).random((1, 90, 2)))
+    work.sweep(ALL)
+    x = work.download()[0]
+    local, everywhere = Sweeps(x[None], local=True), Sweeps(x[None])
+    local.sweep(ALL)
+    everywhere.sweep(ALL)
+    np.testing.assert_allclose(local.download()[0], local_oracle_sweep(x), atol=1e-9)
+    assert np.abs(local.download() - everywhere.download()).max() > 1e-3
+
+
 def test_maintained_triangulation_is_the_delaunay_triangulation():
     n = 300
     work = Sweeps(np.random.default_rng(7).random((1, n, 2)))

@@ -161,7 +161,10 @@ def test_each_set_gets_its_own_band_back():
     enough = float(energy(x).excess.min()) * (1 + 1e-9)
     step = step_sizes.step_size(2100, 2, 1.0)
     one, other = (
-        optimiser.Nesterov(energy_evaluation(2100, 2, 1.0), x, step, enough, sigma=1.0) for _ in range(2)
+        optimiser.Nesterov(
+            energy_evaluation(2100, 2, 1.0), x, step, enough, curvature=step_sizes.gaussian_curvature(2, 1.0)
+        )
+        for _ in range(2)
     )
     one.advance()
     assert one.finished.sum() == 1

@@ -16,7 +16,7 @@ from gbnbench.core.errors import InputError
 from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.gbn.lowest_band import LowestBandPreconditioner
-from gbnbench.generators.gbn.step_sizes import largest_curvature, step_size
+from gbnbench.generators.gbn.step_sizes import gaussian_curvature, largest_curvature, step_size
 from gbnbench.generators.protocol import realization_rng
 
 
@@ -97,7 +97,7 @@ def test_a_mode_of_the_low_band_is_divided_by_its_own_curvature():
     n, sigma, size = 900, 1.0, 0.26
     side = 30.0
     x = (np.stack(np.meshgrid(*[np.arange(30)] * 2, indexing="ij"), -1).reshape(-1, 2) + 0.5) / 30
-    band = LowestBandPreconditioner(n, 2, sigma)
+    band = LowestBandPreconditioner(n, 2, gaussian_curvature(2, sigma))
     for f, inside in (([1, 2], True), ([4, -1], True), ([5, 0], False)):
         q = 2 * np.pi * np.array(f) / side
         q2 = q @ q

@@ -9,8 +9,8 @@ import pytest
 
 from gbnbench.analysis.measures import measures
 from gbnbench.core.errors import InputError
+from gbnbench.generators.gbn.ewald import EwaldEnergy
 from gbnbench.generators.kernel_based.electrostatic import FORCE, Electrostatic, shaking_length
-from gbnbench.generators.kernel_based.ewald import EwaldEnergy
 from gbnbench.generators.registry import generate
 
 

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from gbnbench.core.torus import FloatArray
-from gbnbench.generators.kernel_based.mesh_sums import MeshEnergy
+from gbnbench.generators.gbn.mesh_sums import MeshEnergy
 
 EXPONENT = 20.0  # both sums stop where their Gaussians fall below exp(-EXPONENT) = 2e-9
 CUT = 3.0  # spacings that the sum over pairs reaches
