@@ -71,6 +71,19 @@ class CommandsByTask(click.Group):
         """
         self.format_commands(ctx, formatter)
 
+    def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002
+        """Write the epilog right below the commands, as a screen has 24 lines.
+
+        Parameters
+        ----------
+        ctx : click.Context
+            Of the command.
+        formatter : click.HelpFormatter
+            Takes the text.
+        """
+        with formatter.indentation():
+            formatter.write_text(str(self.epilog))
+
 
 def _version(context: click.Context, _: click.Parameter, asked: bool) -> None:
     if asked:

@@ -28,18 +28,18 @@ COMMANDS = dict(every_command())
 # Which command has which of the options that several have; report and analyze wait for little.
 BENCHES = "bench periodogram, bench gbn"
 SHARED = {
-    "--out": f"compare spectrum analyze generate generators convert integrate figures, {BENCHES}",
+    "--out": f"compare spectrum analyze generate generators stipple convert integrate figures, {BENCHES}",
     "--json": f"compare spectrum analyze generators integrate check devices doctor, {BENCHES}",
-    "--quiet": f"compare spectrum generate generators integrate figures check doctor, {BENCHES}",
+    "--quiet": f"compare spectrum generate generators stipple integrate figures check doctor, {BENCHES}",
     "--quick": f"figures check doctor, {BENCHES}",
     "--full": f"figures check doctor, {BENCHES}",
-    "--seed": "compare generate generators integrate figures",
+    "--seed": "compare generate generators stipple integrate figures",
     "--jobs": "compare generators integrate figures check",
     "--family": "compare generators integrate",
     "--preset": "compare integrate",
     "--realizations": "compare spectrum generate generators integrate",
-    "--device": "compare spectrum analyze generate generators integrate figures check devices doctor, "
-    f"{BENCHES}",
+    "--device": "compare spectrum analyze generate generators stipple integrate figures check devices "
+    f"doctor, {BENCHES}",
 }
 
 
