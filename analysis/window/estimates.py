@@ -146,7 +146,7 @@ def in_window(
     >>> x = np.random.default_rng(3).random((1000, 2)) * [512, 256]
     >>> found = in_window(x, 0, [512, 256])
     >>> round(found.scalars["s_zero"], 2), round(found.scalars.standard_error["s_zero"], 2)  # Poisson: 1
-    (0.75, 0.15)
+    (0.75, 0.17)
     >>> list(found.pair_correlation.columns)
     ['r', 'spacings', 'g', 'standard_error', 'pairs']
     """

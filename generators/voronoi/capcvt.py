@@ -137,6 +137,10 @@ class CapacityConstrainedVoronoi(SetBySet):
             return energy, gradient.ravel()
 
         steps = itertools.count(1)
+
+        def advance(xk: NDArray[np.float64]) -> None:  # noqa: ARG001 (SciPy goes by the name)
+            told(next(steps) / (self.iterations + 1))
+
         found = minimize(
             objective,
             rng.random(n * d),
@@ -149,6 +153,6 @@ class CapacityConstrainedVoronoi(SetBySet):
                 "ftol": 0.0,
                 "gtol": 1e-9,
             },
-            callback=lambda _: told(next(steps) / (self.iterations + 1)),
+            callback=advance,
         )
         return wrap(found.x.reshape(n, 2))

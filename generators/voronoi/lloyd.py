@@ -128,13 +128,17 @@ class Lloyd(SetBySet):
         if iterations == 0:
             return x
         steps = itertools.count(1)
+
+        def advance(xk: FloatArray) -> None:  # noqa: ARG001 (SciPy goes by the name)
+            told(next(steps) / (iterations + 1))
+
         try:
             found = minimize(
                 objective,
                 x.ravel(),
                 jac=True,
                 method="L-BFGS-B",
-                callback=lambda _: told(next(steps) / (iterations + 1)),
+                callback=advance,
                 options={"maxiter": iterations, "maxfun": 20 * iterations, "ftol": 0.0, "gtol": 0.0},
             )
         except _AtRest as rest:

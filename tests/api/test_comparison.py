@@ -123,6 +123,7 @@ def test_one_source_needs_no_list_and_what_is_refused_is_said(tmp_path):
         compare("jittered", tmp_path / "none", n=50)
 
 
+@pytest.mark.slow
 def test_a_baseline_is_judged(tmp_path):
     compare({"mine": MINE}, tmp_path / "before")
     after = compare({"mine": 0.5 + MINE / 1000}, tmp_path / "after", baseline=tmp_path / "before")

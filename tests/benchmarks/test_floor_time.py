@@ -171,6 +171,7 @@ def test_the_tables_are_whole_and_floors_fall(whole):
     assert (gradients[outcome.speedups.case == "n=100 2D"] > 2).all()
 
 
+@pytest.mark.slow
 def test_the_picture_and_the_report_say_what_was_measured(whole):
     out, outcome, _ = whole
     assert (out / "floor_time.png").read_bytes().startswith(b"\x89PNG")

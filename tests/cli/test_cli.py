@@ -108,6 +108,7 @@ def test_bad_use_is_one_line_and_exit_2(tmp_path: Path) -> None:
     assert sorted(p.name for p in tmp_path.rglob("*")) == ["thesis", "thesis.tex"]
 
 
+@pytest.mark.slow
 def test_generate_writes_what_the_seed_says(tmp_path: Path) -> None:
     done = command(
         "generate", "random", "-n", 32, "-d", 3, "--realizations", 2, "--seed", 5, "-o", "x.csv", cwd=tmp_path

@@ -123,6 +123,7 @@ FIGURES = (
 )
 
 
+@pytest.mark.slow
 def test_figures_that_do_not_agree_end_with_1(
     here: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:

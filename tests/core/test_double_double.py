@@ -5,6 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -25,6 +26,7 @@ def test_sums_and_products_lose_nothing(a: float, b: float) -> None:
     assert Fraction(float(product)) + Fraction(float(rest)) == Fraction(a) * Fraction(b)
 
 
+@pytest.mark.slow
 @given(*[st.fractions(-100, 100, max_denominator=10**9)] * 2)
 def test_arithmetic_has_106_bits(a: Fraction, b: Fraction) -> None:
     x, y = DoubleDouble.of(a), DoubleDouble.of(b)

@@ -93,6 +93,7 @@ def test_a_kernel_that_breaks_its_check_or_the_process_is_named(monkeypatch):
     assert "raises departs from numpy" in examination.examine().verdict
 
 
+@pytest.mark.slow
 def test_a_wrong_kernel_is_named_and_not_trusted(monkeypatch, tmp_path):
     monkeypatch.setattr(cache_folder, "cache_folder", lambda: tmp_path)
     right = kernel_checks.numpy_gradient

@@ -162,6 +162,7 @@ def test_a_part_of_a_file_is_refused_by_name(here, suffix):
         assert "\n" not in str(caught.value)
 
 
+@pytest.mark.slow
 def test_damaged_bytes_are_an_image_or_one_error(here):
     rng = np.random.default_rng(3)
     for suffix in (".png", ".jpg", ".gif", ".tif"):

@@ -102,10 +102,7 @@ class AdaptiveEnergy:
         lanes = runtime.lanes(precision)
         wide = -(-(2 * max(level.reached for level in levels) + 1) // lanes) * lanes
         if wide > WIDEST_LINE:
-            raise InputError(
-                f"kernels reach over {wide} cells, {WIDEST_LINE} at most: the density has too few pixels "
-                "along one axis for kernels this wide"
-            )
+            raise InputError(f"kernels reach over {wide} cells, {WIDEST_LINE} at most: one axis is too short")
         offsets = np.cumsum([0, *(level.values.size for level in levels)])
         flat = np.zeros(int(offsets[-1]) + lanes, self._real)
         for begin, level in zip(offsets, levels, strict=False):
@@ -249,5 +246,4 @@ class AdaptiveEnergy:
         return self._runtime.download(self._found, out).astype(np.float64)
 
     def _global(self, n: int) -> tuple[int]:
-        group = self._runtime.group
-        return (-(-n // group) * group,)
+        return (-(-n // self._runtime.group) * self._runtime.group,)

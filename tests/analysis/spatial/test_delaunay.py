@@ -76,6 +76,7 @@ def test_points_on_a_line() -> None:
     assert made.degree.tolist() == [4, 4, 4, 4]
 
 
+@pytest.mark.slow
 def test_points_in_a_plane_of_space_have_prisms_as_cells() -> None:
     x = np.random.default_rng(8).random((60, 3))
     x[:, 2] = 0.2

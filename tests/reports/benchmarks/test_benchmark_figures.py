@@ -130,6 +130,7 @@ def test_pictures_are_whole_and_their_words_apart(kind):
     assert pdf(figure).rstrip().endswith(b"%%EOF")
 
 
+@pytest.mark.slow
 def test_panels_say_the_case_the_quoted_time_and_the_machine():
     figure = FIGURES["all"]()
     words = " ".join(t.get_text() for t in texts(figure)).replace("\n", " ")
