@@ -25,6 +25,7 @@ from gbnbench.generators.gbn.step_sizes import (
 )
 
 LEAST_CUTOFF = 0.5  # sigmas
+LARGEST = 1e6  # of a cutoff or an edge
 
 
 @dataclass(frozen=True)
@@ -56,8 +57,8 @@ class EnergySettings:
         if not (math.isfinite(self.sigma) and 0.3 <= self.sigma <= 3):
             raise InputError(f"sigma must be between 0.3 and 3 spacings; got {self.sigma}")
         for name in ("cutoff", "edge", "projection_edge"):
-            if not (math.isfinite(getattr(self, name)) and getattr(self, name) >= 0):
-                raise InputError(f"{name} must be 0 or more; got {getattr(self, name)}")
+            if not 0 <= getattr(self, name) <= LARGEST:
+                raise InputError(f"{name} must be 0 or more, up to {LARGEST:g}; got {getattr(self, name)}")
         if self.projection_edge and self.projections == "none":
             raise InputError(
                 f"projection_edge={self.projection_edge:g} goes with projections, such as projections=1; "

@@ -26,6 +26,7 @@ from gbnbench.generators.monitor import Monitor
 from gbnbench.generators.protocol import Family
 
 PAPER_ITERATIONS = 10_000  # what the paper recommends
+MOST_STEPS = 10_000_000  # ten times the publication's longest run
 MOST_BOUND = 0.9  # share of the coordinates that polish may bind
 NUMBERS = 30  # doubles a coordinate that a run keeps at once
 
@@ -108,8 +109,8 @@ class GaussianBlueNoise:
 
     def __post_init__(self) -> None:
         for name in ("gradients", "iterations"):
-            if getattr(self, name) < 0:
-                raise InputError(f"{name} must be 0 or more; got {getattr(self, name)}")
+            if not 0 <= getattr(self, name) <= MOST_STEPS:
+                raise InputError(f"{name} must be 0 or more, up to {MOST_STEPS}; got {getattr(self, name)}")
         for name in ("excess", "polish"):
             if not (math.isfinite(getattr(self, name)) and getattr(self, name) >= 0):
                 raise InputError(f"{name} must be 0 or more; got {getattr(self, name)}")

@@ -13,7 +13,7 @@ from gbnbench.generators.registry import GENERATORS, find, generate
 EXTREMES = ("0", "-1", "1e308", "-1e308", "1e-308", "9" * 30, "nan", "inf", "text")
 
 
-@pytest.mark.parametrize("name", [name for name in GENERATORS if name != "gbn"])  # its cutoff overflows yet
+@pytest.mark.parametrize("name", GENERATORS)
 def test_extreme_settings_are_refused_in_words_if_at_all(name: str) -> None:
     for field in dataclasses.fields(GENERATORS[name]):  # type: ignore[arg-type]
         for value in EXTREMES:
@@ -37,6 +37,8 @@ def test_extreme_settings_are_refused_in_words_if_at_all(name: str) -> None:
         ("staircase[level=1e308]", r"level must be above 0 and at most 1e\+06"),
         ("peak[power=1e308]", r"power must be 0 to 1e\+06"),
         ("deep[edge=1e308]", "edge must be 1e-9 to 1e9"),
+        ("gbn[cutoff=1e308]", r"cutoff must be 0 or more, up to 1e\+06"),
+        ("gbn[gradients=1e12]", "gradients must be 0 or more, up to 10000000"),
     ],
 )
 def test_what_would_overflow_or_never_end_is_refused(text: str, says: str) -> None:
