@@ -50,7 +50,7 @@ def test_ours_are_the_measures_of_the_sets() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("figure", PUBLISHED, ids=lambda f: f"{f.generator}-{f.measure_name}")
 def test_ours_agrees_with_what_was_published(figure: PublishedFigure) -> None:
-    if (figure.generator, figure.measure, figure.n) in MISSED:
-        pytest.xfail("it is known to disagree: the docstring of the generator says by how much")
     (found,) = verify([figure])
+    if not found.agrees and (figure.generator, figure.measure, figure.n) in MISSED:
+        pytest.xfail(f"known, and said in the docstring: {found.ours:.3g} for {figure.published}")
     assert found.agrees, (found.ours, figure.published)
