@@ -134,7 +134,7 @@ def _half(x: FloatArray, size: int, width: float) -> NDArray[np.bool_]:
     for _ in range(SWEEPS):
         exchanged = 0
         for index in np.flatnonzero(inside):
-            near, gaussian = gaussians.of(index)
+            near, gaussian = gaussians.of(int(index))
             without = voids.copy()
             without[near] -= gaussian
             void = int(without.argmin())
