@@ -29,8 +29,6 @@ class SinglePeak(RingMeans):
         Of the peak, its integral over nu; by default 0.21 in the plane. 0 leaves a step.
     width : float or None
         Standard deviation of the blur along nu; by default 0.05 in the plane.
-    highest, core, iterations, method
-        As those of ``targeted``.
 
     Raises
     ------
