@@ -1,4 +1,4 @@
-"""How every adaptive set is begun: what cannot be made is refused in words, and progress may go unheard."""
+"""The common part of adaptive generators: refusals in words before a set is drawn, and progress."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ from abc import ABC, abstractmethod
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray
@@ -66,7 +65,7 @@ class AdaptiveMethod(ABC):
     def __call__(
         self, density: Density, n: int, rng: np.random.Generator, told: Told | None = None
     ) -> FloatArray:
-        """Draw one set, as ``AdaptiveGenerator.__call__`` says; RefusalError where ``refusal`` has a reason."""
+        """Draw one set, as ``AdaptiveGenerator.__call__``; RefusalError with the reason why not."""
         if reason := self.refusal(density, n):
             raise RefusalError(reason)
         return self.one_set(density, n, rng, unheard if told is None else told)
@@ -109,20 +108,3 @@ def too_fine(density: Density, n: int, pixels: int, way_out: str = "a smaller im
         f"{n:,} points on {density.values.size:,} pixels need these cut into {pixels:,}, and "
         f"{MOST_PIXELS:,} are the most: fewer points, or {way_out}"
     )
-
-
-def pixels_of(density: Density, x: FloatArray) -> tuple[NDArray[np.intp], ...]:
-    """Tell in which pixel each point lies, as an index of the density's values.
-
-    Parameters
-    ----------
-    density : Density
-        The density.
-    x : (n, d) float64
-        Points within it, in pixels.
-
-    Returns
-    -------
-    tuple of d (n,) intp
-    """
-    return tuple(np.minimum(x.astype(np.intp), np.array(density.shape) - 1).T)

@@ -11,11 +11,12 @@ from numpy.typing import NDArray
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density
+from gbnbench.generators.adaptive.domain import within
 from gbnbench.generators.adaptive.method import AdaptiveMethod
 from gbnbench.generators.adaptive.protocol import Told
 from gbnbench.generators.adaptive.rejection import Rejection
 from gbnbench.generators.adaptive.voronoi.secord import on_ink, parts_refusal
-from gbnbench.generators.adaptive.voronoi.weighted_cells import CellParts, WeightedCells, within
+from gbnbench.generators.adaptive.voronoi.weighted_cells import CellParts, WeightedCells
 
 TURNS_TO_COUNT = 60  # in which the number of points is made the one asked for
 LAST_MOVES = 5  # to centroids, once it is

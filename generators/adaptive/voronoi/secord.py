@@ -11,10 +11,11 @@ from scipy.spatial import cKDTree
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density
+from gbnbench.generators.adaptive.domain import pixels_of, within
 from gbnbench.generators.adaptive.hilbert_start import hilbert_start
-from gbnbench.generators.adaptive.method import AdaptiveMethod, pixels_of, too_fine
+from gbnbench.generators.adaptive.method import AdaptiveMethod, too_fine
 from gbnbench.generators.adaptive.protocol import Told
-from gbnbench.generators.adaptive.voronoi.weighted_cells import CellParts, parts_of_pixels, within
+from gbnbench.generators.adaptive.voronoi.weighted_cells import CellParts, parts_of_pixels
 
 
 @dataclass(frozen=True)
