@@ -83,7 +83,9 @@ def unheard(done: int, steps: int, doing: str) -> None:
     """
 
 
-def too_fine(density: Density, n: int, pixels: int, way_out: str = "a smaller image") -> str | None:
+def too_fine(
+    density: Density, n: int, pixels: int, way_out: str = "a smaller image", most: int = MOST_PIXELS
+) -> str | None:
     """Say that pixels would have to be cut into more parts than there may be.
 
     Parameters
@@ -96,15 +98,17 @@ def too_fine(density: Density, n: int, pixels: int, way_out: str = "a smaller im
         Parts of pixels in all.
     way_out : str
         What helps, besides fewer points.
+    most : int
+        How many there may be.
 
     Returns
     -------
     str or None
         The reason; None where they are few enough.
     """
-    if pixels <= MOST_PIXELS:
+    if pixels <= most:
         return None
     return (
         f"{n:,} points on {density.values.size:,} pixels need these cut into {pixels:,}, and "
-        f"{MOST_PIXELS:,} are the most: fewer points, or {way_out}"
+        f"{most:,} are the most: fewer points, or {way_out}"
     )

@@ -9,6 +9,7 @@ import numpy as np
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.settings import configure, nearest, parse
 from gbnbench.core.torus import FloatArray
+from gbnbench.generators.adaptive.charges.electrostatic import ElectrostaticHalftoning
 from gbnbench.generators.adaptive.density import Density
 from gbnbench.generators.adaptive.dithering.error_diffusion import FloydSteinberg
 from gbnbench.generators.adaptive.dithering.mask import VoidAndClusterDither
@@ -25,6 +26,7 @@ ADAPTIVE_GENERATORS: dict[str, type[AdaptiveGenerator]] = {
     "secord": WeightedVoronoi,
     "lbg": LindeBuzoGray,
     "bnot": WeightedOptimalTransport,
+    "electrostatic": ElectrostaticHalftoning,
     "rejection": Rejection,
     "floydsteinberg": FloydSteinberg,
     "voidcluster": VoidAndClusterDither,
