@@ -14,6 +14,7 @@ from gbnbench.generators.adaptive.density import Density
 from gbnbench.generators.adaptive.dithering.error_diffusion import FloydSteinberg
 from gbnbench.generators.adaptive.dithering.mask import VoidAndClusterDither
 from gbnbench.generators.adaptive.gbn.generator import AdaptiveGaussianBlueNoise
+from gbnbench.generators.adaptive.kernel_density.kdm import AdaptiveKernelDensity
 from gbnbench.generators.adaptive.power_cells.bnot import WeightedOptimalTransport
 from gbnbench.generators.adaptive.protocol import AdaptiveGenerator, Told
 from gbnbench.generators.adaptive.rejection import Rejection
@@ -27,6 +28,7 @@ ADAPTIVE_GENERATORS: dict[str, type[AdaptiveGenerator]] = {
     "lbg": LindeBuzoGray,
     "bnot": WeightedOptimalTransport,
     "electrostatic": ElectrostaticHalftoning,
+    "kdm": AdaptiveKernelDensity,
     "rejection": Rejection,
     "floydsteinberg": FloydSteinberg,
     "voidcluster": VoidAndClusterDither,
