@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.core.torus import FloatArray
+from gbnbench.generators.adaptive.domain import pixels_of, shortest, within
 from gbnbench.generators.adaptive.gbn.energy import AdaptiveEnergy
 
 STEP = 1.2  # over the largest curvature of the uniform energy
@@ -68,7 +69,7 @@ def descend(
         lowest = min(lowest, at.energy)
         if told is not None:
             told(number + 1, at.energy)
-        ahead = _shortest(energy, moved - x)
+        ahead = shortest(energy.density, moved - x)
         if above >= PATIENCE:
             size, above, lowest = size * SHORTER, 0, at.energy
             momentum, y = 1.0, moved
@@ -108,23 +109,12 @@ def _inside(energy: AdaptiveEnergy, x: FloatArray) -> FloatArray:
     """Bring points back to the torus, or to the domain's border."""
     shape = np.array(energy.density.shape, np.float64)
     if energy.density.toroidal:
-        wrapped = x - shape * np.floor(x / shape)
-        return np.where(wrapped >= shape, 0.0, wrapped)
+        return within(energy.density, x)
     return np.clip(x, INSIDE, shape - INSIDE)
-
-
-def _shortest(energy: AdaptiveEnergy, move: FloatArray) -> FloatArray:
-    """Give moves their shortest image."""
-    if not energy.density.toroidal:
-        return move
-    shape = np.array(energy.density.shape, np.float64)
-    return move - shape * np.rint(move / shape)
 
 
 def _allowed(energy: AdaptiveEnergy, x: FloatArray, widths: FloatArray) -> NDArray[np.bool_]:
     """Tell which places have ink, and kernels not much wider than before."""
-    values = energy.density.values
-    pixel = np.minimum(x.astype(np.intp), np.array(values.shape) - 1)
-    inked = values[tuple(pixel.T)] > 0
+    inked = energy.density.values[pixels_of(energy.density, x)] > 0
     allowed: NDArray[np.bool_] = inked & (energy.widths(x)[0] < WIDER * widths)
     return allowed
