@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gbnbench.analysis.reconstruction.density_estimates import ESTIMATES, Estimate, reconstructed_density
+from gbnbench.analysis.reconstruction.shaping import LEAST
 from gbnbench.core.errors import InputError
 from gbnbench.core.settings import nearest
 from gbnbench.core.torus import FloatArray
@@ -171,5 +172,5 @@ def _amplitudes(amplitudes: ArrayLike, n: int, method: Estimate) -> FloatArray:
         raise InputError(f"amplitudes must be one number a point, ({n},); got shape {a.shape}")
     if not (a > 0).all() or not np.isfinite(a).all():
         raise InputError("amplitudes must be finite numbers above 0")
-    scaled: FloatArray = a / a.mean()
+    scaled: FloatArray = np.maximum(a / a.mean(), LEAST)
     return scaled
