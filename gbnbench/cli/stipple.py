@@ -14,7 +14,7 @@ from gbnbench.cli.late_progress import late_progress
 from gbnbench.core.errors import InputError
 
 if TYPE_CHECKING:
-    from gbnbench.api.stipple import Stippling
+    from gbnbench.api.stippling import Stippling
     from gbnbench.io.images import Image
     from gbnbench.studies.stippling.darkness import Darkness, ToneCurve
 
@@ -130,7 +130,7 @@ def stipple(
         from gbnbench.cli.braille import braille
 
         click.echo(braille(drawn.values()))
-    counts = ", ".join(f"{len(made.points):,} dots of {ink}" for ink, made in drawn.items())
+    counts = ", ".join(f"{len(made.pixels):,} dots of {ink}" for ink, made in drawn.items())
     page = page_of(drawn, width_mm=width_mm, dots=dots, dot_mm=dot_mm)
     sizes = sorted({round(2 * r, 3) for layer in page.layers for r in (layer.radii.min(), layer.radii.max())})
     across = f"{sizes[0]:g}" if len(sizes) == 1 else f"{sizes[0]:g} to {sizes[-1]:g}"
