@@ -8,6 +8,8 @@ The names below load their modules when first used, so that importing gbnbench c
 - ``generate(name, n=, d=, seed=, realizations=, **settings)``: point sets from a generator;
 - ``generator_table()``: every generator with its family, dimensions, cost and reference;
 - ``stipple(image, n)``: points whose density follows an image, a volume or a function, as a ``Stippling``;
+- ``compare_stipplings(image, sources)``: stipplers and stipplings by anybody side by side, as a
+  ``StipplingComparison``;
 - ``load(path)``, ``save(path, x)``: point-set files;
 - ``wrap(x)``, ``scale(x, low, high)``: points brought onto the unit torus [0, 1)^d;
 - ``periodogram(x, fmax)``: exact power at every integer frequency; ``radial(spectrum)``: its radial mean;
@@ -35,6 +37,7 @@ if TYPE_CHECKING:
     from gbnbench.api.comparison import Comparison
     from gbnbench.api.integration import Integration, integrate
     from gbnbench.api.stipple import Stippling, stipple
+    from gbnbench.api.stipplings import StipplingComparison, compare_stipplings
     from gbnbench.core.errors import GbnbenchError
     from gbnbench.core.results.radial import ShellSpectrum
     from gbnbench.core.results.spectrum import Spectrum
@@ -53,8 +56,10 @@ __all__ = [
     "Spectrum",
     "SpectrumPlan",
     "Stippling",
+    "StipplingComparison",
     "WindowEstimates",
     "compare",
+    "compare_stipplings",
     "generate",
     "generator_table",
     "in_window",
@@ -79,8 +84,10 @@ _MODULES = {
     "Spectrum": "gbnbench.core.results.spectrum",
     "SpectrumPlan": "gbnbench.analysis.spectrum.spectrum_plan",
     "Stippling": "gbnbench.api.stipple",
+    "StipplingComparison": "gbnbench.api.stipplings",
     "WindowEstimates": "gbnbench.analysis.window.estimates",
     "compare": "gbnbench.api.compare",
+    "compare_stipplings": "gbnbench.api.stipplings",
     "generate": "gbnbench.generators.registry",
     "generator_table": "gbnbench.generators.listing",
     "in_window": "gbnbench.analysis.window.estimates",

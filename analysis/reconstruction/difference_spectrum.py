@@ -63,8 +63,8 @@ def difference_power(
     mass = float(_of_pixels(density, np.zeros(2, int), squares)[0, 0].real)
     half = np.abs(found) ** 2 / mass
     power = np.concatenate([half[::-1, :0:-1], half], axis=1)
-    axes = [np.arange(-f, f + 1) * (spacing / side) for f, side in zip(harmonics, sides, strict=True)]
-    nu: FloatArray = np.hypot(axes[0][:, None], axes[1])
+    down, across = (np.arange(-f, f + 1) * (spacing / side) for f, side in zip(harmonics, sides, strict=True))
+    nu: FloatArray = np.hypot(down[:, None], across)
     return nu, power
 
 
@@ -117,8 +117,7 @@ def _of_pixels(density: FloatArray, harmonics: NDArray[np.int_], coefficients: F
             g = f - j  # h is a sum of c exp(2 pi i j u)
             line += c * np.sinc(g / count)[:, None] * np.exp(-2j * np.pi * g[:, None] * centres)
         lines.append(line)
-    found: ComplexArray = lines[0] @ density @ lines[1].T
-    return found
+    return np.asarray(lines[0] @ density @ lines[1].T, np.complex128)
 
 
 def _frequencies(harmonics: NDArray[np.int_]) -> tuple[FloatArray, FloatArray]:

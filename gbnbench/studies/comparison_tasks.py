@@ -88,7 +88,6 @@ def draw_realization(
         The points with the CPU seconds of one draw, and whether that was the worker's first of its kind.
     """
 
-
     def draw() -> FloatArray:
         return checked_draw(generator, generator(n, d, realization_rng(seed, k)), n, d)
 

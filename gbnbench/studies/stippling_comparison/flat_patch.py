@@ -69,7 +69,9 @@ def flattest_patch(density: FloatArray, n: int) -> FlatPatch | None:
     sums = [np.pad(part.cumsum(axis=0).cumsum(axis=1), ((1, 0), (1, 0))) for part in (density, density**2)]
     found: list[FlatPatch] = []
     for side in _sides(min(density.shape)):
-        mass, squares = (t[side:, side:] - t[:-side, side:] - t[side:, :-side] + t[:-side, :-side] for t in sums)
+        mass, squares = (
+            t[side:, side:] - t[:-side, side:] - t[side:, :-side] + t[:-side, :-side] for t in sums
+        )
         enough = mass >= least * total * (1 - 1e-9)
         if not enough.any():
             continue

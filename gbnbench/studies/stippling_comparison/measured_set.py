@@ -1,4 +1,4 @@
-"""What is measured of one set for a density: its error, the picture found back from it, and local spectra."""
+"""Measures of one set for a density: its error, the picture found back from it, and local spectra."""
 
 from __future__ import annotations
 
@@ -24,36 +24,51 @@ PATCH_NU = 2.0
 
 MEASURES: tuple[Definition, ...] = (
     Definition(
-        "relative_variance", "variance", "", "lower",
-        "Mean over the density of ((A - T) / T)^2: A sums Gaussians whose widths follow the density, T is the "
-        "density blurred by as much.",
+        "relative_variance",
+        "variance",
+        "",
+        "lower",
+        "Mean over the density of ((A - T) / T)^2: A sums Gaussians whose widths follow the density, T is "
+        "the density blurred by as much.",
         "Ahmed, Ren & Wonka 2022, Eq. 29 and 47, relative",
     ),
     Definition(
-        "blurred_difference", "F16", "", "lower",
-        "Root mean square of the set less the density, both blurred by a Gaussian of 16 pixels, over the mean "
-        "density.",
+        "blurred_difference",
+        "F16",
+        "",
+        "lower",
+        "Root mean square of the set less the density, both blurred by a Gaussian of 16 pixels, over the "
+        "mean density.",
         "gbnbench",
     ),
     Definition(
-        "psnr", "PSNR", "dB", "higher",
-        "Peak signal to noise of the picture that Algorithm 2 finds back from the points alone (sigma 0.5, 15 "
-        "iterations, mean normalised, points mirrored at the borders), at its best gain.",
+        "psnr",
+        "PSNR",
+        "dB",
+        "higher",
+        "Peak signal to noise of the picture that Algorithm 2 finds back from the points alone (sigma 0.5, "
+        "15 iterations, mean normalised, points mirrored at the borders), at its best gain.",
         "Ahmed, Ren & Wonka 2022, Sec. 4.10",
     ),
     Definition(
-        "ssim", "SSIM", "", "higher",
+        "ssim",
+        "SSIM",
+        "",
+        "higher",
         "Structural similarity of the same picture, windows of 7 pixels.",
         "Wang, Bovik, Sheikh & Simoncelli 2004",
     ),
     Definition(
-        "patch_floor", "patch floor", "power", "lower",
-        "Mean power of the points less the density in the flattest square of the image, over 0 < nu <= 0.25 of "
-        "its own spacing, seen through the taper of Blackman and Harris, which mixes frequencies within 4 "
-        "cycles.",
+        "patch_floor",
+        "patch floor",
+        "power",
+        "lower",
+        "Mean power of the points less the density in the flattest square of the image, over 0 < nu <= 0.25 "
+        "of its own spacing, seen through the taper of Blackman and Harris, which mixes frequencies within "
+        "4 cycles.",
         "gbnbench",
     ),
-)  # fmt: skip
+)
 
 
 def reconstruction_quality(

@@ -107,6 +107,7 @@ def stippling_sources(
     """
     sources: list[StipplingSource] = []
     skipped: list[str] = []
+    stems = Counter(Path(item).stem for _, item in given if isinstance(item, (str, Path)))
     for label, item in given:
         generator = _generator(item)
         if generator is not None:
@@ -117,14 +118,8 @@ def stippling_sources(
                 sources.append(StipplingSource("", text, n, realizations, generator))
         elif isinstance(item, (str, Path)):
             path = Path(item)
-            shape = (density.shape[0], density.shape[1])
-            sources += [
-                StipplingSource(
-                    "", label or path.stem, sets.shape[1], len(sets), sets=sets, digest=digest, kind="files",
-                    reading=reading.record(),
-                )
-                for sets, digest in sets_on_image(path, shape, reading)
-            ]  # fmt: skip
+            title = label or (path.stem if stems[path.stem] == 1 else str(path))
+            sources += _files(path, title, density, reading)
         else:
             sources.append(_array(item, label or "array", density))
     said = reading.record()
@@ -151,6 +146,15 @@ def _generator(item: StipplingSourceLike) -> AdaptiveGenerator | None:
         f"{item!r} is neither a generator for densities nor an existing file or folder"
         f"{nearest(name, ADAPTIVE_GENERATORS)}; the generators are {known}"
     )
+
+
+def _files(path: Path, label: str, density: Density, reading: ReadingOptions) -> list[StipplingSource]:
+    """Read the sets of a file or folder, a source for each n among them."""
+    said = reading.record()
+    return [
+        StipplingSource("", label, x.shape[1], len(x), sets=x, digest=digest, kind="files", reading=said)
+        for x, digest in sets_on_image(path, (density.shape[0], density.shape[1]), reading)
+    ]
 
 
 def _array(item: StipplingSourceLike, label: str, density: Density) -> StipplingSource:

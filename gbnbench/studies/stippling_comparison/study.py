@@ -1,4 +1,4 @@
-"""The comparison of stipplings: sets for one density are drawn and measured in a folder that can be resumed."""
+"""The comparison of stipplings: sets for one density, drawn and measured in a folder to be resumed."""
 
 from __future__ import annotations
 
@@ -88,7 +88,7 @@ def run_stippling_comparison(
     sources : sequence of StipplingSource
         From ``stippling_sources``.
     density : Density
-        Of an image, bounded.
+        Of an image, of two axes and bounded.
     name : str
         What it is called.
     n : int
@@ -130,9 +130,6 @@ def run_stippling_comparison(
     for what, value, least in (("jobs", 1 if jobs is None else jobs, 1), ("seed", seed, 0)):
         if value < least:
             raise InputError(f"{what} must be at least {least}; got {value}")
-    if density.d != 2 or density.toroidal:
-        kind = "volumes" if density.d != 2 else "tiles, whose opposite borders meet"
-        raise InputError(f"stipplings are compared on images, not on {kind}")
     patch = flattest_patch(density.values, n)
     settings: dict[str, Any] = {
         "gbnbench": __version__,
@@ -184,9 +181,7 @@ def run_stippling_comparison(
                 store.finish(manifest)
 
         undrawn = failure_of(last_steps) if run.sources else ""
-    return StipplingOutcome(
-        run, store.path, work.reused, len(tasks), time.monotonic() - began, undrawn
-    )
+    return StipplingOutcome(run, store.path, work.reused, len(tasks), time.monotonic() - began, undrawn)
 
 
 def drawn_and_measured(
