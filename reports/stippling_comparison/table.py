@@ -50,7 +50,20 @@ def rows(run: StipplingRun) -> list[StipplingRow]:
 
 
 def row_label(source: StipplingResult, run: StipplingRun) -> str:
-    """Label of a source in one line, with n where the run has several."""
+    """Return the text of the first column.
+
+    Parameters
+    ----------
+    source : StipplingResult
+        Source of the row.
+    run : StipplingRun
+        The comparison.
+
+    Returns
+    -------
+    str
+        Label of the source in one line, with n where the run has several.
+    """
     label = "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in source.label)
     return f"{label} n={source.n}" if len({one.n for one in run.sources}) > 1 else label
 

@@ -38,6 +38,7 @@ def sample(n: int = 100, labels: tuple[str, ...] = ("rejection", "<b>&")) -> Sti
     return assembled(manifest, DENSITY.values, found, ("third: it failed",))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("n", [100, 40])  # with and without a square that holds enough points
 def test_every_figure_and_the_page_are_made(tmp_path, n):
     made = sample(n)
