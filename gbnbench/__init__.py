@@ -37,7 +37,8 @@ if TYPE_CHECKING:
     from gbnbench.api.comparison import Comparison
     from gbnbench.api.integration import Integration, integrate
     from gbnbench.api.stipple import Stippling, stipple
-    from gbnbench.api.stipplings import StipplingComparison, compare_stipplings
+    from gbnbench.api.stippling_comparison import StipplingComparison
+    from gbnbench.api.stipplings import compare_stipplings
     from gbnbench.core.errors import GbnbenchError
     from gbnbench.core.results.radial import ShellSpectrum
     from gbnbench.core.results.spectrum import Spectrum
@@ -84,7 +85,7 @@ _MODULES = {
     "Spectrum": "gbnbench.core.results.spectrum",
     "SpectrumPlan": "gbnbench.analysis.spectrum.spectrum_plan",
     "Stippling": "gbnbench.api.stipple",
-    "StipplingComparison": "gbnbench.api.stipplings",
+    "StipplingComparison": "gbnbench.api.stippling_comparison",
     "WindowEstimates": "gbnbench.analysis.window.estimates",
     "compare": "gbnbench.api.compare",
     "compare_stipplings": "gbnbench.api.stipplings",

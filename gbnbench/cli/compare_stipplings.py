@@ -17,7 +17,7 @@ from gbnbench.cli.undrawn import undrawn
 from gbnbench.core.errors import UnfinishedError
 
 if TYPE_CHECKING:
-    from gbnbench.api.stipplings import StipplingComparison
+    from gbnbench.api.stippling_comparison import StipplingComparison
     from gbnbench.io.points import ReadingOptions
 
 SINGLE = "a standard error needs two sets or more"
@@ -76,7 +76,7 @@ def compare_stipplings(
     made = make(
         image,
         sources or DEFAULT_STIPPLERS,
-        n=n[0] if "n" in given else None,
+        n=min(n) if "n" in given else None,
         realizations=realizations if "realizations" in given else 1,
         seed=seed,
         invert=invert,

@@ -16,7 +16,7 @@ def report(run: Path) -> None:
 
     RUN is the folder of a comparison, also of stipplings, or of a study of integration.
     """
-    from gbnbench.api import comparison, integration, stipplings
+    from gbnbench.api import comparison, integration, stippling_comparison
     from gbnbench.studies.integration.study_folder import is_study
     from gbnbench.studies.stippling_comparison.stippling_folder import is_stippling_run
 
@@ -25,7 +25,7 @@ def report(run: Path) -> None:
         click.echo(f"picture: {run / 'integration.png'}")
         return
     if is_stippling_run(run):
-        stipplings.draw(stipplings.StipplingComparison.read(run).run, run)
+        stippling_comparison.draw(stippling_comparison.StipplingComparison.read(run).run, run)
         click.echo(f"report: {run / 'report.html'}")
         return
     comparison.draw(comparison.Comparison.read(run).run, run)
