@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
@@ -13,6 +14,7 @@ from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import MOST_PIXELS, Density
 from gbnbench.generators.adaptive.gbn.descent import descend
 from gbnbench.generators.adaptive.gbn.energy import RESOLUTION, AdaptiveEnergy
+from gbnbench.generators.adaptive.gbn.joint_energy import JointEnergy, Part, union_density
 from gbnbench.generators.adaptive.hilbert_start import hilbert_start
 from gbnbench.generators.adaptive.protocol import Told
 from gbnbench.opencl import runtime
@@ -34,6 +36,9 @@ class AdaptiveGaussianBlueNoise:
         clumps.
     gradients : int
         How many, at least 0.
+    union : float
+        Weight of the energy of all points where several classes, such as inks, are drawn together, 0 to 100;
+        at 0 each is drawn by itself.
     precision : {"float", "double"}
         Of the sums over neighbours and pixels.
 
@@ -68,10 +73,16 @@ class AdaptiveGaussianBlueNoise:
     smoothing: float = 0.5
     spread: float = 0.3
     gradients: int = 100
+    union: float = 1.0
     precision: Literal["float", "double"] = "float"
 
     def __post_init__(self) -> None:
-        for name, least, most in (("sigma", 0.5, 1.5), ("smoothing", 0.1, 2), ("spread", 0, 1)):
+        for name, least, most in (
+            ("sigma", 0.5, 1.5),
+            ("smoothing", 0.1, 2),
+            ("spread", 0, 1),
+            ("union", 0, 100),
+        ):
             if not least <= getattr(self, name) <= most:
                 raise InputError(f"{name} must be from {least} to {most}; got {getattr(self, name)}")
         if self.gradients < 0:
@@ -132,24 +143,86 @@ class AdaptiveGaussianBlueNoise:
         RefusalError
             If there are too many points for the pixels.
         """
-        if reason := self.refusal(density, n):
+        return self.classes([density], [n], [rng], told)[0]
+
+    def classes(
+        self,
+        densities: Sequence[Density],
+        counts: Sequence[int],
+        rngs: Sequence[np.random.Generator],
+        told: Told | None = None,
+        seen: Callable[[list[FloatArray]], None] | None = None,
+    ) -> list[FloatArray]:
+        """Draw sets of several classes, each of them blue noise and so their union.
+
+        Parameters
+        ----------
+        densities : sequence of Density
+            One a class, on one grid of pixels.
+        counts : sequence of int
+            Points of each class.
+        rngs : sequence of numpy.random.Generator
+            The streams that their starts are drawn from.
+        told : callable, optional
+            Called after each gradient.
+        seen : callable, optional
+            Called with the points at the start and after each gradient.
+
+        Returns
+        -------
+        list of (n, d) float64
+            In pixels, one set a class.
+
+        Raises
+        ------
+        RefusalError
+            If there are too many points for the pixels.
+
+        Notes
+        -----
+        The energy is the sum over classes of (n / n_c)^2 E_c and ``union`` times the energy E of all n points
+        for the sum of the densities. So in flat tones, where a class has the density n_c / n of all, the pull
+        back of a point by its own class is as stiff as that by all points.
+        """
+        whole, n = union_density(densities, counts), sum(counts)
+        if reason := self.refusal(whole, n):
             raise RefusalError(reason)
-        parts = self._parts(density, n)
-        fine = density.finer(parts)
-        x = hilbert_start(density, n, rng) * parts
+        parts = self._parts(whole, n)
+        ends = np.cumsum(counts)[:-1].tolist()
+        starts = zip(densities, counts, rngs, strict=True)
+        x = np.concatenate([hilbert_start(one, count, rng) * parts for one, count, rng in starts])
+        if seen is not None:
+            seen(np.split(x / parts, ends))
         if self.gradients:
-            energy = AdaptiveEnergy(
-                runtime(),
-                fine,
-                n,
-                sigma=self.sigma,
-                smoothing=self.smoothing,
-                spread=self.spread,
+            fine = [one.finer(parts) for one in densities]
+            energy = self._energy(whole.finer(parts), fine, counts)
+
+            def tell(done: int, _: float, now: FloatArray) -> None:
+                if told is not None:
+                    told(done, self.gradients, "gradients of gbn")
+                if seen is not None:
+                    seen(np.split(now / parts, ends))
+
+            x = descend(energy, x, self.gradients, tell)
+        return np.split(x / parts, ends)
+
+    def _energy(
+        self, whole: Density, densities: Sequence[Density], counts: Sequence[int]
+    ) -> AdaptiveEnergy | JointEnergy:
+        """Energy of all points, class after class."""
+        rt, n = runtime(), sum(counts)
+
+        def of(density: Density, points: int) -> AdaptiveEnergy:
+            return AdaptiveEnergy(
+                rt, density, points, sigma=self.sigma, smoothing=self.smoothing, spread=self.spread,
                 precision=self.precision,
-            )
-            if told is None:
-                x = descend(energy, x, self.gradients)
-            else:
-                steps, tell = self.gradients, told
-                x = descend(energy, x, steps, lambda done, _: tell(done, steps, "gradients of gbn"))
-        return x / parts
+            )  # fmt: skip
+
+        if len(counts) == 1:
+            return of(whole, n)
+        parts = [Part(slice(0, n), of(whole, n), self.union)] if self.union else []
+        first = 0
+        for density, count in zip(densities, counts, strict=True):
+            parts.append(Part(slice(first, first + count), of(density, count), (n / count) ** 2))
+            first += count
+        return JointEnergy(whole, parts)
