@@ -34,7 +34,8 @@ if TYPE_CHECKING:
     from gbnbench.api.compare import compare
     from gbnbench.api.comparison import Comparison
     from gbnbench.api.integration import Integration, integrate
-    from gbnbench.api.stipple import Stippling, stipple
+    from gbnbench.api.stipple import stipple
+    from gbnbench.api.stippling import Stippling
     from gbnbench.core.errors import GbnbenchError
     from gbnbench.core.results.radial import ShellSpectrum
     from gbnbench.core.results.spectrum import Spectrum
@@ -78,7 +79,7 @@ _MODULES = {
     "ShellSpectrum": "gbnbench.core.results.radial",
     "Spectrum": "gbnbench.core.results.spectrum",
     "SpectrumPlan": "gbnbench.analysis.spectrum.spectrum_plan",
-    "Stippling": "gbnbench.api.stipple",
+    "Stippling": "gbnbench.api.stippling",
     "WindowEstimates": "gbnbench.analysis.window.estimates",
     "compare": "gbnbench.api.compare",
     "generate": "gbnbench.generators.registry",

@@ -21,7 +21,7 @@ from gbnbench.reports.stippling.svg import svg
 from gbnbench.studies.stippling.tour import path_length, tour
 
 if TYPE_CHECKING:
-    from gbnbench.api.stipple import Stippling
+    from gbnbench.api.stippling import Stippling
 
 WIDTH_MM = 160.0
 INKS = {

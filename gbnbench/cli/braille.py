@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from gbnbench.api.stipple import Stippling
+    from gbnbench.api.stippling import Stippling
 
 COLUMNS = 76
 BLANK = 0x2800

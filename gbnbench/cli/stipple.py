@@ -14,7 +14,7 @@ from gbnbench.cli.late_progress import late_progress
 from gbnbench.core.errors import InputError
 
 if TYPE_CHECKING:
-    from gbnbench.api.stipple import Stippling
+    from gbnbench.api.stippling import Stippling
     from gbnbench.io.images import Image
     from gbnbench.studies.stippling.darkness import Darkness, ToneCurve
 

@@ -168,6 +168,31 @@ class AdaptiveEnergy:
         stiffness = (4 * math.pi * variances) ** (-d / 2) / spacings**2
         return AdaptiveGradient(float(energy), gradient, widths, spacings, stiffness)
 
+    def pull(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Look up what the density draws kernels with at any number of places.
+
+        Parameters
+        ----------
+        x : (m, d) float64
+            Places within the density, in pixels.
+
+        Returns
+        -------
+        widths : (m,) float64
+            Of kernels there, in pixels.
+        pulls : (m,) float64
+            G_{s^2} * T there.
+        """
+        widths, pulls = np.empty(len(x)), np.empty(len(x))
+        for first in range(0, len(x), self.n):
+            some = x[first : first + self.n]
+            filled = np.concatenate([some, np.broadcast_to(x[0], (self.n - len(some), x.shape[1]))])
+            at = self._runtime.upload(filled.T.astype(self._real))
+            found = self._widths(at, self.n)[0]
+            widths[first : first + self.n] = found[: len(some)]
+            pulls[first : first + self.n] = self._pull(at, found**2)[self.density.d + 1, : len(some)]
+        return widths, pulls
+
     def allowed(self, x: FloatArray, widths: FloatArray) -> NDArray[np.bool_]:
         """Tell which places have ink, and kernels not much wider than before.
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
@@ -16,7 +16,7 @@ from gbnbench.generators.adaptive.gbn.descent import descend
 from gbnbench.generators.adaptive.gbn.energy import RESOLUTION, AdaptiveEnergy
 from gbnbench.generators.adaptive.gbn.joint_energy import JointEnergy, Part, union_density
 from gbnbench.generators.adaptive.hilbert_start import hilbert_start
-from gbnbench.generators.adaptive.protocol import Told
+from gbnbench.generators.adaptive.protocol import Seen, Told
 from gbnbench.opencl import runtime
 
 
@@ -151,7 +151,7 @@ class AdaptiveGaussianBlueNoise:
         counts: Sequence[int],
         rngs: Sequence[np.random.Generator],
         told: Told | None = None,
-        seen: Callable[[list[FloatArray]], None] | None = None,
+        seen: Seen | None = None,
     ) -> list[FloatArray]:
         """Draw sets of several classes, each of them blue noise and so their union.
 
@@ -195,7 +195,7 @@ class AdaptiveGaussianBlueNoise:
             seen(np.split(x / parts, ends))
         if self.gradients:
             fine = [one.finer(parts) for one in densities]
-            energy = self._energy(whole.finer(parts), fine, counts)
+            energy = self._joint_energy(whole.finer(parts), fine, counts)
 
             def tell(done: int, _: float, now: FloatArray) -> None:
                 if told is not None:
@@ -206,23 +206,47 @@ class AdaptiveGaussianBlueNoise:
             x = descend(energy, x, self.gradients, tell)
         return np.split(x / parts, ends)
 
-    def _energy(
+    def pull(self, density: Density, n: int, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Look up what a density of n points does at any number of places.
+
+        Parameters
+        ----------
+        density : Density
+            The density.
+        n : int
+            Points that it is scaled to.
+        x : (m, d) float64
+            Places, in pixels.
+
+        Returns
+        -------
+        widths : (m,) float64
+            Of the kernels of n points there, in pixels.
+        pulls : (m,) float64
+            The density with its spread, smoothed by these, points a squared pixel (or cubed).
+        """
+        parts = self._parts(density, n)
+        widths, pulls = self._energy(density.finer(parts), n).pull(x * parts)
+        return widths / parts, pulls * parts**density.d
+
+    def _energy(self, density: Density, n: int) -> AdaptiveEnergy:
+        return AdaptiveEnergy(
+            runtime(), density, n, sigma=self.sigma, smoothing=self.smoothing, spread=self.spread,
+            precision=self.precision,
+        )  # fmt: skip
+
+    def _joint_energy(
         self, whole: Density, densities: Sequence[Density], counts: Sequence[int]
     ) -> AdaptiveEnergy | JointEnergy:
         """Energy of all points, class after class."""
-        rt, n = runtime(), sum(counts)
-
-        def of(density: Density, points: int) -> AdaptiveEnergy:
-            return AdaptiveEnergy(
-                rt, density, points, sigma=self.sigma, smoothing=self.smoothing, spread=self.spread,
-                precision=self.precision,
-            )  # fmt: skip
-
+        n = sum(counts)
         if len(counts) == 1:
-            return of(whole, n)
-        parts = [Part(slice(0, n), of(whole, n), self.union)] if self.union else []
+            return self._energy(whole, n)
+        parts = [Part(slice(0, n), self._energy(whole, n), self.union)] if self.union else []
         first = 0
         for density, count in zip(densities, counts, strict=True):
-            parts.append(Part(slice(first, first + count), of(density, count), (n / count) ** 2))
+            parts.append(
+                Part(slice(first, first + count), self._energy(density, count), (n / count) ** 2)
+            )
             first += count
         return JointEnergy(whole, parts)
