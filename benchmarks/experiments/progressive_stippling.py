@@ -1,6 +1,6 @@
 """Prefixes of progressive stipplings beside sets drawn for so many points, for docs/stippling.md.
 
-    python -m gbnbench.benchmarks.experiments.progressive_stippling benchmarks/results/adaptive/progressive.csv
+python -m gbnbench.benchmarks.experiments.progressive_stippling benchmarks/results/adaptive/progressive.csv
 """
 
 from __future__ import annotations

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from gbnbench.api.stippling import Stippling
 from gbnbench.core.errors import DeviceError
 from gbnbench.core.settings import specification
 from gbnbench.core.torus import FloatArray
+from gbnbench.generators.adaptive.gbn.progressive import progressive_order
 from gbnbench.generators.adaptive.protocol import AdaptiveGenerator, Seen, Told
 from gbnbench.generators.adaptive.registry import adaptive_classes, adaptive_generator
 from gbnbench.opencl import choose, use_device
@@ -77,8 +79,8 @@ def draw_inks(
     counts : mapping of str to int
         Points of each.
     method : AdaptiveGenerator or str
-        As ``stipple`` takes it; gbn draws all inks together, so that their union is blue noise too, the others
-        each by itself.
+        As ``stipple`` takes it; gbn draws all inks together, so that their union is blue noise too, others
+        draw each by itself.
     seed, toroidal, progress, device
         As ``stipple`` takes them.
     seen : callable, optional
@@ -131,6 +133,25 @@ def draw_inks(
         )
         for (ink, dark), density, x in zip(darkness.items(), densities, sets, strict=True)
     }
+
+
+def in_progressive_order(made: Stippling, progress: Told | None = None) -> Stippling:
+    """Put the points in an order of which every prefix is a stippling of the image.
+
+    Parameters
+    ----------
+    made : Stippling
+        By any method.
+    progress : callable, optional
+        Called with (points in order, n, what is being done).
+
+    Returns
+    -------
+    Stippling
+        The same points in the new order.
+    """
+    order = progressive_order(made.density, made.points[:, ::-1], told=progress)
+    return replace(made, points=made.points[order], amplitudes=made.amplitudes[order])
 
 
 def _by_ink(inks: Mapping[str, object], seen: Callable[[dict[str, FloatArray]], None]) -> Seen:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from gbnbench.api.drawing import draw
+from gbnbench.api.drawing import draw, in_progressive_order
 from gbnbench.api.stippling import Stippling
 from gbnbench.generators.adaptive.density import Density
 from gbnbench.generators.adaptive.protocol import AdaptiveGenerator
+from gbnbench.opencl import use_device
 from gbnbench.studies.stippling.darkness import ImageLike, ToneCurve, as_darkness
 
 
@@ -18,6 +19,7 @@ def stipple(
     method: AdaptiveGenerator | str = "gbn",
     seed: int = 0,
     toroidal: bool = False,
+    progressive: bool = False,
     invert: bool = False,
     gamma: float = 1.0,
     white_cutoff: float | None = None,
@@ -50,6 +52,8 @@ def stipple(
         >= 0; the points are drawn from ``SeedSequence(seed, spawn_key=(0,))``.
     toroidal : bool
         Opposite borders meet, so that copies side by side have no seam.
+    progressive : bool
+        Order the points so that the first m of them draw the image too, for every m.
     invert : bool
         Of an image: light is dense.
     gamma : float
@@ -91,8 +95,12 @@ def stipple(
     ((300, 2), (384, 303))
     """
     curve = ToneCurve(invert, gamma, white_cutoff)
-    return draw(
+    made = draw(
         as_darkness(image, shape=shape, curve=curve), n,
         method=method, seed=seed, progress=progress, device=device,
         toroidal=toroidal or (isinstance(image, Density) and image.toroidal),
     )  # fmt: skip
+    if progressive:
+        with use_device(device):
+            return in_progressive_order(made, progress)
+    return made

@@ -12,6 +12,7 @@ import numpy as np
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
 from gbnbench.io.points.writer import write_atomically
+from gbnbench.reports.stippling import animation
 from gbnbench.reports.stippling.eps import eps
 from gbnbench.reports.stippling.gcode import GcodeTemplate, gcode
 from gbnbench.reports.stippling.page import DotLayer, Page
@@ -30,6 +31,7 @@ INKS = {
 Dots = Literal["equal", "tone"]
 PICTURES: dict[str, Callable[[Page], bytes]] = {".svg": svg, ".pdf": pdf, ".eps": eps}
 TEXTS = (".txt", ".csv")
+ANIMATIONS = animation.SUFFIXES
 SUFFIXES = (".png", *PICTURES, ".gcode", *TEXTS)
 
 
@@ -44,10 +46,10 @@ def check_picture(path: Path) -> None:
     Raises
     ------
     InputError
-        If it is none of ``SUFFIXES``.
+        If it is none of ``SUFFIXES`` or ``ANIMATIONS``.
     """
-    if path.suffix.lower() not in SUFFIXES:
-        known = ", ".join(SUFFIXES)
+    if path.suffix.lower() not in (*SUFFIXES, *ANIMATIONS):
+        known = ", ".join((*SUFFIXES, *ANIMATIONS))
         raise InputError(f"{path}: stipplings are written as {known}; got extension {path.suffix!r}")
 
 
@@ -85,7 +87,8 @@ def page_of(
     Parameters
     ----------
     layers : mapping of str to Stippling
-        Stipplings in two dimensions of one size, by the names of their inks, in the order of printing.
+        Stipplings in two dimensions of one size, by the names of their inks (of ``INKS``, or ``#rrggbb``), in
+        the order of printing.
     width_mm : float
         Of the page, above 0; its height follows.
     dots : {"equal", "tone"}
@@ -113,7 +116,8 @@ def page_of(
     for name, made in layers.items():
         radius = made.radius * mm if dot_mm is None else dot_mm / 2
         shares = np.sqrt(made.amplitudes) if dots == "tone" else np.ones(len(made.points))
-        sheets.append(DotLayer(name, INKS.get(name, "#000000"), made.points * mm, radius * shares))
+        colour = name if name.startswith("#") else INKS.get(name, "#000000")
+        sheets.append(DotLayer(name, colour, made.points * mm, radius * shares))
     counts = ", ".join(f"{len(made.points)} dots of {name}" for name, made in layers.items())
     text = f"{counts}; {first.method}, seed {first.seed}, gbnbench {first.version}"
     return Page(width_mm, first.size[1] * mm, tuple(sheets), first.name, text)
@@ -185,6 +189,8 @@ def write_stippling(
     """
     check_picture(path)
     suffix = path.suffix.lower()
+    if suffix in ANIMATIONS:
+        raise InputError(f"{path}: gbnbench.api.stippled_frames.write_frames writes moving pictures")
     if suffix in TEXTS:
         write_atomically(path, text_of(layers, suffix))
         return

@@ -16,7 +16,9 @@ from gbnbench.studies.stippling.darkness import PLAIN, Darkness, ToneCurve
 
 MOST_INKS = 8
 FOUND = 4  # colours, unless their number is given
-LEAST_INK = 1e-3  # weight of the ink over the squared error of a colour: of equal mixtures the sparest is taken
+LEAST_INK = (
+    1e-3  # weight of the ink over the squared error of a colour: of equal mixtures the sparest is taken
+)
 SAMPLED = 20_000  # pixels from which a palette is found
 FULL = 0.99  # share of a cluster's pixels that its ink can be as dark as
 CHUNK = 1 << 16  # colours at a time
@@ -175,7 +177,7 @@ def ink_shares(taken: FloatArray, palette: Sequence[str]) -> FloatArray:
     -----
     They make 1/2 |taken - a D|^2 + lambda sum(a) least, D being what the inks take and lambda = 1e-3, which
     prefers one black dot to three of other colours. Every choice of the inks that can be the optimum's, with
-    some paper left or none, is solved and the best that is feasible taken, so that the least is found exactly.
+    some paper left or none, is solved and the best feasible one taken: the least is found exactly.
     """
     inks = np.array([[255 - int(colour[k : k + 2], 16) for k in (1, 3, 5)] for colour in palette]) / 255
     best = 0.5 * (taken**2).sum(axis=1)

@@ -73,7 +73,7 @@ class AdaptiveGaussianBlueNoise:
     smoothing: float = 0.5
     spread: float = 0.3
     gradients: int = 100
-    union: float = 1.0
+    union: float = 0.1
     precision: Literal["float", "double"] = "float"
 
     def __post_init__(self) -> None:
@@ -245,8 +245,6 @@ class AdaptiveGaussianBlueNoise:
         parts = [Part(slice(0, n), self._energy(whole, n), self.union)] if self.union else []
         first = 0
         for density, count in zip(densities, counts, strict=True):
-            parts.append(
-                Part(slice(first, first + count), self._energy(density, count), (n / count) ** 2)
-            )
+            parts.append(Part(slice(first, first + count), self._energy(density, count), (n / count) ** 2))
             first += count
         return JointEnergy(whole, parts)

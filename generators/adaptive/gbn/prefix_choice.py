@@ -95,7 +95,7 @@ class PrefixChoice:
                 break
 
     def by_voids(self) -> NDArray[np.intp]:
-        """Take in the points left out, each the largest void of its time for its density, and tell the order."""
+        """Take in the points left out, each the largest void of its time, and tell the order."""
         outside = np.flatnonzero(~self.inside).tolist()
         voids = [(float(self._sums[k] / self._pulls[k]), k) for k in outside]
         heapq.heapify(voids)
