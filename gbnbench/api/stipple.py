@@ -8,6 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from gbnbench import __version__
+from gbnbench.api.drawing import draw, in_progressive_order
 from gbnbench.api.stippling import Stippling
 from gbnbench.core.errors import DeviceError
 from gbnbench.core.settings import specification
@@ -26,6 +27,7 @@ def stipple(
     method: AdaptiveGenerator | str = "gbn",
     seed: int = 0,
     toroidal: bool = False,
+    progressive: bool = False,
     invert: bool = False,
     gamma: float = 1.0,
     white_cutoff: float | None = None,
@@ -58,6 +60,8 @@ def stipple(
         >= 0; the points are drawn from ``SeedSequence(seed, spawn_key=(0,))``.
     toroidal : bool
         Opposite borders meet, so that copies side by side have no seam.
+    progressive : bool
+        Order the points so that the first m of them draw the image too, for every m.
     invert : bool
         Of an image: light is dense.
     gamma : float
@@ -99,7 +103,7 @@ def stipple(
     ((300, 2), (384, 303))
     """
     curve = ToneCurve(invert, gamma, white_cutoff)
-    return draw(
+    made = draw(
         as_darkness(image, shape=shape, curve=curve), n,
         method=method, seed=seed, progress=progress, device=device,
         toroidal=toroidal or (isinstance(image, Density) and image.toroidal),
@@ -166,3 +170,7 @@ def _device_name() -> str:
         return choose().name
     except DeviceError:  # which a method without kernels does not need
         return ""
+    if progressive:
+        with use_device(device):
+            return in_progressive_order(made, progress)
+    return made

@@ -13,6 +13,7 @@ from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
 from gbnbench.io.points.stippled_points import AMPLITUDE, INK, PictureHeader
 from gbnbench.io.points.writer import write_atomically
+from gbnbench.reports.stippling import animation
 from gbnbench.reports.stippling.eps import eps
 from gbnbench.reports.stippling.gcode import GcodeTemplate, gcode
 from gbnbench.reports.stippling.page import DotLayer, Page
@@ -31,6 +32,7 @@ INKS = {
 Dots = Literal["equal", "tone"]
 PICTURES: dict[str, Callable[[Page], bytes]] = {".svg": svg, ".pdf": pdf, ".eps": eps}
 TEXTS = (".txt", ".csv")
+ANIMATIONS = animation.SUFFIXES
 SUFFIXES = (".png", *PICTURES, ".gcode", *TEXTS)
 
 
@@ -45,10 +47,10 @@ def check_picture(path: Path) -> None:
     Raises
     ------
     InputError
-        If it is none of ``SUFFIXES``.
+        If it is none of ``SUFFIXES`` or ``ANIMATIONS``.
     """
-    if path.suffix.lower() not in SUFFIXES:
-        known = ", ".join(SUFFIXES)
+    if path.suffix.lower() not in (*SUFFIXES, *ANIMATIONS):
+        known = ", ".join((*SUFFIXES, *ANIMATIONS))
         raise InputError(f"{path}: stipplings are written as {known}; got extension {path.suffix!r}")
 
 
@@ -86,7 +88,8 @@ def page_of(
     Parameters
     ----------
     layers : mapping of str to Stippling
-        Stipplings in two dimensions of one size, by the names of their inks, in the order of printing.
+        Stipplings in two dimensions of one size, by the names of their inks (of ``INKS``, or ``#rrggbb``), in
+        the order of printing.
     width_mm : float
         Of the page, above 0; its height follows.
     dots : {"equal", "tone"}
@@ -116,6 +119,10 @@ def page_of(
         shares = np.sqrt(made.amplitudes) if dots == "tone" else np.ones(len(made.pixels))
         sheets.append(DotLayer(name, INKS.get(name, "#000000"), made.pixels * mm, radius * shares))
     counts = ", ".join(f"{len(made.pixels)} dots of {name}" for name, made in layers.items())
+        shares = np.sqrt(made.amplitudes) if dots == "tone" else np.ones(len(made.points))
+        colour = name if name.startswith("#") else INKS.get(name, "#000000")
+        sheets.append(DotLayer(name, colour, made.points * mm, radius * shares))
+    counts = ", ".join(f"{len(made.points)} dots of {name}" for name, made in layers.items())
     text = f"{counts}; {first.method}, seed {first.seed}, gbnbench {first.version}"
     return Page(width_mm, first.size[1] * mm, tuple(sheets), first.name, text)
 
@@ -187,6 +194,8 @@ def write_stippling(
     """
     check_picture(path)
     suffix = path.suffix.lower()
+    if suffix in ANIMATIONS:
+        raise InputError(f"{path}: gbnbench.api.stippled_frames.write_frames writes moving pictures")
     if suffix in TEXTS:
         write_atomically(path, text_of(layers, suffix))
         return
