@@ -11,6 +11,7 @@ import numpy as np
 from gbnbench.analysis.measures import AnalysisArrays, analyse_to_arrays
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import Generator, checked_draw, realization_rng
+from gbnbench.generators.third_parties.faults import faults_in_words
 from gbnbench.io.points.point_sets import NO_TORUS
 from gbnbench.runs.comparison_folder import Realization, realization_key
 from gbnbench.runs.comparison_result import SourceResult
@@ -92,6 +93,18 @@ def draw_realization(
         return checked_draw(generator, generator(n, d, realization_rng(seed, k)), n, d)
 
     return timed_draw((generator, n, d), draw, redraw)
+    first = (generator, n, d) not in _drawn_before
+    _drawn_before.add((generator, n, d))
+    began = cpu_seconds()
+    with faults_in_words(type(generator), f"drawing n={n}, d={d}"):
+        x = generator(n, d, realization_rng(seed, k))
+    cost = cpu_seconds() - began
+    x = checked_draw(generator, x, n, d)
+    if first and redraw and cost < REDRAW_SECONDS:
+        began = cpu_seconds()
+        generator(n, d, realization_rng(seed, k))
+        return Realization(x, cpu_seconds() - began, False)
+    return Realization(x, cost, first)
 
 
 def analyse_realizations(realizations: Sequence[Realization]) -> AnalysisArrays:
