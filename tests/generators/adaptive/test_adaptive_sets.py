@@ -79,7 +79,7 @@ def test_the_energy_falls_from_start_to_end():
     energy = AdaptiveEnergy(runtime(), density, 150, sigma=1.0, smoothing=0.5, spread=0.8, precision="double")
     start = hilbert_start(density, 150, np.random.default_rng(0))
     heard = []
-    end = descend(energy, start, 40, lambda _, now: heard.append(now))
+    end = descend(energy, start, 40, lambda _, now, __: heard.append(now))
     assert len(heard) == 40
     assert energy(end).energy <= min(heard) + 1e-6
     assert energy(end).energy < heard[0]
