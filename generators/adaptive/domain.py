@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density
 
+Mode = Literal["grid-wrap", "nearest"]
+
 
 def within(density: Density, x: FloatArray) -> FloatArray:
     """Bring points back to the torus, or to the nearest place inside of the borders.
@@ -32,7 +34,7 @@ def within(density: Density, x: FloatArray) -> FloatArray:
     return np.clip(x, 0, np.nextafter(shape, 0))
 
 
-def interpolation_mode(*, toroidal: bool) -> Literal["grid-wrap", "nearest"]:
+def interpolation_mode(*, toroidal: bool) -> Mode:
     """Give the name by which ``scipy.ndimage`` knows what lies beyond the border of a field of pixels.
 
     Parameters
