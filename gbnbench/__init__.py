@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from gbnbench.api.comparison import Comparison
     from gbnbench.api.integration import Integration, integrate
     from gbnbench.api.reconstruct import reconstruct
-    from gbnbench.api.stipple import Stippling, stipple
+    from gbnbench.api.stipple import stipple
     from gbnbench.api.stippling import Stippling
     from gbnbench.api.stippling_comparison import StipplingComparison
     from gbnbench.api.stipplings import compare_stipplings
@@ -89,7 +89,6 @@ _MODULES = {
     "Spectrum": "gbnbench.core.results.spectrum",
     "SpectrumPlan": "gbnbench.analysis.spectrum.spectrum_plan",
     "Stippling": "gbnbench.api.stippling",
-    "Stippling": "gbnbench.api.stipple",
     "StipplingComparison": "gbnbench.api.stippling_comparison",
     "WindowEstimates": "gbnbench.analysis.window.estimates",
     "compare": "gbnbench.api.compare",

@@ -2,22 +2,14 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 
-import numpy as np
-
-from gbnbench import __version__
 from gbnbench.api.drawing import draw, in_progressive_order
 from gbnbench.api.stippling import Stippling
-from gbnbench.core.errors import DeviceError
-from gbnbench.core.settings import specification
 from gbnbench.generators.adaptive.density import Density
 from gbnbench.generators.adaptive.protocol import AdaptiveGenerator
-from gbnbench.generators.adaptive.registry import adaptive_generator, adaptive_points
-from gbnbench.opencl import choose, use_device
-from gbnbench.studies.stippling.amplitudes import amplitudes
-from gbnbench.studies.stippling.darkness import Darkness, ImageLike, ToneCurve, as_darkness
+from gbnbench.opencl import use_device
+from gbnbench.studies.stippling.darkness import ImageLike, ToneCurve, as_darkness
 
 
 def stipple(
@@ -108,68 +100,6 @@ def stipple(
         method=method, seed=seed, progress=progress, device=device,
         toroidal=toroidal or (isinstance(image, Density) and image.toroidal),
     )  # fmt: skip
-
-
-def draw(
-    darkness: Darkness,
-    n: int | None = None,
-    *,
-    method: AdaptiveGenerator | str = "gbn",
-    seed: int = 0,
-    realization: int = 0,
-    toroidal: bool = False,
-    progress: Callable[[int, int, str], None] | None = None,
-    device: str | None = None,
-) -> Stippling:
-    """Draw points for a darkness.
-
-    Parameters
-    ----------
-    darkness : Darkness
-        What is to be drawn.
-    n, method, seed, toroidal, progress, device
-        As ``stipple`` takes them.
-    realization : int
-        >= 0; which stream of the seed.
-
-    Returns
-    -------
-    Stippling
-
-    Raises
-    ------
-    InputError
-        If an argument breaks its rule, or nothing is dark.
-    RefusalError
-        If the method cannot make such a set.
-    """
-    generator = adaptive_generator(method) if isinstance(method, str) else method
-    density = darkness.density(toroidal=toroidal)
-    count = darkness.default_n if n is None else n
-    began = time.perf_counter()
-    with use_device(device):
-        x = adaptive_points(generator, density, count, seed=seed, realization=realization, told=progress)
-        used = _device_name()
-    return Stippling(
-        pixels=np.ascontiguousarray(x[:, ::-1]),
-        amplitudes=amplitudes(generator, density, x),
-        density=density,
-        coverage=darkness.coverage,
-        name=darkness.name,
-        method=specification(generator),
-        seed=int(seed),
-        device=used,
-        version=__version__,
-        seconds=time.perf_counter() - began,
-        remarks=darkness.remarks,
-    )
-
-
-def _device_name() -> str:
-    try:
-        return choose().name
-    except DeviceError:  # which a method without kernels does not need
-        return ""
     if progressive:
         with use_device(device):
             return in_progressive_order(made, progress)

@@ -117,12 +117,9 @@ def page_of(
     for name, made in layers.items():
         radius = made.radius * mm if dot_mm is None else dot_mm / 2
         shares = np.sqrt(made.amplitudes) if dots == "tone" else np.ones(len(made.pixels))
-        sheets.append(DotLayer(name, INKS.get(name, "#000000"), made.pixels * mm, radius * shares))
-    counts = ", ".join(f"{len(made.pixels)} dots of {name}" for name, made in layers.items())
-        shares = np.sqrt(made.amplitudes) if dots == "tone" else np.ones(len(made.points))
         colour = name if name.startswith("#") else INKS.get(name, "#000000")
-        sheets.append(DotLayer(name, colour, made.points * mm, radius * shares))
-    counts = ", ".join(f"{len(made.points)} dots of {name}" for name, made in layers.items())
+        sheets.append(DotLayer(name, colour, made.pixels * mm, radius * shares))
+    counts = ", ".join(f"{len(made.pixels)} dots of {name}" for name, made in layers.items())
     text = f"{counts}; {first.method}, seed {first.seed}, gbnbench {first.version}"
     return Page(width_mm, first.size[1] * mm, tuple(sheets), first.name, text)
 

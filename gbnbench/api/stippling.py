@@ -1,5 +1,4 @@
 """A stippling: points that draw an image, with their amplitudes and what made them."""
-"""A stippling: points that draw an image, with what they were drawn for and how."""
 
 from __future__ import annotations
 
@@ -28,13 +27,6 @@ class Stippling:
     pixels : (n, d) float64
         The points in pixels, x to the right first, then y down from the upper border (then z, the first axis
         of a volume): the centre of the pixel in the upper left corner is (0.5, 0.5).
-    """Points that draw an image, as ``stipple`` returns them.
-
-    Attributes
-    ----------
-    points : (n, d) float64
-        In pixels, x to the right first, then y down from the upper border (then z, the first axis of a
-        volume): the centre of the pixel in the upper left corner is (0.5, 0.5).
     amplitudes : (n,) float64
         The paper's a_k, of mean 1: how dense the points are around each, over the mean of that.
     density : Density
@@ -67,9 +59,6 @@ class Stippling:
     """
 
     pixels: FloatArray
-    """
-
-    points: FloatArray
     amplitudes: FloatArray
     density: Density
     coverage: float
@@ -111,12 +100,3 @@ class Stippling:
 
         table = dict(zip(AXES, self.points.T, strict=False))
         return pd.DataFrame({**table, AMPLITUDE: self.amplitudes})
-        share = self.coverage * math.prod(self.size) / len(self.points)
-        return math.sqrt(share / math.pi) if len(self.size) == 2 else math.cbrt(share * 3 / (4 * math.pi))
-
-    def to_frame(self) -> pd.DataFrame:
-        """Columns x, y (z) in pixels, and amplitude: a row a point."""
-        import pandas as pd
-
-        table = dict(zip(AXES, self.points.T, strict=False))
-        return pd.DataFrame({**table, "amplitude": self.amplitudes})

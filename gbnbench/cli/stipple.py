@@ -11,9 +11,6 @@ import click
 from gbnbench.cli import options
 from gbnbench.cli.late_progress import late_progress
 
-if TYPE_CHECKING:
-    pass
-
 EPILOG = """\b
 Examples:
   gbnbench stipple camera -o camera.png                           an image of scikit-image's by its name
@@ -166,9 +163,7 @@ def stipple(
         from gbnbench.cli.braille import braille
 
         click.echo(braille(drawn.values()))
-    counts = ", ".join(f"{len(made.pixels):,} dots of {ink}" for ink, made in drawn.items())
-    page = page_of(drawn, width_mm=width_mm, dots=dots, dot_mm=dot_mm)
-    said = ", ".join(f"{len(made.points):,} dots of {ink}" for ink, made in drawn.items())
+    said = ", ".join(f"{len(made.pixels):,} dots of {ink}" for ink, made in drawn.items())
     sizes = sorted({round(2 * r, 3) for layer in page.layers for r in (layer.radii.min(), layer.radii.max())})
     across = f"{sizes[0]:g}" if len(sizes) == 1 else f"{sizes[0]:g} to {sizes[-1]:g}"
     click.echo(

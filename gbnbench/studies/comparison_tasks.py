@@ -90,21 +90,11 @@ def draw_realization(
     """
 
     def draw() -> FloatArray:
-        return checked_draw(generator, generator(n, d, realization_rng(seed, k)), n, d)
+        with faults_in_words(type(generator), f"drawing n={n}, d={d}"):
+            x = generator(n, d, realization_rng(seed, k))
+        return checked_draw(generator, x, n, d)
 
     return timed_draw((generator, n, d), draw, redraw)
-    first = (generator, n, d) not in _drawn_before
-    _drawn_before.add((generator, n, d))
-    began = cpu_seconds()
-    with faults_in_words(type(generator), f"drawing n={n}, d={d}"):
-        x = generator(n, d, realization_rng(seed, k))
-    cost = cpu_seconds() - began
-    x = checked_draw(generator, x, n, d)
-    if first and redraw and cost < REDRAW_SECONDS:
-        began = cpu_seconds()
-        generator(n, d, realization_rng(seed, k))
-        return Realization(x, cpu_seconds() - began, False)
-    return Realization(x, cost, first)
 
 
 def analyse_realizations(realizations: Sequence[Realization]) -> AnalysisArrays:

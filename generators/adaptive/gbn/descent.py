@@ -8,8 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from gbnbench.core.torus import FloatArray
-from gbnbench.generators.adaptive.domain import pixels_of, shortest, within
-from gbnbench.generators.adaptive.gbn.energy import AdaptiveEnergy
+from gbnbench.generators.adaptive.domain import shortest, within
 from gbnbench.generators.adaptive.gbn.gradient import DescendedEnergy
 
 STEP = 1.2  # over the largest curvature of the uniform energy
@@ -64,10 +63,8 @@ def descend(
         above = above + 1 if at.energy > lowest else 0
         lowest = min(lowest, at.energy)
         if told is not None:
-            told(number + 1, at.energy)
-        ahead = shortest(energy.density, moved - x)
             told(number + 1, at.energy, moved)
-        ahead = _shortest(energy, moved - x)
+        ahead = shortest(energy.density, moved - x)
         if above >= PATIENCE:
             size, above, lowest = size * SHORTER, 0, at.energy
             momentum, y = 1.0, moved
@@ -109,16 +106,3 @@ def _inside(energy: DescendedEnergy, x: FloatArray) -> FloatArray:
     if energy.density.toroidal:
         return within(energy.density, x)
     return np.clip(x, INSIDE, shape - INSIDE)
-
-
-def _allowed(energy: AdaptiveEnergy, x: FloatArray, widths: FloatArray) -> NDArray[np.bool_]:
-    """Tell which places have ink, and kernels not much wider than before."""
-    inked = energy.density.values[pixels_of(energy.density, x)] > 0
-    allowed: NDArray[np.bool_] = inked & (energy.widths(x)[0] < WIDER * widths)
-    return allowed
-def _shortest(energy: DescendedEnergy, move: FloatArray) -> FloatArray:
-    """Give moves their shortest image."""
-    if not energy.density.toroidal:
-        return move
-    shape = np.array(energy.density.shape, np.float64)
-    return move - shape * np.rint(move / shape)

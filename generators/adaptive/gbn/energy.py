@@ -21,6 +21,7 @@ from gbnbench.core.errors import InputError
 from gbnbench.core.neighbour_grid import neighbour_grid
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density
+from gbnbench.generators.adaptive.domain import pixels_of
 from gbnbench.generators.adaptive.gbn.attraction import attraction_levels
 from gbnbench.generators.adaptive.gbn.gradient import AdaptiveGradient
 from gbnbench.generators.adaptive.gbn.kernel_widths import BORDER, kernel_widths
@@ -207,9 +208,7 @@ class AdaptiveEnergy:
         -------
         (n,) bool
         """
-        values = self.density.values
-        pixel = np.minimum(x.astype(np.intp), np.array(values.shape) - 1)
-        inked = values[tuple(pixel.T)] > 0
+        inked = self.density.values[pixels_of(self.density, x)] > 0
         allowed: NDArray[np.bool_] = inked & (self.widths(x)[0] < WIDER * widths)
         return allowed
 

@@ -9,7 +9,7 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from gbnbench.core.errors import InputError
+from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density
 from gbnbench.generators.adaptive.gbn.descent import descend
@@ -101,49 +101,6 @@ class AdaptiveGaussianBlueNoise(AdaptiveMethod):
 
     def one_set(self, density: Density, n: int, rng: np.random.Generator, told: Told) -> FloatArray:
         """Draw one set, as ``AdaptiveMethod.one_set`` describes it."""
-        parts = self._parts(density, n)
-        fine = density.finer(parts)
-        x = hilbert_start(density, n, rng) * parts
-        if self.gradients:
-            energy = AdaptiveEnergy(
-                runtime(),
-                fine,
-                n,
-                sigma=self.sigma,
-                smoothing=self.smoothing,
-                spread=self.spread,
-                precision=self.precision,
-            )
-            steps = self.gradients
-            x = descend(energy, x, steps, lambda done, _: told(done, steps, "gradients of gbn"))
-        return x / parts
-
-    def __call__(
-        self, density: Density, n: int, rng: np.random.Generator, told: Told | None = None
-    ) -> FloatArray:
-        """Draw one set, as ``AdaptiveGenerator`` describes it.
-
-        Parameters
-        ----------
-        density : Density
-            The density.
-        n : int
-            Points.
-        rng : numpy.random.Generator
-            The stream that it is drawn from.
-        told : callable, optional
-            Called after each gradient.
-
-        Returns
-        -------
-        (n, d) float64
-            In pixels.
-
-        Raises
-        ------
-        RefusalError
-            If there are too many points for the pixels.
-        """
         return self.classes([density], [n], [rng], told)[0]
 
     def classes(
