@@ -23,6 +23,7 @@ def descend(
     x: FloatArray,
     gradients: int,
     told: Callable[[int, float], None] | None = None,
+    seen: Callable[[int, FloatArray], None] | None = None,
 ) -> FloatArray:
     """Lower the energy of a set.
 
@@ -36,6 +37,8 @@ def descend(
         How many gradients.
     told : callable, optional
         Called after each with its number and the energy.
+    seen : callable, optional
+        Called after each with its number and the set, which it leaves as it is.
 
     Returns
     -------
@@ -81,6 +84,8 @@ def descend(
             refused = ~_allowed(energy, y, at.widths)
             y[refused] = moved[refused]
         x = moved
+        if seen is not None:
+            seen(number + 1, x)
     return x
 
 
