@@ -69,7 +69,7 @@ class PaddedGrid:
         for a, size in enumerate(self.padded):
             k = _harmonics(size, last=a == len(self.padded) - 1)
             factors.append(_along(np.exp(-2 * variance * (math.pi * k / size) ** 2), a, len(self.padded)))
-        found = spectrum * factors[0]
+        found: ComplexArray = spectrum * factors[0]
         for factor in factors[1:]:
             found *= factor
         return found
