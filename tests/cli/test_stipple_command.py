@@ -154,7 +154,10 @@ def test_an_animation_is_said(here, capsys):
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
-        (("x.png", "-o", "o.jpg"), "stipplings are written as .png, .svg, .pdf, .eps, .gcode, .txt, .csv, .gif, .mp4"),
+        (
+            ("x.png", "-o", "o.jpg"),
+            "stipplings are written as .png, .svg, .pdf, .eps, .gcode, .txt, .csv, .gif, .mp4",
+        ),
         (("x.png", "-o", "x.png"), "x.png is the image itself: name another file"),
         (("x.png", "-o", "no/o.svg"), "there is no folder no"),
         (("no.png", "-o", "o.svg"), "no.png: there is no such file"),

@@ -17,13 +17,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.core.errors import InputError
 from gbnbench.core.neighbour_grid import neighbour_grid
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density
 from gbnbench.generators.adaptive.gbn.attraction import attraction_levels
 from gbnbench.generators.adaptive.gbn.gradient import AdaptiveGradient
 from gbnbench.generators.adaptive.gbn.kernel_widths import BORDER, kernel_widths
+from gbnbench.generators.adaptive.gbn.pull_sums import PullSums
 from gbnbench.opencl import Runtime
 
 PACKAGE = "gbnbench.generators"
@@ -32,7 +32,6 @@ PACKAGE = "gbnbench.generators"
 REACH = {"float": 5.5, "double": 8.3}
 RESOLUTION = {"float": 1.75, "double": 2.65}
 CHUNK = 16  # points that a work-item of a CPU sums for
-WIDEST_LINE = 512  # weights along an axis
 WIDER = 2.0  # factor of a kernel's width beyond which a move is refused
 
 
@@ -80,40 +79,20 @@ class AdaptiveEnergy:
         self._real = np.float64 if precision == "double" else np.float32
         d = density.d
         found = kernel_widths(density, n, sigma, smoothing)
-        levels = attraction_levels(density, n, found, spread, RESOLUTION[precision], REACH[precision])
         self._spline = runtime.upload(found.coefficients.astype(self._real))
         self._spline_counts = runtime.upload(np.array(found.coefficients.shape, np.int32))
-        lanes = runtime.lanes(precision)
-        wide = -(-(2 * max(level.reached for level in levels) + 1) // lanes) * lanes
-        if wide > WIDEST_LINE:
-            raise InputError(f"kernels reach over {wide} cells, {WIDEST_LINE} at most: one axis is too short")
-        offsets = np.cumsum([0, *(level.values.size for level in levels)])
-        flat = np.zeros(int(offsets[-1]) + lanes, self._real)
-        for begin, level in zip(offsets, levels, strict=False):
-            flat[begin : begin + level.values.size] = level.values.ravel()
-        self._levels = (
-            np.uint32(len(levels)),
-            runtime.upload(np.array([level.cell for level in levels], self._real)),
-            runtime.upload(np.array([level.variance for level in levels], self._real)),
-            runtime.upload(np.array([level.first for level in levels], self._real)),
-            runtime.upload(np.array([level.values.shape for level in levels], np.int32)),
-            runtime.upload(offsets[:-1].astype(np.uint64)),
-            runtime.upload(flat),
-            self._real(RESOLUTION[precision]),
-            self._real(REACH[precision]),
-        )
         defines = {
             "DOUBLE": int(precision == "double"),
-            "LANES": lanes,
+            "LANES": runtime.lanes(precision),
             "SUM": "double" if runtime.device.has_double else "float",
             "AXES": d,
         }
-        files = ("/vector.cl", "/exp2.cl")
         self._program_of_widths = runtime.program(PACKAGE, ("/vector.cl", "adaptive_widths.cl"), defines)
-        self._program_of_pairs = runtime.program(PACKAGE, (*files, "adaptive_pairs.cl"), defines)
-        self._program_of_pull = runtime.program(
-            PACKAGE, (*files, "adaptive_pull.cl"), {**defines, "WIDE": wide}
+        self._program_of_pairs = runtime.program(
+            PACKAGE, ("/vector.cl", "/exp2.cl", "adaptive_pairs.cl"), defines
         )
+        levels = attraction_levels(density, n, found, spread, RESOLUTION[precision], REACH[precision])
+        self._pull = PullSums(runtime, levels, n, defines, RESOLUTION[precision], REACH[precision])
         self._found = runtime.empty((d + 2) * n * np.dtype(self._real).itemsize)
 
     def widths(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -212,15 +191,6 @@ class AdaptiveEnergy:
         inked = values[tuple(pixel.T)] > 0
         allowed: NDArray[np.bool_] = inked & (self.widths(x)[0] < WIDER * widths)
         return allowed
-
-    def _pull(self, at: Any, variances: FloatArray) -> FloatArray:
-        rt, n = self._runtime, self.n
-        self._program_of_pull.run(
-            "adaptive_pull", self._global(n), (rt.group,),
-            np.uint32(n), np.uint32(n), at, rt.upload(variances.astype(self._real)), *self._levels,
-            self._found,
-        )  # fmt: skip
-        return self._download()
 
     def _push(self, x: FloatArray, variances: FloatArray) -> FloatArray:
         rt, n = self._runtime, self.n
