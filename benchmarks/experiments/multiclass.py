@@ -1,11 +1,14 @@
 """Inks drawn together and each by itself, for docs/adaptive.md: flat greys of two, and a picture of four.
 
 python -m gbnbench.benchmarks.experiments.multiclass benchmarks/results/adaptive/multiclass.csv
+
+It goes on where it was stopped.
 """
 
 from __future__ import annotations
 
 import argparse
+import itertools
 import math
 from pathlib import Path
 
@@ -21,7 +24,9 @@ from gbnbench.generators.adaptive.registry import adaptive_classes
 from gbnbench.io.images import read_image
 from gbnbench.studies.stippling.inks import ink_darkness, shared_out
 
-UNIONS = (0, 0.03, 0.1, 0.3, 1, 10)
+COUNTS = ((512, 512), (256, 768))
+UNIONS = (0, 0.1, 0.3, 1, 10)
+PICTURE_UNIONS = (0, 0.1, 1)
 SIDE, SETS = 128, 3
 BAND = (0.25, 0.6)  # of nu, in which independent sets have power and blue noise has none
 PICTURE, DOTS = "astronaut", 10_000
@@ -46,7 +51,7 @@ def band_power(x: FloatArray) -> float:
     return float(periodogram(x, fmax).power[(nu > BAND[0]) & (nu <= BAND[1])].mean())
 
 
-def flat_greys(counts: tuple[int, int], union: float) -> dict[str, float]:
+def flat_greys(counts: tuple[int, ...], union: float) -> dict[str, float]:
     """Measure two inks of a constant density on the torus.
 
     Parameters
@@ -104,14 +109,18 @@ def main() -> None:
     )
     parser.add_argument("out", type=Path)
     given = parser.parse_args()
-    rows: list[dict[str, object]] = []
-    for counts in ((512, 512), (256, 768)):
-        rows += [{"counts": counts, "union": union, **flat_greys(counts, union)} for union in UNIONS]
-    rows += [{"counts": PICTURE, "union": union, **picture(union)} for union in UNIONS]
-    table = pd.DataFrame(rows)
     given.out.parent.mkdir(parents=True, exist_ok=True)
-    table.to_csv(given.out, index=False, float_format="%.3g")
-    print(table.to_string(index=False))
+    table = pd.read_csv(given.out) if given.out.exists() else pd.DataFrame(columns=["dots", "union"])
+    greys: list[tuple[tuple[int, ...], float]] = list(itertools.product(COUNTS, UNIONS))
+    for dots, union in (*greys, *(((), union) for union in PICTURE_UNIONS)):
+        name = " + ".join(map(str, dots)) or PICTURE
+        if ((table["dots"] == name) & (table["union"] == union)).any():
+            continue
+        found = flat_greys(dots, union) if dots else picture(union)
+        row = pd.DataFrame([{"dots": name, "union": union, **found}])
+        table = row if table.empty else pd.concat([table, row])
+        table.to_csv(given.out, index=False, float_format="%.3g")
+        print(row.to_string(index=False), flush=True)
 
 
 if __name__ == "__main__":
