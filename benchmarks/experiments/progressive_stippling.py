@@ -14,10 +14,11 @@ import pandas as pd
 
 from gbnbench.analysis.reconstruction.density_estimates import reconstructed_density
 from gbnbench.analysis.reconstruction.image_quality import image_quality
-from gbnbench.benchmarks.experiments.adaptive_quality import IMAGES, POINTS, darkness, relative_variance
+from gbnbench.benchmarks.experiments.adaptive_quality import IMAGES, POINTS, darkness
 from gbnbench.generators.adaptive.density import as_density
 from gbnbench.generators.adaptive.gbn.progressive import progressive_order
 from gbnbench.generators.adaptive.registry import adaptive_points
+from gbnbench.studies.stippling_comparison.relative_variance import relative_variance
 
 SHARES = (8, 4, 2.83, 2, 1.41, 1)
 COLUMNS = ["image", "n", "CPU s of the order"]

@@ -84,7 +84,7 @@ def draw_inks(
     seed, toroidal, progress, device
         As ``stipple`` takes them.
     seen : callable, optional
-        Called with the points of each ink, as ``Stippling`` has them, at the start and after each step; only
+        Called with the points of each ink, as ``Stippling.pixels``, at the start and after each step; only
         by gbn.
 
     Returns
@@ -119,7 +119,7 @@ def draw_inks(
     seconds = time.perf_counter() - began
     return {
         ink: Stippling(
-            points=np.ascontiguousarray(x[:, ::-1]),
+            pixels=np.ascontiguousarray(x[:, ::-1]),
             amplitudes=amplitudes(generator, density, x),
             density=density,
             coverage=dark.coverage,
@@ -150,8 +150,8 @@ def in_progressive_order(made: Stippling, progress: Told | None = None) -> Stipp
     Stippling
         The same points in the new order.
     """
-    order = progressive_order(made.density, made.points[:, ::-1], told=progress)
-    return replace(made, points=made.points[order], amplitudes=made.amplitudes[order])
+    order = progressive_order(made.density, made.pixels[:, ::-1], told=progress)
+    return replace(made, pixels=made.pixels[order], amplitudes=made.amplitudes[order])
 
 
 def _by_ink(inks: Mapping[str, object], seen: Callable[[dict[str, FloatArray]], None]) -> Seen:

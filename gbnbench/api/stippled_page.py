@@ -11,6 +11,7 @@ import numpy as np
 
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
+from gbnbench.io.points.stippled_points import AMPLITUDE, INK, PictureHeader
 from gbnbench.io.points.writer import write_atomically
 from gbnbench.reports.stippling import animation
 from gbnbench.reports.stippling.eps import eps
@@ -70,9 +71,9 @@ def in_tour_order(made: Stippling) -> tuple[Stippling, float]:
     """
     from dataclasses import replace
 
-    order = tour(made.points)
-    ordered = replace(made, points=made.points[order], amplitudes=made.amplitudes[order])
-    return ordered, path_length(ordered.points)
+    order = tour(made.pixels)
+    ordered = replace(made, pixels=made.pixels[order], amplitudes=made.amplitudes[order])
+    return ordered, path_length(ordered.pixels)
 
 
 def page_of(
@@ -115,16 +116,16 @@ def page_of(
     sheets = []
     for name, made in layers.items():
         radius = made.radius * mm if dot_mm is None else dot_mm / 2
-        shares = np.sqrt(made.amplitudes) if dots == "tone" else np.ones(len(made.points))
+        shares = np.sqrt(made.amplitudes) if dots == "tone" else np.ones(len(made.pixels))
         colour = name if name.startswith("#") else INKS.get(name, "#000000")
-        sheets.append(DotLayer(name, colour, made.points * mm, radius * shares))
-    counts = ", ".join(f"{len(made.points)} dots of {name}" for name, made in layers.items())
+        sheets.append(DotLayer(name, colour, made.pixels * mm, radius * shares))
+    counts = ", ".join(f"{len(made.pixels)} dots of {name}" for name, made in layers.items())
     text = f"{counts}; {first.method}, seed {first.seed}, gbnbench {first.version}"
     return Page(width_mm, first.size[1] * mm, tuple(sheets), first.name, text)
 
 
 def text_of(layers: Mapping[str, Stippling], suffix: str) -> bytes:
-    """Write points with their amplitudes as rows of numbers, in pixels.
+    """Write points with their amplitudes as rows of numbers, in the unit square, x to the right and y up.
 
     Parameters
     ----------
@@ -136,7 +137,9 @@ def text_of(layers: Mapping[str, Stippling], suffix: str) -> bytes:
     Returns
     -------
     bytes
-        UTF-8; with more than one ink a .txt has a comment before each, and a .csv a column ``ink``.
+        UTF-8. A .txt has a comment before each ink that tells the picture's size and coverage, which
+        ``gbnbench reconstruct`` reads, and one that names the columns; a .csv of several inks a column
+        ``ink``.
     """
     if suffix == ".csv":
         import pandas as pd
@@ -144,14 +147,13 @@ def text_of(layers: Mapping[str, Stippling], suffix: str) -> bytes:
         tables = [made.to_frame() for made in layers.values()]
         if len(layers) > 1:
             for name, table in zip(layers, tables, strict=True):
-                table.insert(0, "ink", name)
+                table.insert(0, INK, name)
         text: str = pd.concat(tables).to_csv(index=False, lineterminator="\n")
         return text.encode()
     lines = []
     for name, made in layers.items():
-        size = " x ".join(map(str, made.size))
-        axes = " ".join("xyz"[: len(made.size)])
-        lines.append(f"# {axes} amplitude, {name}: in pixels of {size}, y down from the upper border")
+        lines.append(PictureHeader(made.size, made.coverage).text(name))
+        lines.append(f"# {' '.join('xyz'[: len(made.size)])} {AMPLITUDE}")
         rows: FloatArray = np.column_stack([made.points, made.amplitudes])
         lines += [" ".join(map(repr, row)) for row in rows.tolist()]
     return ("\n".join(lines) + "\n").encode()

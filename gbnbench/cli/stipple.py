@@ -163,7 +163,7 @@ def stipple(
         from gbnbench.cli.braille import braille
 
         click.echo(braille(drawn.values()))
-    said = ", ".join(f"{len(made.points):,} dots of {ink}" for ink, made in drawn.items())
+    said = ", ".join(f"{len(made.pixels):,} dots of {ink}" for ink, made in drawn.items())
     sizes = sorted({round(2 * r, 3) for layer in page.layers for r in (layer.radii.min(), layer.radii.max())})
     across = f"{sizes[0]:g}" if len(sizes) == 1 else f"{sizes[0]:g} to {sizes[-1]:g}"
     click.echo(

@@ -10,10 +10,12 @@ import numpy as np
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.settings import configure, nearest, parse
 from gbnbench.core.torus import FloatArray
+from gbnbench.generators.adaptive.charges.electrostatic import ElectrostaticHalftoning
 from gbnbench.generators.adaptive.density import Density
 from gbnbench.generators.adaptive.dithering.error_diffusion import FloydSteinberg
 from gbnbench.generators.adaptive.dithering.mask import VoidAndClusterDither
 from gbnbench.generators.adaptive.gbn.generator import AdaptiveGaussianBlueNoise
+from gbnbench.generators.adaptive.power_cells.bnot import WeightedOptimalTransport
 from gbnbench.generators.adaptive.protocol import AdaptiveGenerator, ClassGenerator, Seen, Told
 from gbnbench.generators.adaptive.rejection import Rejection
 from gbnbench.generators.adaptive.voronoi.linde_buzo_gray import LindeBuzoGray
@@ -24,6 +26,8 @@ ADAPTIVE_GENERATORS: dict[str, type[AdaptiveGenerator]] = {
     "gbn": AdaptiveGaussianBlueNoise,
     "secord": WeightedVoronoi,
     "lbg": LindeBuzoGray,
+    "bnot": WeightedOptimalTransport,
+    "electrostatic": ElectrostaticHalftoning,
     "rejection": Rejection,
     "floydsteinberg": FloydSteinberg,
     "voidcluster": VoidAndClusterDither,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
-import itertools
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -48,8 +48,8 @@ def test_dots_of_a_palette_lie_on_their_colours(picture):
     red, black = (table[table.ink == ink] for ink in ("#c80000", "#000000"))
     assert len(table) == 150
     assert len(black) == pytest.approx(60, abs=2)
-    assert black.x.min() >= 24
-    assert red.x.max() < 24
+    assert black.x.min() >= 2 / 3
+    assert red.x.max() < 2 / 3
     assert 'inkscape:label="#c80000" fill="#c80000"' in Path("o.svg").read_text()
     with Pillow.open("o.png") as drawn:
         assert (200, 0, 0) in {colour for _, colour in drawn.getcolors(1 << 20)}
@@ -81,7 +81,7 @@ def test_a_progressive_file_is_the_same_dots_in_an_order(picture):
     drawn, ordered = (pd.read_csv(name) for name in ("d.csv", "p.csv"))
     assert {*map(tuple, drawn.to_numpy())} == {*map(tuple, ordered.to_numpy())}
     halves = [abs(table.x[:60].mean() - table.x.mean()) for table in (drawn, ordered)]
-    assert halves[1] < 1.2  # 9 / sqrt(120) = 0.8 at random; the start's order is along a curve
+    assert halves[1] < 0.03  # 0.22 / sqrt(120) = 0.02 at random; the start's order is along a curve
     made = stipple("x.png", 120, method="gbn[gradients=5]", progressive=True)
     assert np.array_equal(made.points, ordered[["x", "y"]])
 
@@ -93,7 +93,7 @@ def test_frames_show_more_and_more_dots(picture):
     dark = [255 - frame.mean() for frame in frames]
     assert len(frames) == 6
     assert frames[0].shape[:2] == (59, 79)
-    assert all(more > less for less, more in itertools.pairwise(dark))
+    assert all(more > less for less, more in pairwise(dark))
     assert command("x.png", "-n", 60, "-o", "p.png", "--progressive", *size, *QUICK) == 0
     assert np.abs(frames[-1] - shown("p.png")[0]).mean() < 1
 

@@ -8,6 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from gbnbench.core.torus import FloatArray
+from gbnbench.generators.adaptive.domain import shortest, within
 from gbnbench.generators.adaptive.gbn.gradient import DescendedEnergy
 
 STEP = 1.2  # over the largest curvature of the uniform energy
@@ -63,7 +64,7 @@ def descend(
         lowest = min(lowest, at.energy)
         if told is not None:
             told(number + 1, at.energy, moved)
-        ahead = _shortest(energy, moved - x)
+        ahead = shortest(energy.density, moved - x)
         if above >= PATIENCE:
             size, above, lowest = size * SHORTER, 0, at.energy
             momentum, y = 1.0, moved
@@ -103,14 +104,5 @@ def _inside(energy: DescendedEnergy, x: FloatArray) -> FloatArray:
     """Bring points back to the torus, or to the domain's border."""
     shape = np.array(energy.density.shape, np.float64)
     if energy.density.toroidal:
-        wrapped = x - shape * np.floor(x / shape)
-        return np.where(wrapped >= shape, 0.0, wrapped)
+        return within(energy.density, x)
     return np.clip(x, INSIDE, shape - INSIDE)
-
-
-def _shortest(energy: DescendedEnergy, move: FloatArray) -> FloatArray:
-    """Give moves their shortest image."""
-    if not energy.density.toroidal:
-        return move
-    shape = np.array(energy.density.shape, np.float64)
-    return move - shape * np.rint(move / shape)

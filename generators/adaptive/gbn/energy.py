@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density
+from gbnbench.generators.adaptive.domain import pixels_of
 from gbnbench.generators.adaptive.gbn.attraction import attraction_levels
 from gbnbench.generators.adaptive.gbn.gradient import AdaptiveGradient
 from gbnbench.generators.adaptive.gbn.kernel_widths import KernelWidths, kernel_widths
@@ -185,8 +186,6 @@ class AdaptiveEnergy:
         -------
         (n,) bool
         """
-        values = self.density.values
-        pixel = np.minimum(x.astype(np.intp), np.array(values.shape) - 1)
-        inked = values[tuple(pixel.T)] > 0
+        inked = self.density.values[pixels_of(self.density, x)] > 0
         allowed: NDArray[np.bool_] = inked & (self.widths(x) < WIDER * widths)
         return allowed

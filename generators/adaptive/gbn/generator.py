@@ -11,18 +11,19 @@ import numpy as np
 
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray
-from gbnbench.generators.adaptive.density import MOST_PIXELS, Density
+from gbnbench.generators.adaptive.density import Density
 from gbnbench.generators.adaptive.gbn.descent import descend
 from gbnbench.generators.adaptive.gbn.energy import RESOLUTION, AdaptiveEnergy
 from gbnbench.generators.adaptive.gbn.joint_energy import JointEnergy, Part, union_density
 from gbnbench.generators.adaptive.gbn.kernel_widths import KernelWidths, kernel_widths
 from gbnbench.generators.adaptive.hilbert_start import hilbert_start
+from gbnbench.generators.adaptive.method import AdaptiveMethod, too_fine
 from gbnbench.generators.adaptive.protocol import Seen, Told
 from gbnbench.opencl import runtime
 
 
 @dataclass(frozen=True)
-class AdaptiveGaussianBlueNoise:
+class AdaptiveGaussianBlueNoise(AdaptiveMethod):
     """Gaussian blue noise whose kernels are as wide as the density wants them.
 
     Parameters
@@ -90,27 +91,8 @@ class AdaptiveGaussianBlueNoise:
             raise InputError(f"gradients must be >= 0; got {self.gradients}")
 
     def refusal(self, density: Density, n: int) -> str | None:
-        """Say why the pixels cannot be cut finely enough for so many points.
-
-        Parameters
-        ----------
-        density : Density
-            The density.
-        n : int
-            Points.
-
-        Returns
-        -------
-        str or None
-            The reason.
-        """
-        pixels = density.values.size * self._parts(density, n) ** density.d
-        if pixels > MOST_PIXELS:
-            return (
-                f"{n:,} points on {density.values.size:,} pixels need these cut into {pixels:,}, and "
-                f"{MOST_PIXELS:,} are the most: fewer points, or a smaller image"
-            )
-        return None
+        """Say why pixels cannot be cut finely enough, as ``AdaptiveMethod.refusal`` does."""
+        return too_fine(density, n, density.values.size * self._parts(density, n) ** density.d)
 
     def _parts(self, density: Density, n: int) -> int:
         """Parts of a pixel's side that make pixels finer than the narrowest kernel."""
@@ -118,32 +100,8 @@ class AdaptiveGaussianBlueNoise:
         parts: int = math.ceil(RESOLUTION[self.precision] / narrowest)
         return parts
 
-    def __call__(
-        self, density: Density, n: int, rng: np.random.Generator, told: Told | None = None
-    ) -> FloatArray:
-        """Draw one set, as ``AdaptiveGenerator`` describes it.
-
-        Parameters
-        ----------
-        density : Density
-            The density.
-        n : int
-            Points.
-        rng : numpy.random.Generator
-            The stream that it is drawn from.
-        told : callable, optional
-            Called after each gradient.
-
-        Returns
-        -------
-        (n, d) float64
-            In pixels.
-
-        Raises
-        ------
-        RefusalError
-            If there are too many points for the pixels.
-        """
+    def one_set(self, density: Density, n: int, rng: np.random.Generator, told: Told) -> FloatArray:
+        """Draw one set, as ``AdaptiveMethod.one_set`` describes it."""
         return self.classes([density], [n], [rng], told)[0]
 
     def classes(
