@@ -11,6 +11,7 @@ import typing
 from dataclasses import dataclass
 
 from gbnbench.generators.protocol import Generator
+from gbnbench.generators.third_parties.faults import refusal_of
 
 SECTION = re.compile(r"^(?P<title>[A-Z][\w ]*)\n-{3,}\n", re.MULTILINE)
 SIZES = (1, 2, 3, 16, 64, 256, 1000, 1024, 4096, 16384)  # n that each is asked about
@@ -136,7 +137,7 @@ def type_text(hint: object) -> str:
 
 
 def _served(generator: Generator, d: int) -> ServedSizes:
-    reasons = {n: generator.refusal(n, d) for n in SIZES}
+    reasons = {n: refusal_of(generator, n, d) for n in SIZES}
     refused = {n: reason for n, reason in reasons.items() if reason is not None}
     return ServedSizes(d, tuple(n for n in SIZES if n not in refused), refused)
 

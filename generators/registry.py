@@ -49,6 +49,7 @@ from gbnbench.generators.spectral_control.staircase import Staircase
 from gbnbench.generators.spectral_control.stealthy import Stealthy
 from gbnbench.generators.spectral_control.step import Step
 from gbnbench.generators.spectral_control.targeted import Targeted
+from gbnbench.generators.third_parties.faults import faults_in_words, refusal_of
 from gbnbench.generators.voronoi.capcvt import CapacityConstrainedVoronoi
 from gbnbench.generators.voronoi.lloyd import Lloyd
 from gbnbench.opencl import use_device
@@ -156,7 +157,8 @@ def find(text: str, **settings: object) -> Generator:
     twice = sorted(inside.keys() & settings.keys())
     if twice:
         raise InputError(f"a setting must come once; got {twice[0]!r} in {text!r} and as an argument")
-    return configure(kind, {**inside, **settings})
+    with faults_in_words(kind, "making it"):
+        return configure(kind, {**inside, **settings})
 
 
 def generate(
@@ -218,12 +220,11 @@ def generate(
     n, d = _whole("n", n, 1), _whole("d", d, 1)
     if reason := too_large(8.0 * realizations * n * d):
         raise RefusalError(f"{realizations} sets of n={n} points in d={d} {reason}; draw fewer at a time")
-    if reason := generator.refusal(n, d):
+    if reason := refusal_of(generator, n, d):
         raise RefusalError(reason)
-    with use_device(device):
-        sets = _draw(
-            generator, n, d, [realization_rng(seed, k) for k in range(realizations)], monitor or Monitor()
-        )
+    rngs = [realization_rng(seed, k) for k in range(realizations)]
+    with use_device(device), faults_in_words(type(generator), f"drawing n={n}, d={d}"):
+        sets = _draw(generator, n, d, rngs, monitor or Monitor())
     return sets[0] if realizations == 1 else sets
 
 

@@ -9,6 +9,7 @@ The first measures, set by set, and goes on where it was stopped; the second pri
 from __future__ import annotations
 
 import argparse
+import itertools
 import time
 from pathlib import Path
 
@@ -92,7 +93,10 @@ def markdown(table: pd.DataFrame) -> str:
         "| picture | method | sets | CPU s | variance | F16 | PSNR, dB | SSIM | mirrored: PSNR | SSIM |",
         "|---|---|--:|--:|--:|--:|--:|--:|--:|--:|",
     ]
-    for (image, method), part in table.groupby(["image", "method"], sort=False):
+    parts = dict(list(table.groupby(["image", "method"])))
+    for image, method in itertools.product(IMAGES, ADAPTIVE_GENERATORS):
+        if (part := parts.get((image, method))) is None:
+            continue
         m = part.mean(numeric_only=True)
         lines.append(
             f"| {image} | {method} | {len(part)} | {m['CPU s']:.3g} | {m['variance']:.2e} | {m['F16']:.2e} | "
@@ -108,6 +112,7 @@ def main() -> None:
     )
     parser.add_argument("out", type=Path)
     parser.add_argument("--table", action="store_true")
+    parser.add_argument("--seeds", type=int, default=SEEDS)
     given = parser.parse_args()
     if given.table:
         print(markdown(pd.read_csv(given.out)))
@@ -115,7 +120,7 @@ def main() -> None:
     done = pd.read_csv(given.out) if given.out.exists() else pd.DataFrame(columns=COLUMNS)
     given.out.parent.mkdir(parents=True, exist_ok=True)
     adaptive_points("gbn[gradients=1]", as_density(np.ones((64, 64))), 100)  # kernels are built
-    for seed in range(SEEDS):
+    for seed in range(given.seeds):
         for image in IMAGES:
             for method in ADAPTIVE_GENERATORS:
                 if ((done["image"] == image) & (done["method"] == method) & (done["seed"] == seed)).any():

@@ -22,6 +22,7 @@ from gbnbench.generators.kind_check import of_instance
 from gbnbench.generators.protocol import Generator
 from gbnbench.generators.registry import GENERATORS
 from gbnbench.generators.third_parties.discovery import provenance
+from gbnbench.generators.third_parties.faults import refusal_of
 from gbnbench.io.points import ReadingOptions
 from gbnbench.runs.file_sets import read_groups
 from gbnbench.runs.named_groups import expanded
@@ -187,7 +188,7 @@ def resolve(
             continue
         text = specification(generator)
         for size, dimension in dict.fromkeys((size, dimension) for dimension in d for size in n):
-            why = generator.refusal(size, dimension)
+            why = refusal_of(generator, size, dimension)
             if why is None:
                 sources.append(Source("", text, size, dimension, realizations, generator))
             else:

@@ -11,6 +11,7 @@ import numpy as np
 from gbnbench.analysis.measures import AnalysisArrays, analyse_to_arrays
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import Generator, checked_draw, realization_rng
+from gbnbench.generators.third_parties.faults import faults_in_words
 from gbnbench.io.points.point_sets import NO_TORUS
 from gbnbench.runs.comparison_folder import Realization, realization_key
 from gbnbench.runs.comparison_result import SourceResult
@@ -89,7 +90,9 @@ def draw_realization(
     """
 
     def draw() -> FloatArray:
-        return checked_draw(generator, generator(n, d, realization_rng(seed, k)), n, d)
+        with faults_in_words(type(generator), f"drawing n={n}, d={d}"):
+            x = generator(n, d, realization_rng(seed, k))
+        return checked_draw(generator, x, n, d)
 
     return timed_draw((generator, n, d), draw, redraw)
 

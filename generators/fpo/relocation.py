@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from gbnbench.core.errors import DeviceError
 from gbnbench.core.torus import FloatArray, toroidal_distance
@@ -182,5 +181,7 @@ def minimum_distance(x: FloatArray) -> float:
     """Minimum toroidal distance of a set; that of a single point to its own image is 1."""
     if len(x) == 1:
         return 1.0
+    from scipy.spatial import cKDTree
+
     distance, _ = cKDTree(x, boxsize=np.ones(2)).query(x, k=2)
     return float(np.min(np.asarray(distance)[:, 1]))

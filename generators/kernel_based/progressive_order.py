@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray, check_points
+from gbnbench.generators.kernel_based.local_gaussians import LocalGaussians
 
 SWEEPS = 20  # over the chosen points, of exchanges with points left out
 LEAST_GAIN = 1e-9
@@ -44,7 +45,8 @@ def progressive_order(
     Of the set half is kept, of the half a quarter, and so on, each time by taking out the tightest clusters
     (Ulichney 1993) and then by exchanging a kept point with one left out where that lowers the sum over pairs
     of Gaussians, until no exchange does. What lies between two halvings comes in the order of largest voids.
-    Costs n**2: 0.5 CPU seconds at n = 1,024, two minutes at 16,384.
+    A Gaussian is taken to be nothing beyond 7.5 of its widths. In 2D 0.3 CPU seconds at n = 1,024, 8 at
+    16,384; where Gaussians reach most points, as in many dimensions, the cost is n**2.
 
     Examples
     --------
@@ -115,35 +117,33 @@ def prefix_noise_floors(x: ArrayLike, sizes: Sequence[int]) -> FloatArray:
     return floors
 
 
-def _gaussians(x: FloatArray, point: FloatArray, width: float) -> FloatArray:
-    """Periodised Gaussian of one point at all points, width in box sides."""
-    apart = x - point
-    apart -= np.round(apart)
-    most = max(math.ceil(6 * width - 0.5), 0)
-    if most == 0:
-        return np.asarray(np.exp(np.sum(apart**2, axis=1) / (-2 * width**2)))
-    images = [np.exp((apart + turn) ** 2 / (-2 * width**2)) for turn in range(-most, most + 1)]
-    return np.asarray(np.prod(np.sum(images, axis=0), axis=1))
-
-
 def _half(x: FloatArray, size: int, width: float) -> NDArray[np.bool_]:
     """Choose so many points with a small sum over pairs of Gaussians."""
-    inside = np.ones(len(x), bool)
-    energy = np.sum([_gaussians(x, point, width) for point in x], axis=0)
+    inside, gaussians = np.ones(len(x), bool), LocalGaussians(x, width)
+    energy = gaussians.sums(np.arange(len(x)))
+    clusters = energy.copy()  # the energy of those inside, -inf of others
     for _ in range(len(x) - size):
-        cluster = int(np.where(inside, energy, -np.inf).argmax())
+        cluster = int(clusters.argmax())
         inside[cluster] = False
-        energy -= _gaussians(x, x[cluster], width)
-    own = float(_gaussians(x[:1], x[0], width)[0])
+        near, gaussian = gaussians.of(cluster)
+        energy[near] -= gaussian
+        clusters[near] -= gaussian
+        clusters[cluster] = -np.inf
+    own = gaussians.own
+    voids = np.where(inside, np.inf, energy)
     for _ in range(SWEEPS):
         exchanged = 0
         for index in np.flatnonzero(inside):
-            gaussian = _gaussians(x, x[index], width)
-            without = energy - gaussian
-            void = int(np.where(inside, np.inf, without).argmin())
+            near, gaussian = gaussians.of(int(index))
+            without = voids.copy()
+            without[near] -= gaussian
+            void = int(without.argmin())
             if without[void] < energy[index] - own - LEAST_GAIN:
                 inside[index], inside[void] = False, True
-                energy = without + _gaussians(x, x[void], width)
+                energy[near] -= gaussian
+                added, there = gaussians.of(void)
+                energy[added] += there
+                voids = np.where(inside, np.inf, energy)
                 exchanged += 1
         if not exchanged:
             break
@@ -152,12 +152,14 @@ def _half(x: FloatArray, size: int, width: float) -> NDArray[np.bool_]:
 
 def _by_voids(x: FloatArray, inside: NDArray[np.bool_], width: float) -> NDArray[np.intp]:
     """Order the points left out, each the largest void of those inside and before it."""
-    energy = np.sum([_gaussians(x, point, width) for point in x[inside]], axis=0)
+    gaussians = LocalGaussians(x, width)
+    energy = gaussians.sums(np.flatnonzero(inside))
     energy[inside] = np.inf
     order = []
     for _ in range(int(np.count_nonzero(~inside))):
         void = int(energy.argmin())
         order.append(void)
-        energy += _gaussians(x, x[void], width)
+        near, gaussian = gaussians.of(void)
+        energy[near] += gaussian
         energy[void] = np.inf
     return np.array(order, np.intp)

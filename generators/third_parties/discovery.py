@@ -138,6 +138,6 @@ def provenance(kind: type[object]) -> dict[str, Any]:
     """
     if issubclass(kind, ExternalProgram):
         return {"program": kind.definition.provenance()}
-    named = f"{kind.__module__}:{kind.__qualname__}"
-    packages = [installed.package(entry) for entry in installed.entry_points() if entry.value == named]
-    return {"class": named.replace(":", "."), **({"package": packages[0]} if packages else {})}
+    package = installed.package_of(kind)
+    named = f"{kind.__module__}.{kind.__qualname__}"
+    return {"class": named, **({"package": package} if package else {})}

@@ -8,6 +8,7 @@ from functools import lru_cache
 from importlib.metadata import EntryPoint
 
 from gbnbench.core.errors import InputError
+from gbnbench.core.readable_text import in_one_line
 from gbnbench.generators.kind_check import checked_kind
 from gbnbench.generators.protocol import Generator
 
@@ -30,6 +31,24 @@ def package(entry: EntryPoint) -> str:
     return "an unknown package" if entry.dist is None else f"{entry.dist.name} {entry.dist.version}"
 
 
+def package_of(kind: type[object]) -> str | None:
+    """Name the package that brings a class by its entry point, with its version; None where none does."""
+    named = f"{kind.__module__}:{kind.__qualname__}"
+    return next((package(entry) for entry in entry_points() if entry.value == named), None)
+
+
+def error_text(error: BaseException) -> str:
+    """Write an error as its class and the first line of what it says.
+
+    Examples
+    --------
+    >>> error_text(ValueError("no luck"))
+    'ValueError: no luck'
+    """
+    said = in_one_line((str(error).strip().splitlines() or [""])[0])
+    return f"{type(error).__name__}{f': {said}' if said else ''}"
+
+
 def load(entry: EntryPoint) -> type[Generator]:
     """Import the generator of an entry point.
 
@@ -41,8 +60,7 @@ def load(entry: EntryPoint) -> type[Generator]:
     try:
         loaded = entry.load()
     except (Exception, SystemExit) as error:  # whatever a stranger's module does when it is imported
-        said = (str(error).strip().splitlines() or [""])[0]
-        why = f"its import failed: {type(error).__name__}{f': {said}' if said else ''}"
+        why = f"its import failed: {error_text(error)}"
     else:
         try:
             return checked_kind(loaded, entry.name)

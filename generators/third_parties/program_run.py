@@ -9,7 +9,8 @@ import shlex
 import signal
 import subprocess
 import tempfile
-from collections.abc import Mapping, Sequence
+import time
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from gbnbench.core.errors import GbnbenchError
@@ -19,6 +20,9 @@ from gbnbench.core.torus import FloatArray
 from gbnbench.io.points import ReadingOptions, read_sets
 
 OUTPUT = "output"  # the placeholder of the file that is to be written
+ROOM = 2**26  # bytes that a program may write at least, in points or in messages
+COORDINATE = 200  # bytes of a coordinate, where its points need more than that
+LOOKS = 0.05  # seconds from one look at what it has written to the next
 
 
 def filled(command: Sequence[str], values: Mapping[str, str]) -> list[str]:
@@ -80,7 +84,8 @@ def run_program(
     Raises
     ------
     GbnbenchError
-        If the program cannot be started, fails, takes longer, or writes anything but n points of the torus.
+        If the program cannot be started, fails, takes longer, writes without end, or writes anything but n
+        points of the torus.
     """
     with tempfile.TemporaryDirectory(prefix="gbnbench-", ignore_cleanup_errors=True) as place:
         folder = Path(place) / "empty"
@@ -90,8 +95,14 @@ def run_program(
         into_file = words != filled(command, values)
         points, printed = (file, Path(os.devnull)) if into_file else (Path(place) / file.name,) * 2
         shown = shlex.join(words)
-        with said.open("wb") as errors, printed.open("wb") as out:
-            code = _ended(name, shown, words, folder, (out.fileno(), errors.fileno()), timeout)
+        with (
+            said.open("wb") as errors,
+            printed.open("wb") as out,
+            _started(name, words, folder, out.fileno(), errors.fileno()) as process,
+        ):
+            code, fault = _ended(process, (points, said), max(ROOM, COORDINATE * n * d), timeout)
+        if fault:
+            raise GbnbenchError(f"{name} drew no set: {shown}: was ended {fault}")
         if code != 0:
             raise GbnbenchError(f"{name} drew no set: {shown}: {cause_of_end(code, said.read_bytes())}")
         if not points.is_file():
@@ -111,27 +122,40 @@ def run_program(
         return sets[0]
 
 
-def _ended(
-    name: str, shown: str, words: list[str], folder: Path, outputs: tuple[int, int], timeout: float
-) -> int:
-    """Run a command to its end; its exit code."""
+@contextlib.contextmanager
+def _started(
+    name: str, words: list[str], folder: Path, out: int, errors: int
+) -> Iterator[subprocess.Popen[bytes]]:
+    """Start a program, which does not outlive what is done inside."""
     try:
         process = subprocess.Popen(
-            words, cwd=folder, stdin=subprocess.DEVNULL, stdout=outputs[0], stderr=outputs[1],
-            start_new_session=True,
-        )  # fmt: skip
+            words, cwd=folder, stdin=subprocess.DEVNULL, stdout=out, stderr=errors, start_new_session=True
+        )
     except (OSError, ValueError) as error:  # ValueError: a zero byte in a word
         why = error.strerror if isinstance(error, OSError) else error
-        raise GbnbenchError(f"{name} drew no set: {in_one_line(shown)}: cannot be started: {why}") from None
+        shown = in_one_line(shlex.join(words))
+        raise GbnbenchError(f"{name} drew no set: {shown}: cannot be started: {why}") from None
     try:
-        return process.wait(timeout)
-    except subprocess.TimeoutExpired:
-        raise GbnbenchError(
-            f"{name} drew no set: {shown}: was ended after {timeout:g} s; its timeout allows no more"
-        ) from None
+        yield process
     finally:
         if process.poll() is None:
             _kill(process)
+
+
+def _ended(
+    process: subprocess.Popen[bytes], written: Sequence[Path], room: int, timeout: float
+) -> tuple[int, str]:
+    """Wait for a program's end: its exit code, and "" or why it must be ended."""
+    last = time.monotonic() + timeout
+    while True:
+        try:
+            return process.wait(max(0.0, min(LOOKS, last - time.monotonic()))), ""
+        except subprocess.TimeoutExpired:
+            if time.monotonic() >= last:
+                return 0, f"after {timeout:g} s; its timeout allows no more"
+        for file in written:
+            if file.is_file() and file.stat().st_size > room:
+                return 0, f"at {room / 1e6:.0f} MB of output; its points need far less"
 
 
 def _kill(process: subprocess.Popen[bytes]) -> None:

@@ -74,7 +74,7 @@ def adaptive_evolution(n: int, seed: int, counts: Sequence[int], sets: int) -> d
 def _path(energy: AdaptiveEnergy, start: FloatArray, gradients: int) -> list[FloatArray]:
     """Return the start and the set after each gradient."""
     path = [start]
-    descend(energy, start, gradients, seen=lambda _, x: path.append(x.copy()))
+    descend(energy, start, gradients, lambda _, __, x: path.append(x.copy()))
     return path
 
 

@@ -144,30 +144,32 @@ def test_a_source_that_fails_does_not_lose_the_others(tmp_path):
 
 @pytest.mark.slow
 def test_arrays_and_files_lie_on_the_image_as_generators_do(tmp_path):
-    x = adaptive_points("rejection", DENSITY, 80)[:, ::-1]  # x first
+    x = adaptive_points("rejection", DENSITY, 80)[:, ::-1]  # x first, pixels, y down
+    unit = np.stack([x[:, 0] / 40, 1 - x[:, 1] / 48], axis=1)
     rows = "\n".join(f"{a:.17g} {b:.17g} 1.5" for a, b in x)
     (tmp_path / "theirs.txt").write_text(rows + "\n")
     made = compare_stipplings(
-        DENSITY, {"file": tmp_path / "theirs.txt", "array": x, "ours": "rejection"},
+        DENSITY, {"file": tmp_path / "theirs.txt", "array": x, "unit": unit, "ours": "rejection"},
         n=80, out=tmp_path / "run", jobs=1, quiet=True,
     )  # fmt: skip
     table = made.table.drop(columns=["source", "cpu_seconds"])
-    assert table.iloc[1].equals(table.iloc[2])
-    assert table.iloc[0].to_numpy() == pytest.approx(table.iloc[2].to_numpy(), rel=1e-5, nan_ok=True)
-    assert np.isnan(made.table.cpu_seconds).tolist() == [True, True, False]
+    assert table.iloc[1].equals(table.iloc[3])
+    for row in (0, 2):
+        assert table.iloc[row].to_numpy() == pytest.approx(table.iloc[3].to_numpy(), rel=1e-5, nan_ok=True)
+    assert np.isnan(made.table.cpu_seconds).tolist() == [True, True, True, False]
 
 
 @pytest.mark.parametrize(
     ("name", "text", "options"),
     [
-        ("fractions.csv", "x,y\n0.25,0.5\n0.5,0.75\n", PLAIN),
+        ("fractions.csv", "x,y\n0.25,0.5\n0.5,0.25\n", PLAIN),
         (
             "pixels.csv",
-            "x,y,amplitude\n10,24\n20,36\n".replace("24\n", "24,1\n").replace("36\n", "36,2\n"),
+            "x,y,amplitude\n10,24,1\n20,36,2\n",
             PLAIN,
         ),
         ("pixels.txt", "10 24 0.5\n20 36 0.5\n", PLAIN),
-        ("box.txt", "50.0 120.0\n100.0 180.0\n", reading_options(bounds=(0, 200, 0, 240))),
+        ("box.txt", "50.0 120.0\n100.0 60.0\n", reading_options(bounds=(0, 200, 0, 240))),
     ],
 )
 def test_files_are_read_in_pixels_or_fractions(tmp_path, name, text, options):

@@ -15,7 +15,8 @@ from gbnbench.analysis.integration.spectral_variance import FourierSeries, fouri
 from gbnbench.core.settings import specification
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.monitor import Monitor, MonitoredGenerator
-from gbnbench.generators.protocol import Generator, realization_rng
+from gbnbench.generators.protocol import Generator, checked_draw, realization_rng
+from gbnbench.generators.third_parties.faults import faults_in_words
 from gbnbench.runs.sources import Source
 from gbnbench.runs.task import Task
 
@@ -152,10 +153,11 @@ def estimate_block(
         sets = origin
     else:
         rngs = [realization_rng(seed, first + k) for k in range(count)]
-        if isinstance(origin, MonitoredGenerator):
-            sets = origin.draw(n, d, rngs, Monitor())
-        else:
-            sets = np.stack([origin(n, d, rng) for rng in rngs])
+        with faults_in_words(type(origin), f"drawing n={n}, d={d}"):
+            if isinstance(origin, MonitoredGenerator):
+                sets = origin.draw(n, d, rngs, Monitor())
+            else:
+                sets = np.stack([checked_draw(origin, origin(n, d, rng), n, d) for rng in rngs])
     found: dict[str, NDArray[Any]] = {}
     for family in families:
         text = specification(family)

@@ -1,4 +1,4 @@
-"""Points on an image by any program: files in pixels, or in fractions of the image's sides."""
+"""Points on an image by any program: in the unit square with y up, or in pixels with y down."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ def sets_on_image(
     Parameters
     ----------
     path : Path
-        Points with x to the right and y down from the upper border.
+        Points with x to the right.
     shape : (rows, columns)
         Pixels of the image.
     reading : ReadingOptions
-        How they are read. Where they tell no box, coordinates are fractions of the image's sides if none is
-        beyond 1, and pixels otherwise. Where they name no columns, these are all, or x and y, or the first
-        two.
+        How they are read. Where they tell no box, coordinates are fractions of the image's sides with y up if
+        none is beyond 1, and pixels with y down from the upper border otherwise; in a box that is told y is
+        up. Where they name no columns, these are all, or x and y, or the first two.
 
     Returns
     -------
@@ -50,7 +50,8 @@ def sets_on_image(
             faults.append(error)
             continue
         if all(group.sets.shape[2] == 2 for group in groups):
-            return [(_pixels(group, shape), group.digest) for group in groups]
+            down = options.bounds is not None and reading.bounds is None
+            return [(_pixels(group, shape, down), group.digest) for group in groups]
     if not faults:
         raise FormatError(path, "holds no points of a plane: name two columns by --columns")
     raise faults[min(1, len(faults) - 1)]  # of pixels, where the file might be of both
@@ -66,8 +67,29 @@ def _attempts(shape: tuple[int, int], reading: ReadingOptions) -> Iterator[Readi
             yield dataclasses.replace(reading, columns=names, bounds=bounds)
 
 
-def _pixels(group: FileSets, shape: tuple[int, int]) -> FloatArray:
-    """Turn fractions of the box, x first, into pixels, rows first."""
+def _pixels(group: FileSets, shape: tuple[int, int], down: bool) -> FloatArray:
+    """Turn fractions of the box into pixels, rows first."""
+    return rows_first(group.sets * np.array(shape[::-1]) if down else group.sets, shape, down)
+
+
+def rows_first(points: FloatArray, shape: tuple[int, int], down: bool) -> FloatArray:
+    """Turn points with x first into pixels, rows first.
+
+    Parameters
+    ----------
+    points : (..., 2) float64
+        In pixels with y down, or in the unit square with y up.
+    shape : (rows, columns)
+        Pixels of the image.
+    down : bool
+        Which of the two.
+
+    Returns
+    -------
+    (..., 2) float64
+        Within the image.
+    """
     sides = np.array(shape, np.float64)
-    found: FloatArray = np.minimum(group.sets[..., ::-1] * sides, np.nextafter(sides, 0))
+    x = points if down else np.stack([points[..., 0], 1 - points[..., 1]], axis=-1) * sides[::-1]
+    found: FloatArray = np.clip(x[..., ::-1], 0, np.nextafter(sides, 0))
     return np.ascontiguousarray(found)

@@ -11,16 +11,19 @@ the factor of a kernel's mass; their variance, Eq. 29 and 47, is 2 E.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gbnbench.core.errors import InputError
 from gbnbench.core.neighbour_grid import neighbour_grid
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density
+from gbnbench.generators.adaptive.domain import pixels_of
 from gbnbench.generators.adaptive.gbn.attraction import attraction_levels
+from gbnbench.generators.adaptive.gbn.gradient import AdaptiveGradient
 from gbnbench.generators.adaptive.gbn.kernel_widths import BORDER, kernel_widths
 from gbnbench.opencl import Runtime
 
@@ -31,25 +34,7 @@ REACH = {"float": 5.5, "double": 8.3}
 RESOLUTION = {"float": 1.75, "double": 2.65}
 CHUNK = 16  # points that a work-item of a CPU sums for
 WIDEST_LINE = 512  # weights along an axis
-
-
-@dataclass(frozen=True)
-class AdaptiveGradient:
-    """The energy at a set.
-
-    Attributes
-    ----------
-    energy : float
-        E less 1/2 the integral of T^2.
-    gradient : (n, d) float64
-        Its slope by each point, a pixel.
-    widths : (n,) float64
-        Width of each point's kernel, pixels.
-    """
-
-    energy: float
-    gradient: FloatArray
-    widths: FloatArray
+WIDER = 2.0  # factor of a kernel's width beyond which a move is refused
 
 
 class AdaptiveEnergy:
@@ -152,17 +137,9 @@ class AdaptiveEnergy:
     def _widths(self, at: Any, n: int) -> tuple[FloatArray, FloatArray]:
         d = self.density.d
         self._program_of_widths.run(
-            "adaptive_widths",
-            self._global(n),
-            (self._runtime.group,),
-            np.uint32(n),
-            np.uint32(n),
-            at,
-            self._spline_counts,
-            np.int32(BORDER),
-            self._spline,
-            self._found,
-        )
+            "adaptive_widths", self._global(n), (self._runtime.group,),
+            np.uint32(n), np.uint32(n), at, self._spline_counts, np.int32(BORDER), self._spline, self._found,
+        )  # fmt: skip
         found = self._runtime.download(self._found, np.empty((d + 1, n), self._real)).astype(np.float64)
         return np.exp(found[0]), found[1:].T
 
@@ -187,21 +164,61 @@ class AdaptiveEnergy:
         by_place, by_variance = pushed[:d] - pulled[:d], pushed[d] - pulled[d]
         gradient = by_place.T + (2 * variances * by_variance)[:, None] * slopes
         energy = 0.5 * pushed[d + 1].sum() - pulled[d + 1].sum()
-        return AdaptiveGradient(float(energy), gradient, widths)
+        # E sums Gaussians of unit mass; a density's unit of E is rho (4 pi s^2)^(-d/2) of the uniform kernel.
+        spacings = math.sqrt(2) / self.sigma * widths
+        stiffness = (4 * math.pi * variances) ** (-d / 2) / spacings**2
+        return AdaptiveGradient(float(energy), gradient, widths, spacings, stiffness)
+
+    def pull(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Look up what the density draws kernels with at any number of places.
+
+        Parameters
+        ----------
+        x : (m, d) float64
+            Places within the density, in pixels.
+
+        Returns
+        -------
+        widths : (m,) float64
+            Of kernels there, in pixels.
+        pulls : (m,) float64
+            G_{s^2} * T there.
+        """
+        widths, pulls = np.empty(len(x)), np.empty(len(x))
+        for first in range(0, len(x), self.n):
+            some = x[first : first + self.n]
+            filled = np.concatenate([some, np.broadcast_to(x[0], (self.n - len(some), x.shape[1]))])
+            at = self._runtime.upload(filled.T.astype(self._real))
+            found = self._widths(at, self.n)[0]
+            widths[first : first + self.n] = found[: len(some)]
+            pulls[first : first + self.n] = self._pull(at, found**2)[self.density.d + 1, : len(some)]
+        return widths, pulls
+
+    def allowed(self, x: FloatArray, widths: FloatArray) -> NDArray[np.bool_]:
+        """Tell which places have ink, and kernels not much wider than before.
+
+        Parameters
+        ----------
+        x : (n, d) float64
+            Places within the density, in pixels.
+        widths : (n,) float64
+            Of the kernels before.
+
+        Returns
+        -------
+        (n,) bool
+        """
+        inked = self.density.values[pixels_of(self.density, x)] > 0
+        allowed: NDArray[np.bool_] = inked & (self.widths(x)[0] < WIDER * widths)
+        return allowed
 
     def _pull(self, at: Any, variances: FloatArray) -> FloatArray:
         rt, n = self._runtime, self.n
         self._program_of_pull.run(
-            "adaptive_pull",
-            self._global(n),
-            (rt.group,),
-            np.uint32(n),
-            np.uint32(n),
-            at,
-            rt.upload(variances.astype(self._real)),
-            *self._levels,
+            "adaptive_pull", self._global(n), (rt.group,),
+            np.uint32(n), np.uint32(n), at, rt.upload(variances.astype(self._real)), *self._levels,
             self._found,
-        )
+        )  # fmt: skip
         return self._download()
 
     def _push(self, x: FloatArray, variances: FloatArray) -> FloatArray:

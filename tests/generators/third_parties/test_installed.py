@@ -12,7 +12,7 @@ import pytest
 
 import gbnbench
 from gbnbench.cli import run
-from gbnbench.core.errors import InputError
+from gbnbench.core.errors import GbnbenchError, InputError
 from gbnbench.generators.registry import GENERATORS, find, generator_names
 from gbnbench.generators.third_parties.discovery import provenance, third_parties
 
@@ -47,26 +47,6 @@ def told_of(member: str, value: str) -> str:
     return CLASS.format(name="half").replace(
         "    side: float", f"    {member}: ClassVar[object] = {value}\n    side: float"
     )
-
-
-@pytest.fixture
-def install(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    """Leave a package as an installer would: a module of this text, and entry points into it."""
-    count = 0
-
-    def package(name: str, text: str, *entries: str) -> None:
-        nonlocal count
-        count += 1
-        place = tmp_path / f"site{count}"
-        info = place / f"{name}-2.1.dist-info"
-        info.mkdir(parents=True)
-        (place / f"{name}.py").write_text(text)
-        (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: 2.1\n")
-        (info / "entry_points.txt").write_text("\n".join(["[gbnbench.generators]", *entries, ""]))
-        monkeypatch.syspath_prepend(str(place))
-        monkeypatch.delitem(sys.modules, name, raising=False)
-
-    return package
 
 
 def test_a_class_is_known_by_its_name(install) -> None:
@@ -145,6 +125,43 @@ def test_what_cannot_be_used_is_told_and_costs_only_itself(
     if name not in GENERATORS:
         with pytest.raises(InputError, match=f"the package {module} 2.1 cannot be used"):
             gbnbench.generate(name, n=4)
+
+
+@pytest.mark.parametrize(
+    ("was", "now", "said"),
+    [
+        (
+            "return None",
+            "return 1 / 0 == n",
+            r"refusal\(n=4, d=2\) failed: ZeroDivisionError: .* line \d+\)$",
+        ),
+        ("return None", "raise SystemExit", r"refusal\(n=4, d=2\) failed: SystemExit \("),
+        ("return None", "return n < 9", r"refusal\(n, d\) must return a reason or None; got True$"),
+        (
+            "return self",
+            "return n.none * self",
+            r"drawing n=4, d=2 failed: AttributeError: 'int' .* line \d+\)",
+        ),
+        ("return self", "import no_such_module; return self", "ModuleNotFoundError: No module named"),
+        (
+            "    def refusal",
+            "    def __post_init__(self):\n        raise OSError('no')\n\n    def refusal",
+            r"making it failed: OSError: no \(faulty_\d+\.py, line 20\)",
+        ),
+    ],
+)
+def test_what_it_raises_is_told_with_its_package(
+    install, tmp_path: Path, capsys: pytest.CaptureFixture[str], was: str, now: str, said: str
+) -> None:
+    module = f"faulty_{abs(hash(now))}"
+    install(module, CLASS.format(name="half").replace(was, now), f"half = {module}:Half")
+    said = rf"generator 'half' of the package {module} 2\.1: .*{said}"
+    with pytest.raises(GbnbenchError, match=said):
+        gbnbench.generate("half", n=4)
+    assert run(["generate", "half", "-n", "4", "-o", str(tmp_path / "x.txt")]) == 2
+    out, err = capsys.readouterr()
+    assert err.startswith(f"gbnbench: error: generator 'half' of the package {module} 2.1: ")
+    assert "Traceback" not in out + err
 
 
 def test_of_two_packages_with_one_name_the_first_is_taken(install) -> None:
