@@ -168,8 +168,8 @@ def _array(item: StipplingSourceLike, label: str, density: Density) -> Stippling
     high, wide = density.shape
     if not ((x >= 0) & (x <= [wide, high])).all():
         raise InputError(
-            f"{label}: points must lie on the image: in the unit square, or x from 0 to {wide} and y from 0 to "
-            f"{high} pixels"
+            f"{label}: points must lie on the image: in the unit square, or x from 0 to {wide} and y from 0 "
+            f"to {high} pixels"
         )
     sets = rows_first(x if x.ndim == 3 else x[None], (high, wide), bool((x > 1).any()))
     digest = hashlib.sha256(repr(sets.shape).encode() + sets.tobytes()).hexdigest()
