@@ -50,8 +50,8 @@ def compare_stipplings(
         As ``stipple`` takes it; two axes, not toroidal.
     sources : str, path, array_like or AdaptiveGenerator, or a sequence or mapping of these
         Names of ``ADAPTIVE_GENERATORS`` with settings, such as ``"gbn[sigma=0.85]"``; files and folders of
-        points by anybody; arrays (n, 2) or (realizations, n, 2) such as ``Stippling.points``. Points lie in
-        the unit square, x to the right and y up, or, where any number is above 1, in pixels, y down. A
+        points by anybody, in the unit square with y up or, where a number is beyond 1, in pixels with y down;
+        a list of arrays (n, 2) or (realizations, n, 2) in the unit square, such as ``Stippling.points``. A
         mapping gives labels.
     n : int, optional
         Points a set of generators, at least 1; by default as many as ``stipple`` draws.

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -28,6 +30,21 @@ def within(density: Density, x: FloatArray) -> FloatArray:
         x = x - shape * np.floor(x / shape)
         return np.where(x >= shape, 0.0, x)
     return np.clip(x, 0, np.nextafter(shape, 0))
+
+
+def interpolation_mode(*, toroidal: bool) -> Literal["grid-wrap", "nearest"]:
+    """Give the name by which ``scipy.ndimage`` knows what lies beyond the border of a field of pixels.
+
+    Parameters
+    ----------
+    toroidal : bool
+        Whether opposite borders meet.
+
+    Returns
+    -------
+    str
+    """
+    return "grid-wrap" if toroidal else "nearest"
 
 
 def shortest(density: Density, apart: FloatArray) -> FloatArray:

@@ -15,6 +15,7 @@ from gbnbench.generators.adaptive.density import Density
 from gbnbench.generators.adaptive.dithering.error_diffusion import FloydSteinberg
 from gbnbench.generators.adaptive.dithering.mask import VoidAndClusterDither
 from gbnbench.generators.adaptive.gbn.generator import AdaptiveGaussianBlueNoise
+from gbnbench.generators.adaptive.kernel_density.kdm import AdaptiveKernelDensity
 from gbnbench.generators.adaptive.power_cells.bnot import WeightedOptimalTransport
 from gbnbench.generators.adaptive.protocol import AdaptiveGenerator, ClassGenerator, Seen, Told
 from gbnbench.generators.adaptive.rejection import Rejection
@@ -28,6 +29,7 @@ ADAPTIVE_GENERATORS: dict[str, type[AdaptiveGenerator]] = {
     "lbg": LindeBuzoGray,
     "bnot": WeightedOptimalTransport,
     "electrostatic": ElectrostaticHalftoning,
+    "kdm": AdaptiveKernelDensity,
     "rejection": Rejection,
     "floydsteinberg": FloydSteinberg,
     "voidcluster": VoidAndClusterDither,

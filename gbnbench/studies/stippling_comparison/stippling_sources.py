@@ -82,9 +82,8 @@ def stippling_sources(
     ----------
     given : sequence of (label, source)
         Generators such as ``"gbn[sigma=0.85]"`` or instances of them, files and folders, arrays (n, 2) or
-        (realizations, n, 2): in the unit square, x to the right and y up, if nothing is beyond 1, and
-        otherwise in pixels, y down. A name that is both a generator and a file is the generator. Where the
-        label is empty, one is found.
+        (realizations, n, 2) in the unit square, x to the right and y up. A name that is both a generator and
+        a file is the generator. Where the label is empty, one is found.
     density : Density
         Of an image.
     n, realizations : int
@@ -165,13 +164,12 @@ def _array(item: StipplingSourceLike, label: str, density: Density) -> Stippling
         raise InputError(f"{label}: a source is a name, a path or an array of points") from None
     if x.ndim not in (2, 3) or x.shape[-1] != 2 or x.size == 0:
         raise InputError(f"{label}: points must be (n, 2) or (realizations, n, 2); got shape {x.shape}")
-    high, wide = density.shape
-    if not ((x >= 0) & (x <= [wide, high])).all():
+    if not ((x >= 0) & (x <= 1)).all():
         raise InputError(
-            f"{label}: points must lie on the image: in the unit square, or x from 0 to {wide} and y from 0 "
-            f"to {high} pixels"
+            f"{label}: points must lie in the unit square, x to the right and y up, as Stippling.points do"
         )
-    sets = rows_first(x if x.ndim == 3 else x[None], (high, wide), bool((x > 1).any()))
+    down = (x if x.ndim == 3 else x[None])[..., ::-1] * [-1, 1] + [1, 0]
+    sets = rows_first(down, (density.shape[0], density.shape[1]))
     digest = hashlib.sha256(repr(sets.shape).encode() + sets.tobytes()).hexdigest()
     return StipplingSource("", label, sets.shape[1], len(sets), sets=sets, digest=digest, kind="array")
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar, Literal
+from typing import ClassVar
 
 import numpy as np
 from scipy import ndimage
@@ -13,7 +13,7 @@ from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.charges.repulsion import Repulsion, charges_refusal
 from gbnbench.generators.adaptive.charges.smoothed_field import SmoothedField
 from gbnbench.generators.adaptive.density import Density
-from gbnbench.generators.adaptive.domain import pixels_of, to_ink, within
+from gbnbench.generators.adaptive.domain import interpolation_mode, pixels_of, to_ink, within
 from gbnbench.generators.adaptive.method import AdaptiveMethod, too_fine
 from gbnbench.generators.adaptive.protocol import Told
 from gbnbench.generators.adaptive.rejection import Rejection
@@ -141,7 +141,7 @@ class Attraction:
     def __init__(self, density: Density, n: int) -> None:
         rho = density.of_points(n)
         self._density = density
-        self._mode: Literal["grid-wrap", "nearest"] = "grid-wrap" if density.toroidal else "nearest"
+        self._mode = interpolation_mode(toroidal=density.toroidal)
         self._margin = 0 if density.toroidal else MARGIN
         charges = np.pad(rho, self._margin)
         push = SmoothedField(charges.shape, np.ones(2), PIXEL**2, toroidal=density.toroidal)(charges)

@@ -79,7 +79,7 @@ class Repulsion:
 
     def _far(self, x: FloatArray) -> FloatArray:
         nodes, weights = self._windows(x)
-        charges = np.bincount(nodes.ravel(), weights.ravel(), math.prod(self._counts))
+        charges = np.bincount(nodes.ravel(), weights.ravel(), math.prod(self._counts)).astype(np.float64)
         fields = self._field(charges.reshape(self._counts))
         return np.stack([(field.ravel()[nodes] * weights).sum(axis=1) for field in fields], axis=1)
 

@@ -10,15 +10,25 @@ from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.generators.adaptive.density import as_density, density_of
 from gbnbench.generators.adaptive.gbn.generator import AdaptiveGaussianBlueNoise
 from gbnbench.generators.adaptive.hilbert_start import hilbert_index, hilbert_start
+from gbnbench.generators.adaptive.protocol import AdaptiveGenerator
 from gbnbench.generators.adaptive.registry import ADAPTIVE_GENERATORS, adaptive_generator, adaptive_points
 
-SHORT = {"gbn": "gbn[gradients=5]", "electrostatic": "electrostatic[iterations=12]"}
+SHORT = {
+    "gbn": "gbn[gradients=5]",
+    "electrostatic": "electrostatic[iterations=12]",
+    "kdm": "kdm[iterations=3]",
+}
 DISC = density_of(lambda x: np.hypot(*(x - 20).T) < 12, (40, 40))
+
+
+def quick(name: str) -> AdaptiveGenerator:
+    """Make the generator with few steps, where its own take long."""
+    return adaptive_generator(SHORT.get(name, name))
 
 
 @pytest.mark.parametrize("name", ADAPTIVE_GENERATORS)
 def test_sets_are_on_the_ink_and_follow_the_seed(name):
-    generator = adaptive_generator(SHORT.get(name, name))
+    generator = quick(name)
     x = adaptive_points(generator, DISC, 70, seed=3)
     assert x.shape == (70, 2)
     assert (DISC.values[tuple(x.astype(int).T)] > 0).all()
@@ -42,7 +52,7 @@ def test_sets_are_on_the_ink_and_follow_the_seed(name):
 )
 def test_odd_densities_are_served(name, values, toroidal):
     density = as_density(values, toroidal=toroidal)
-    generator = adaptive_generator(SHORT.get(name, name))
+    generator = quick(name)
     for n in (1, 2, 11):
         x = adaptive_points(generator, density, n)
         assert x.shape == (n, 2)
