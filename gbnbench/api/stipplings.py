@@ -18,7 +18,7 @@ from gbnbench.studies.stippling.darkness import ImageLike, ToneCurve, as_darknes
 from gbnbench.studies.stippling_comparison.stippling_sources import StipplingSourceLike, stippling_sources
 from gbnbench.studies.stippling_comparison.study import run_stippling_comparison
 
-DEFAULT_STIPPLERS = ("gbn", "lbg", "floydsteinberg", "rejection")
+DEFAULT_STIPPLERS = ("gbn", "bnot", "lbg", "floydsteinberg", "rejection")
 
 
 def compare_stipplings(

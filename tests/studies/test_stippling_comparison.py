@@ -149,7 +149,7 @@ def test_arrays_and_files_lie_on_the_image_as_generators_do(tmp_path):
     rows = "\n".join(f"{a:.17g} {b:.17g} 1.5" for a, b in x)
     (tmp_path / "theirs.txt").write_text(rows + "\n")
     made = compare_stipplings(
-        DENSITY, {"file": tmp_path / "theirs.txt", "array": x, "ours": "rejection"},
+        DENSITY, {"file": tmp_path / "theirs.txt", "array": x, "unit": unit, "ours": "rejection"},
         n=80, out=tmp_path / "run", jobs=1, quiet=True,
     )  # fmt: skip
     table = made.table.drop(columns=["source", "cpu_seconds"])
@@ -164,7 +164,7 @@ def test_arrays_and_files_lie_on_the_image_as_generators_do(tmp_path):
         ("fractions.csv", "x,y\n0.25,0.5\n0.5,0.25\n", PLAIN),
         (
             "pixels.csv",
-            "x,y,amplitude\n10,24\n20,36\n".replace("24\n", "24,1\n").replace("36\n", "36,2\n"),
+            "x,y,amplitude\n10,24,1\n20,36,2\n",
             PLAIN,
         ),
         ("pixels.txt", "10 24 0.5\n20 36 0.5\n", PLAIN),
