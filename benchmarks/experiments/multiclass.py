@@ -16,7 +16,7 @@ import numpy as np
 import pandas as pd
 
 from gbnbench import measures, periodogram
-from gbnbench.benchmarks.experiments.adaptive_quality import relative_variance
+from gbnbench.studies.stippling_comparison.relative_variance import relative_variance
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import as_density
 from gbnbench.generators.adaptive.gbn.joint_energy import union_density
