@@ -16,13 +16,13 @@ import numpy as np
 import pandas as pd
 
 from gbnbench import measures, periodogram
-from gbnbench.studies.stippling_comparison.relative_variance import relative_variance
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import as_density
 from gbnbench.generators.adaptive.gbn.joint_energy import union_density
 from gbnbench.generators.adaptive.registry import adaptive_classes
 from gbnbench.io.images import read_image
 from gbnbench.studies.stippling.inks import ink_darkness, shared_out
+from gbnbench.studies.stippling_comparison.relative_variance import relative_variance
 
 COUNTS = ((512, 512), (256, 768))
 UNIONS = (0, 0.1, 0.3, 1, 10)
