@@ -149,7 +149,7 @@ def test_arrays_and_files_lie_on_the_image_as_generators_do(tmp_path):
     rows = "\n".join(f"{a:.17g} {b:.17g} 1.5" for a, b in x)
     (tmp_path / "theirs.txt").write_text(rows + "\n")
     made = compare_stipplings(
-        DENSITY, {"file": tmp_path / "theirs.txt", "array": x, "unit": unit, "ours": "rejection"},
+        DENSITY, {"file": tmp_path / "theirs.txt", "array": x, "ours": "rejection"},
         n=80, out=tmp_path / "run", jobs=1, quiet=True,
     )  # fmt: skip
     table = made.table.drop(columns=["source", "cpu_seconds"])
