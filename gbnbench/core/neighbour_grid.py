@@ -23,8 +23,6 @@ class NeighbourGrid:
         Positions, from the lower corner of the box that holds them all.
     variances : (m,) float64
         Of the kernels.
-    sources : (m,) intp
-        Which points these are, or are images of.
     targets : (n,) uint32
         Where the points themselves, not images of them, lie in the list.
     points : (n,) intp
@@ -41,7 +39,6 @@ class NeighbourGrid:
 
     places: FloatArray
     variances: FloatArray
-    sources: NDArray[np.intp]
     targets: NDArray[np.uint32]
     points: NDArray[np.intp]
     sides: FloatArray
@@ -105,7 +102,6 @@ def neighbour_grid(
     return NeighbourGrid(
         np.ascontiguousarray(places[order].T),
         variances[order],
-        number[order],
         targets.astype(np.uint32),
         number[order][targets],
         np.array(sides),

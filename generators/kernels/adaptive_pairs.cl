@@ -1,5 +1,5 @@
-/* Sums over neighbours of Gaussians of variance v_k + v_l: m_l (2 pi w)^(-AXES / 2) exp(-r^2 / 2 w), w = v_k + v_l,
- * m_l being the mass of the source, their slopes by x_k, and by v_k (Ahmed, Ren & Wonka 2022, Eq. 28 to 32). The pair k = l counts.
+/* Sums over neighbours of Gaussians of variance v_k + v_l: G = (2 pi w)^(-AXES / 2) exp(-r^2 / 2 w), w = v_k + v_l,
+ * their slopes by x_k, and by v_k (Ahmed, Ren & Wonka 2022, Eq. 28 to 32). The pair k = l counts.
  *
  * Sources are [axis][stride], relative to the lower corner of the box that holds them, sorted by levels of their
  * variance, within a level by cells in rows along the last axis; a level's cells have sides of their own, so that the
@@ -8,7 +8,7 @@
  * last one can be read.
  */
 __kernel void adaptive_pairs(const uint targets, const uint chunk, __global const uint *target, const uint stride,
-                             __global const REAL *at, __global const REAL *variances, __global const REAL *masses, const uint levels,
+                             __global const REAL *at, __global const REAL *variances, const uint levels,
                              __global const REAL *sides, __global const REAL *widest, __global const int *counts,
                              __global const uint *offsets, __global const uint *starts, const REAL reach,
                              __global REAL *found)
@@ -65,8 +65,7 @@ __kernel void adaptive_pairs(const uint targets, const uint chunk, __global cons
                         r2 += dz * dz;
 #endif
                         const REALV over = (REAL)1 / (v + LOADV(variances, l)), half_r2 = (REAL)0.5 * r2 * over;
-                        REALV g = exp2_negative(half_r2 * (REAL)-1.4426950408889634074) * over
-                                  * LOADV(masses, l);
+                        REALV g = exp2_negative(half_r2 * (REAL)-1.4426950408889634074) * over;
 #if AXES == 3
                         g *= sqrt(over);
 #endif

@@ -61,7 +61,6 @@ def attraction_levels(
     part: float,
     resolution: float,
     reach: float,
-    masses: FloatArray | None = None,
 ) -> tuple[Level, ...]:
     """Spread the density, and sample it at cells of 1, 2, 4 ... pixels.
 
@@ -80,8 +79,6 @@ def attraction_levels(
         2).
     reach : float
         Standard deviations after which a Gaussian ends.
-    masses : float64, optional
-        Mass of a point at the centre of each pixel; by default 1.
 
     Returns
     -------
@@ -97,11 +94,10 @@ def attraction_levels(
     grid = padded_grid(density.shape, margin)
     most = math.inf if density.toroidal else margin / (reach * math.hypot(1, part))
     log_width = np.minimum(grid.reflected(widths.log_width), math.log(most))
-    rho = density.of_points(n) if masses is None else density.of_points(n) * masses
-    spectrum = _spread_spectrum(grid, grid.reflected(rho), log_width, part)
+    spectrum = _spread_spectrum(grid, grid.reflected(density.of_points(n)), log_width, part)
     if margin:
         field = grid.sampled(spectrum, grid.padded) * _share_inside(grid, np.exp(log_width))
-        spectrum = grid.transform(field * (rho.sum() / field.sum()))
+        spectrum = grid.transform(field * (n / field.sum()))
     largest = BEYOND_INK * on_ink
     levels: list[Level] = []
     while True:

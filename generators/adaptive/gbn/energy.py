@@ -1,13 +1,12 @@
 """The energy of an adaptive set, and its gradient: E = 1/2 integral of (A - T)^2, up to a constant.
 
-A(x) sums a Gaussian of mass m(x_k) = 1 and variance s(x_k)^2 for each point, s being a field
-(kernel_widths.py); T is what the density spreads (attraction.py). With G of unit mass,
+A(x) sums a Gaussian of unit mass and variance s(x_k)^2 for each point, s being a field (kernel_widths.py); T
+is what the density spreads (attraction.py). With G of unit mass,
 
     E = 1/2 sum over k, l of G(x_k - x_l; s_k^2 + s_l^2) - sum over k of (G_{s_k^2} * T)(x_k),
 
 k = l included. These are Eq. 28 to 32 of Ahmed, Ren & Wonka (2022) with a_k = sigma^2 / (2 s_k^2), but for
-the factor of a kernel's mass; their variance, Eq. 29 and 47, is 2 E. Where m is another field, each
-Gaussian has its factor m(x_k), and T spreads m times the density.
+the factor of a kernel's mass; their variance, Eq. 29 and 47, is 2 E.
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ from gbnbench.generators.adaptive.density import Density
 from gbnbench.generators.adaptive.domain import pixels_of
 from gbnbench.generators.adaptive.gbn.attraction import attraction_levels
 from gbnbench.generators.adaptive.gbn.gradient import AdaptiveGradient
-from gbnbench.generators.adaptive.gbn.kernel_widths import KernelWidths, kernel_widths
+from gbnbench.generators.adaptive.gbn.kernel_widths import kernel_widths
 from gbnbench.generators.adaptive.gbn.pair_sums import PairSums
 from gbnbench.generators.adaptive.gbn.pull_sums import PullSums
 from gbnbench.generators.adaptive.gbn.spline_field import SplineField
@@ -55,9 +54,6 @@ class AdaptiveEnergy:
         t: width over which a pixel's share is spread, over that of the kernels there.
     precision : {"double", "float"}
         Of the sums.
-    whole : KernelWidths, optional
-        Where the points are a class of more: kernels of all of them. A point's mass then is (s / s_whole)^d,
-        about the density of all over that of its class, so that the class is held as stiffly as the whole.
 
     Attributes
     ----------
@@ -77,7 +73,6 @@ class AdaptiveEnergy:
         smoothing: float,
         spread: float,
         precision: str,
-        whole: KernelWidths | None = None,
     ) -> None:
         self.density, self.sigma, self.n = density, sigma, n
         self._runtime, self._precision = runtime, precision
@@ -91,14 +86,8 @@ class AdaptiveEnergy:
             "AXES": d,
         }
         self._log_width = SplineField(runtime, found.coefficients, n, defines)
-        masses = None
-        self._log_mass = None
-        if whole is not None:
-            masses = np.exp(d * (found.log_width - whole.log_width))
-            coefficients = d * (found.coefficients - whole.coefficients)
-            self._log_mass = SplineField(runtime, coefficients, n, defines)
         reach, resolution = REACH[precision], RESOLUTION[precision]
-        levels = attraction_levels(density, n, found, spread, resolution, reach, masses)
+        levels = attraction_levels(density, n, found, spread, resolution, reach)
         self._pull = PullSums(runtime, levels, n, defines, resolution, reach)
         self._push = PairSums(runtime, n, density.shape if density.toroidal else None, defines, reach)
 
@@ -135,17 +124,14 @@ class AdaptiveEnergy:
         at, n, d = self._upload(x), self.n, self.density.d
         log_widths, slopes = self._log_width(at, n)
         widths, variances = np.exp(log_widths), np.exp(2 * log_widths)
-        log_masses, mass_slopes = (np.zeros(n), 0.0) if self._log_mass is None else self._log_mass(at, n)
-        masses = np.exp(log_masses)
-        pushed, pulled = self._push(x, variances, masses), self._pull(at, variances)
+        pushed, pulled = self._push(x, variances), self._pull(at, variances)
         excess = pushed - pulled  # of A over T, as the kernel sees it
         gradient = excess[:d].T + (2 * variances * excess[d])[:, None] * slopes
-        gradient += excess[d + 1][:, None] * mass_slopes
-        energy = (masses * (0.5 * pushed[d + 1] - pulled[d + 1])).sum()
+        energy = (0.5 * pushed[d + 1] - pulled[d + 1]).sum()
         # E sums Gaussians of unit mass; a density's unit of E is rho (4 pi s^2)^(-d/2) of the uniform kernel.
         spacings = math.sqrt(2) / self.sigma * widths
-        stiffness = masses**2 * (4 * math.pi * variances) ** (-d / 2) / spacings**2
-        return AdaptiveGradient(float(energy), masses[:, None] * gradient, widths, spacings, stiffness)
+        stiffness = (4 * math.pi * variances) ** (-d / 2) / spacings**2
+        return AdaptiveGradient(float(energy), gradient, widths, spacings, stiffness)
 
     def pull(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Look up what the density draws kernels with at any number of places.

@@ -15,7 +15,6 @@ from gbnbench.generators.adaptive.density import Density
 from gbnbench.generators.adaptive.gbn.descent import descend
 from gbnbench.generators.adaptive.gbn.energy import RESOLUTION, AdaptiveEnergy
 from gbnbench.generators.adaptive.gbn.joint_energy import JointEnergy, Part, union_density
-from gbnbench.generators.adaptive.gbn.kernel_widths import KernelWidths, kernel_widths
 from gbnbench.generators.adaptive.hilbert_start import hilbert_start
 from gbnbench.generators.adaptive.method import AdaptiveMethod, too_fine
 from gbnbench.generators.adaptive.protocol import Seen, Told
@@ -139,9 +138,9 @@ class AdaptiveGaussianBlueNoise(AdaptiveMethod):
 
         Notes
         -----
-        The energy is the sum of those of the classes, and ``union`` times that of all points for the sum of
-        the densities. In the energy of a class a point has the mass (s / s_all)^d, about the density of all
-        over that of its class there, so that it is held by its class as stiffly as by all at ``union`` = 1.
+        The energy is the sum over classes of (n / n_c)^2 E_c and ``union`` times the energy E of all n points
+        for the sum of the densities. So in flat tones, where a class has the density n_c / n of all, a point
+        is held as stiffly by its own class as by all points at ``union`` = 1.
         """
         whole, n = union_density(densities, counts), sum(counts)
         if reason := self.refusal(whole, n):
@@ -188,10 +187,10 @@ class AdaptiveGaussianBlueNoise(AdaptiveMethod):
         widths, pulls = self._energy(density.finer(parts), n).pull(x * parts)
         return widths / parts, pulls * parts**density.d
 
-    def _energy(self, density: Density, n: int, whole: KernelWidths | None = None) -> AdaptiveEnergy:
+    def _energy(self, density: Density, n: int) -> AdaptiveEnergy:
         return AdaptiveEnergy(
             runtime(), density, n, sigma=self.sigma, smoothing=self.smoothing, spread=self.spread,
-            precision=self.precision, whole=whole,
+            precision=self.precision,
         )  # fmt: skip
 
     def _joint_energy(
@@ -201,10 +200,9 @@ class AdaptiveGaussianBlueNoise(AdaptiveMethod):
         n = sum(counts)
         if len(counts) == 1:
             return self._energy(whole, n)
-        widths = kernel_widths(whole, n, self.sigma, self.smoothing)
         parts = [Part(slice(0, n), self._energy(whole, n), self.union)] if self.union else []
         first = 0
         for density, count in zip(densities, counts, strict=True):
-            parts.append(Part(slice(first, first + count), self._energy(density, count, widths), 1.0))
+            parts.append(Part(slice(first, first + count), self._energy(density, count), (n / count) ** 2))
             first += count
         return JointEnergy(whole, parts)

@@ -15,7 +15,7 @@ CHUNK = 16  # points that a work-item of a CPU sums for
 
 
 class PairSums:
-    """Sum over l of m_l G(x_k - x_l; v_k + v_l), l = k included, and its slopes.
+    """Sum over l of G(x_k - x_l; v_k + v_l), l = k included, and its slopes.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ class PairSums:
         self._program = runtime.program(PACKAGE, files, defines)
         self._found = runtime.empty((self._d + 2) * n * np.dtype(self._real).itemsize)
 
-    def __call__(self, x: FloatArray, variances: FloatArray, masses: FloatArray) -> FloatArray:
+    def __call__(self, x: FloatArray, variances: FloatArray) -> FloatArray:
         """Sum.
 
         Parameters
@@ -55,8 +55,6 @@ class PairSums:
             Points, in pixels.
         variances : (n,) float64
             Of their kernels, squared pixels.
-        masses : (n,) float64
-            Of their kernels.
 
         Returns
         -------
@@ -68,8 +66,8 @@ class PairSums:
         m = grid.places.shape[1]
         stride = m + self._lanes
         places = np.zeros((self._d, stride), real)
-        sources, weights = np.ones((2, stride), real)
-        places[:, :m], sources[:m], weights[:m] = grid.places, grid.variances, masses[grid.sources]
+        sources = np.ones(stride, real)
+        places[:, :m], sources[:m] = grid.places, grid.variances
         chunk = CHUNK if rt.device.is_cpu else 1
         group = 1 if rt.device.is_cpu else rt.group
         items = -(-n // chunk)
@@ -83,7 +81,6 @@ class PairSums:
             np.uint32(stride),
             rt.upload(places),
             rt.upload(sources),
-            rt.upload(weights),
             np.uint32(len(grid.sides)),
             rt.upload(grid.sides.astype(real)),
             rt.upload(grid.widest.astype(real)),

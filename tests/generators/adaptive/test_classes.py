@@ -11,7 +11,6 @@ from gbnbench.generators.adaptive.density import as_density
 from gbnbench.generators.adaptive.gbn.energy import AdaptiveEnergy
 from gbnbench.generators.adaptive.gbn.generator import AdaptiveGaussianBlueNoise
 from gbnbench.generators.adaptive.gbn.joint_energy import JointEnergy, Part, union_density
-from gbnbench.generators.adaptive.gbn.kernel_widths import kernel_widths
 from gbnbench.opencl import runtime
 
 COUNTS = [20, 40]
@@ -29,18 +28,15 @@ def test_the_gradient_is_the_slope_of_the_joint_energy(toroidal):
         for values in (1.2 + np.sin(i / 7) * np.sin(j / 6), 1 + 0.02 * i)
     ]
 
-    def energy_of(density, n, all_of_them=None):
-        return AdaptiveEnergy(
-            runtime(), density, n, sigma=1.0, smoothing=0.5, spread=0.8, precision="double", whole=all_of_them
-        )
+    def energy_of(density, n):
+        return AdaptiveEnergy(runtime(), density, n, sigma=1.0, smoothing=0.5, spread=0.8, precision="double")
 
     whole = union_density(densities, COUNTS)
     assert whole.of_points(60) == pytest.approx(densities[0].of_points(20) + densities[1].of_points(40))
-    widths = kernel_widths(whole, 60, 1.0, 0.5)
     parts = [
         Part(slice(0, 60), energy_of(whole, 60), 0.7),
-        Part(slice(0, 20), energy_of(densities[0], 20, widths), 1.0),
-        Part(slice(20, 60), energy_of(densities[1], 40, widths), 1.3),
+        Part(slice(0, 20), energy_of(densities[0], 20), 9.0),
+        Part(slice(20, 60), energy_of(densities[1], 40), 2.25),
     ]
     energy = JointEnergy(whole, parts)
     rng = np.random.default_rng(1)
@@ -54,20 +50,6 @@ def test_the_gradient_is_the_slope_of_the_joint_energy(toroidal):
             moved[k, a] = step
             slope = (energy(x + moved).energy - energy(x - moved).energy) / (2 * step)
             assert slope == pytest.approx(found.gradient[k, a], abs=1e-7 * np.abs(found.gradient).max())
-
-
-def test_a_class_of_a_flat_grey_has_all_over_its_own_points_as_mass():
-    flat = as_density(np.ones((32, 32)), toroidal=True)
-    x = np.random.default_rng(3).random((20, 2)) * 32
-    own, shared = (
-        AdaptiveEnergy(
-            runtime(), flat, 20, sigma=1.0, smoothing=0.5, spread=0.8, precision="double", whole=whole
-        )(x)
-        for whole in (None, kernel_widths(flat, 60, 1.0, 0.5))
-    )
-    assert shared.energy == pytest.approx(9 * own.energy)
-    assert shared.gradient == pytest.approx(9 * own.gradient)
-    assert shared.stiffness == pytest.approx(9 * own.stiffness)
 
 
 def test_classes_keep_to_their_own_ink():
