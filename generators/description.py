@@ -93,7 +93,10 @@ def describe(generator: Generator) -> Description:
     """
     kind = type(generator)
     text = _sections(inspect.getdoc(kind) or kind.summary)
-    meanings = {**_entries(text.get("Attributes", "")), **_entries(text.get("Parameters", ""))}
+    meanings: dict[str, str] = {}
+    for base in reversed(kind.__mro__):  # what a class does not say of its settings its bases may
+        said = _sections(inspect.cleandoc(vars(base).get("__doc__") or ""))
+        meanings |= {**_entries(said.get("Attributes", "")), **_entries(said.get("Parameters", ""))}
     hints = typing.get_type_hints(kind)
     settings = tuple(
         Setting(

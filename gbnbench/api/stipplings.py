@@ -18,7 +18,7 @@ from gbnbench.studies.stippling.darkness import ImageLike, ToneCurve, as_darknes
 from gbnbench.studies.stippling_comparison.stippling_sources import StipplingSourceLike, stippling_sources
 from gbnbench.studies.stippling_comparison.study import run_stippling_comparison
 
-DEFAULT_STIPPLERS = ("gbn", "lbg", "floydsteinberg", "rejection")
+DEFAULT_STIPPLERS = ("gbn", "bnot", "lbg", "floydsteinberg", "rejection")
 
 
 def compare_stipplings(
@@ -50,9 +50,9 @@ def compare_stipplings(
         As ``stipple`` takes it; two axes, not toroidal.
     sources : str, path, array_like or AdaptiveGenerator, or a sequence or mapping of these
         Names of ``ADAPTIVE_GENERATORS`` with settings, such as ``"gbn[sigma=0.85]"``; files and folders of
-        points by anybody, in pixels or in fractions of the image's sides, x to the right and y down; a list
-        of arrays (n, 2) or (realizations, n, 2) in pixels, x first, such as ``Stippling.points``. A mapping
-        gives labels.
+        points by anybody, in the unit square with y up or, where a number is beyond 1, in pixels with y down;
+        a list of arrays (n, 2) or (realizations, n, 2) in the unit square, such as ``Stippling.points``. A
+        mapping gives labels.
     n : int, optional
         Points a set of generators, at least 1; by default as many as ``stipple`` draws.
     realizations : int

@@ -43,7 +43,7 @@ Examples:
     "--density",
     metavar="IMAGE",
     help="Compare stipplings of this image: a file, or a name such as camera. SOURCES are then adaptive "
-    "generators and files of points, in pixels or fractions of its sides; -n is by the image and "
+    "generators and files of points, in the unit square or in pixels; -n is by the image and "
     "--realizations 1 unless given.",
 )
 @click.option("--invert", is_flag=True, help="With --density: light is dense.")

@@ -112,14 +112,14 @@ def _show(made: StipplingComparison, as_json: bool) -> None:
         click.echo(json_text(_records(made)) if as_json else terminal_text(made.run, width))
     if made.undrawn:
         undrawn(made.folder, made.undrawn)
-    report = f"report: {made.report()} ({made.seconds:.1f} s)" if made.run.sources else ""
     if made.failures:
+        others = f"; the report of the others: {made.report()}" if made.run.sources else ""
         raise UnfinishedError(
             f"{len(made.failures)} of {len(made.failures) + len(made.run.sources)} sources failed, and the "
-            f"same command tries them again; {report}; the first: {made.failures[0]}"
+            f"same command tries them again; the first: {made.failures[0]}{others}"
         )
     kept = f", {made.reused} of {made.pieces} sets reused" if made.reused else ""
-    click.echo(f"{report[:-1]}{kept})", err=as_json)
+    click.echo(f"report: {made.report()} ({made.seconds:.1f} s{kept})", err=as_json)
 
 
 def _records(made: StipplingComparison) -> list[dict[str, Any]]:

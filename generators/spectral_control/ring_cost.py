@@ -108,13 +108,16 @@ class RingCost:
 
     Notes
     -----
-    With rho_r the mean over ring r of P_f / T_f, of N_r frequencies with a mean target T_r, the cost is
+    With rho_r the power of ring r over that of its target, N_r its frequencies and T_r their mean target, the
+    cost is
 
         (1/n) [sum_r N_r T_r (sqrt(rho_r) - 1)**2 <nu**-2>_r + sum_f P_f nu_f**-2 + sum of the soft core],
 
     the second sum being over frequencies that are to have no power. It is the first for T -> 0, so that a
     band is emptied as fast as a ring is filled. 1 / nu**2 turns a change of amplitude into the displacement
-    that makes it: without it the lowest frequencies come last.
+    that makes it: without it the lowest frequencies come last. The mean of P_f / T_f in the place of rho_r
+    would bind each frequency by its own target; where that falls by orders of magnitude within a ring, as at
+    the foot of a narrow peak beyond the plane, the stiffness spreads as far, and descent comes to a halt.
     """
 
     def __init__(self, rings: Rings, core: float) -> None:
@@ -123,8 +126,8 @@ class RingCost:
         filled = ~rings.empty
         stiffness = 1 / rings.modes.nu**2
         self._filled, self._empty_weight = filled, stiffness[rings.empty]
-        self._inverse = 1 / rings.target[filled]
-        self._weight = rings.means(stiffness[filled]) * rings.means(rings.target[filled])
+        self._target = rings.means(rings.target[filled])
+        self._weight = rings.means(stiffness[filled])
 
     def __call__(self, u: FloatArray) -> tuple[float, FloatArray]:
         """Evaluate the cost and its gradient per spacing at points in spacings, (n, d)."""
@@ -132,11 +135,11 @@ class RingCost:
         waves = WaveSums(wrap(u / self.side), rings.modes.f, single=True)
         amplitudes = waves.amplitudes()
         power = np.abs(amplitudes) ** 2 / self.n
-        root = np.sqrt(rings.means(power[self._filled] * self._inverse) + LEAST)
-        cost = float(np.sum(rings.count * self._weight * (root - 1) ** 2))
+        root = np.sqrt(rings.means(power[self._filled]) / self._target + LEAST)
+        cost = float(np.sum(rings.count * self._weight * self._target * (root - 1) ** 2))
         cost += float(np.sum(self._empty_weight * power[rings.empty]))
         slope = np.empty(len(power))
-        slope[self._filled] = (self._weight * (1 - 1 / root))[rings.ring] * self._inverse
+        slope[self._filled] = (self._weight * (1 - 1 / root))[rings.ring]
         slope[rings.empty] = self._empty_weight
         gradient = waves.gradient(2 / self.n * slope * amplitudes, self.side)
         if self.core > 0:

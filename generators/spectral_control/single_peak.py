@@ -29,8 +29,6 @@ class SinglePeak(RingMeans):
         Of the peak, its integral over nu; by default 0.21 in the plane. 0 leaves a step.
     width : float or None
         Standard deviation of the blur along nu; by default 0.05 in the plane.
-    highest, core, iterations, method
-        As those of ``targeted``.
 
     Raises
     ------
@@ -42,9 +40,9 @@ class SinglePeak(RingMeans):
     P = G * (power delta(nu - edge) + H(nu - edge)), G being the Gaussian: the publication's family. The
     defaults are ours: the least peak, in steps of 0.01, whose pair correlation in the plane is nowhere below
     -0.01 at this edge and width. A wider edge needs a higher peak, and beyond 0.86 no peak will do; what no
-    process can have is met as nearly as the points can, and ``target_fit`` says how nearly. Beyond the plane
-    100 iterations are too few: 1,000 points in 3D have a mean power of .07 where none is asked, and 2e-4
-    after 400.
+    process can have is met as nearly as the points can, and ``target_fit`` says how nearly: 1,024 points in
+    the plane within 0.05 dB, with 5e-6 where no power is asked; 1,000 in 3D and 1,024 in 4D within 0.001 dB,
+    with 1e-10; on a line 1.1 dB off after 300 iterations, with 2e-3.
 
     References
     ----------

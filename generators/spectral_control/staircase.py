@@ -28,8 +28,6 @@ class Staircase(RingMeans):
         Where it ends, in nu, above the edge; by default 1.38 in the plane.
     level : float
         Power of the stair, > 0.
-    highest, core, iterations, method
-        As those of ``targeted``.
 
     Raises
     ------

@@ -20,9 +20,6 @@ class Step(RingMeans):
     edge : float or None
         In nu; by default the widest that a process can have, V_d edge**d = 1: 0.564 in the plane, 0.620 in
         3D. In 1D that would leave lattices alone, and 0.3 is taken.
-    highest, core, iterations, method
-        As those of ``targeted``: nu up to which the spectrum is flat, distance below which pairs repel (by
-        default 0.25 spacings in the plane), most steps, and what is brought to the target.
 
     Raises
     ------

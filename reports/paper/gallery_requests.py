@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from gbnbench.generators.listing import MeasuredCost, measured_costs
-from gbnbench.generators.registry import GENERATORS
+from gbnbench.generators.registry import GENERATORS, find
 from gbnbench.reports.paper.data import ComparisonRequest
 from gbnbench.reports.paper.figure import FigureOptions
 from gbnbench.reports.paper.method_styles import GENERATOR_NAMES, NAMES
@@ -50,7 +50,7 @@ def generator_of(options: FigureOptions, method: str) -> str | None:
     str or None
     """
     name = GENERATOR_NAMES.get(method, method)
-    if name not in GENERATORS or GENERATORS[name]().refusal(size(options), 2) is not None:
+    if name.partition("[")[0] not in GENERATORS or find(name).refusal(size(options), 2) is not None:
         return None
     return name
 
@@ -101,7 +101,7 @@ def method_requests(options: FigureOptions, methods: Iterable[str]) -> dict[str,
 
 def _affordable_sets(options: FigureOptions, name: str) -> int:
     """Return the number of sets of a method of others: a tenth of the usual where one takes long."""
-    cost = measured_costs().get(name, MeasuredCost()).cpu_seconds
+    cost = measured_costs().get(name.partition("[")[0], MeasuredCost()).cpu_seconds
     return max(2, sets(options) // 10) if cost > LONG else sets(options)
 
 

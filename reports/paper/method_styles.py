@@ -12,7 +12,8 @@ NAMES = {
 }  # fmt: skip
 # Methods of the paper whose sets a user may give, in place of our generator's where there is one.
 GIVEN = ("bnot", "kdm", "vnc", "bluenets", "ccvt", "step", "staircase")
-GENERATOR_NAMES = {"vnc": "voidcluster"}  # where a method's generator has another name
+# Where a method's generator has another name, or as it was published other settings than its defaults.
+GENERATOR_NAMES = {"vnc": "voidcluster", "step": "step[method=correlation]"}
 _C, _D = style.COLOURS, style.DASHES
 STROKES = {
     "gbn": style.Stroke(_C[0], _D[0]),

@@ -13,6 +13,7 @@ from gbnbench.generators.adaptive.density import as_density
 from gbnbench.generators.adaptive.registry import adaptive_points
 from gbnbench.reports.stippling_comparison import figure_files, table
 from gbnbench.reports.stippling_comparison.page import page
+from gbnbench.runs.resumable import TaskRun
 from gbnbench.studies.stippling_comparison.flat_patch import flattest_patch
 from gbnbench.studies.stippling_comparison.measured_set import measured_set
 from gbnbench.studies.stippling_comparison.stippling_folder import assembled
@@ -98,3 +99,28 @@ def test_bad_use_is_exit_code_2(here: Path, capsys, arguments, message):
     assert run(["compare", *arguments, "--quiet"]) == 2
     assert message in capsys.readouterr().err
     assert list(here.iterdir()) == []
+
+
+@pytest.mark.slow
+def test_a_source_that_fails_is_exit_code_2_with_the_report_of_the_others(here: Path, capsys, monkeypatch):
+    np.save(here / "ramp.npy", np.linspace(0.1, 0.9, 48)[:, None] * np.ones(40))
+    command = ["compare", "--density", "ramp.npy", "rejection", "floydsteinberg", "-n", "90", "--quiet"]
+    complete = TaskRun.complete
+
+    def one_fails(self, *arguments, **options):
+        for done in complete(self, *arguments, **options):
+            if str(done.key).startswith("floyd"):
+                self.failures[done.key] = "the worker was killed"
+            yield done
+
+    with monkeypatch.context() as patch:
+        patch.setattr(TaskRun, "complete", one_fails)
+        assert run([*command, "--jobs", "1", "--out", "run"]) == 2
+    said = capsys.readouterr()
+    assert "1 of 2 sources failed" in said.err
+    assert "the first: floydsteinberg: the worker was killed" in said.err
+    assert said.out.splitlines()[1].startswith("rejection")
+    assert "failed: floydsteinberg" in (here / "run" / "report.html").read_text()
+    assert run([*command, "--jobs", "1", "--out", "run"]) == 0
+    assert "floydsteinberg" in capsys.readouterr().out
+    assert "failed: floydsteinberg" not in (here / "run" / "report.html").read_text()

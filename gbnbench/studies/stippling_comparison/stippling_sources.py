@@ -21,7 +21,7 @@ from gbnbench.generators.adaptive.protocol import AdaptiveGenerator
 from gbnbench.generators.adaptive.registry import ADAPTIVE_GENERATORS, adaptive_generator
 from gbnbench.io.points import ReadingOptions
 from gbnbench.runs.source_names import unique_key
-from gbnbench.studies.stippling_comparison.points_of_image import sets_on_image
+from gbnbench.studies.stippling_comparison.points_of_image import rows_first, sets_on_image
 
 StipplingSourceLike = Any  # str, Path, array_like or AdaptiveGenerator
 
@@ -82,8 +82,8 @@ def stippling_sources(
     ----------
     given : sequence of (label, source)
         Generators such as ``"gbn[sigma=0.85]"`` or instances of them, files and folders, arrays (n, 2) or
-        (realizations, n, 2) of x to the right and y down in pixels. A name that is both a generator and a
-        file is the generator. Where the label is empty, one is found.
+        (realizations, n, 2) in the unit square, x to the right and y up. A name that is both a generator and
+        a file is the generator. Where the label is empty, one is found.
     density : Density
         Of an image.
     n, realizations : int
@@ -162,16 +162,14 @@ def _array(item: StipplingSourceLike, label: str, density: Density) -> Stippling
         x = np.asarray(item, np.float64)
     except (TypeError, ValueError):
         raise InputError(f"{label}: a source is a name, a path or an array of points") from None
-    sides = np.array(density.shape, np.float64)
     if x.ndim not in (2, 3) or x.shape[-1] != 2 or x.size == 0:
         raise InputError(f"{label}: points must be (n, 2) or (realizations, n, 2); got shape {x.shape}")
-    sets = np.ascontiguousarray((x if x.ndim == 3 else x[None])[..., ::-1])
-    if not ((sets >= 0) & (sets <= sides)).all():
-        wide, high = density.shape[::-1]
+    if not ((x >= 0) & (x <= 1)).all():
         raise InputError(
-            f"{label}: points must lie on the image, x from 0 to {wide} and y from 0 to {high} pixels"
+            f"{label}: points must lie in the unit square, x to the right and y up, as Stippling.points do"
         )
-    sets = np.minimum(sets, np.nextafter(sides, 0))
+    down = (x if x.ndim == 3 else x[None])[..., ::-1] * [-1, 1] + [1, 0]
+    sets = rows_first(down, (density.shape[0], density.shape[1]))
     digest = hashlib.sha256(repr(sets.shape).encode() + sets.tobytes()).hexdigest()
     return StipplingSource("", label, sets.shape[1], len(sets), sets=sets, digest=digest, kind="array")
 

@@ -30,6 +30,14 @@ def test_a_step_is_empty_below_its_edge_and_flat_above(n, d):
     assert fit.rms_db < 0.01
 
 
+@pytest.mark.parametrize(("n", "d"), [(200, 3), (150, 4)])
+def test_a_peak_beyond_the_plane_is_met_though_its_foot_falls_within_a_ring(n, d):
+    generator = SinglePeak()
+    fit = target_fit(generator(n, d, realization_rng(0, 0)), generator.profile(d), generator.highest_nu(d))
+    assert fit.stray < 1e-7
+    assert fit.rms_db < 0.01
+
+
 def test_in_one_dimension_it_takes_longer():
     generator = Step(iterations=300)
     fit = target_fit(generator(128, 1, realization_rng(0, 0)), generator.profile(1), generator.highest_nu(1))

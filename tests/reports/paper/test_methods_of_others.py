@@ -56,6 +56,7 @@ def test_a_method_that_takes_long_is_shown_by_fewer_sets(
 
 def test_every_figure_knows_a_method_by_one_generator() -> None:
     assert set(GENERATOR_NAMES) <= set(GIVEN) <= set(NAMES)
+    assert gallery_requests.generator_of(FigureOptions("tiny"), "step") == "step[method=correlation]"
     methods = {GENERATOR_NAMES.get(name, name) for name in NAMES}
     assert {one.generator for one in PAPER} <= methods
 
