@@ -67,7 +67,7 @@ def test_one_class_is_the_plain_method():
     ramp = as_density(np.linspace(0.1, 1, 30)[:, None] * np.ones(20))
     generator = AdaptiveGaussianBlueNoise(gradients=5)
     (x,) = generator.classes([ramp], [50], _streams(1))
-    assert np.array_equal(x, generator(ramp, 50, *_streams(1)))
+    assert np.array_equal(x, generator(ramp, 50, _streams(1)[0]))
 
 
 def test_too_many_points_of_all_classes_are_refused():
