@@ -96,7 +96,7 @@ def main() -> None:
     out.parent.mkdir(parents=True, exist_ok=True)
     done = pd.read_csv(out) if out.exists() else pd.DataFrame(columns=COLUMNS)
     for case in CASES:
-        if (done[["image", "rows", "columns", "n"]] == case).all(axis=1).any():
+        if (done[["image", "rows", "columns", "n"]] == list(case)).all(axis=1).any():
             continue
         with multiprocessing.get_context("spawn").Pool(1) as pool:
             row = pd.DataFrame([pool.apply(measured, (case,))], columns=COLUMNS)

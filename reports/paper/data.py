@@ -14,10 +14,10 @@ from typing import Any, TypeAlias
 from numpy.typing import NDArray
 
 from gbnbench import __version__
-from gbnbench.core.torus import FloatArray
 from gbnbench.execution.progress import Progress
 from gbnbench.generators.adaptive.density import as_density
 from gbnbench.io.points import ReadingOptions
+from gbnbench.reports.paper.averaged_pixels import averaged
 from gbnbench.runs.comparison_result import Run
 from gbnbench.runs.resumable import run_tasks
 from gbnbench.runs.sources import DEFAULT_READING, resolve
@@ -225,28 +225,6 @@ def _stipplings(
         sources, density, darkness.name, request.n, folder, seed=seed, jobs=jobs, command="gbnbench figures",
         skipped=skipped, progress=progress,
     ).run  # fmt: skip
-
-
-def averaged(values: FloatArray, most: int | None) -> FloatArray:
-    """Average squares of pixels, so that at most so many remain along the longer side.
-
-    Parameters
-    ----------
-    values : (rows, columns) float64
-        An image.
-    most : int, optional
-        Pixels; all of them if not given.
-
-    Returns
-    -------
-    (rows, columns) float64
-        Rows and columns that fill no square are left out.
-    """
-    part = 1 if most is None else -(-max(values.shape) // most)
-    rows, columns = (size // part for size in values.shape)
-    cut = values[: rows * part, : columns * part]
-    found: FloatArray = cut.reshape(rows, part, columns, part).mean(axis=(1, 3))
-    return found
 
 
 def _content(request: DataRequest) -> dict[str, Any]:

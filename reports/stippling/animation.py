@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import importlib.util
 import io
 import itertools
@@ -93,7 +94,7 @@ def mp4(frames: Frames) -> bytes:
     -------
     bytes
     """
-    import imageio_ffmpeg
+    imageio_ffmpeg: Any = importlib.import_module("imageio_ffmpeg")  # optional, and without types
 
     coloured = (_even(frame) for frame in frames)
     first = next(coloured)

@@ -41,7 +41,7 @@ def shown(name: str) -> list[np.ndarray]:
 
 
 def test_dots_of_a_palette_lie_on_their_colours(picture):
-    palette = ("--palette", "#c80000,#000")
+    palette = ("--palette", "#c80000,#000", "--dpi", 60)
     for suffix in ("csv", "svg", "png"):
         assert command("c.png", "-n", 150, "-o", f"o.{suffix}", *palette, *QUICK) == 0
     table = pd.read_csv("o.csv")

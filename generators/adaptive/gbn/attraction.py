@@ -55,7 +55,12 @@ class Level:
 
 
 def attraction_levels(
-    density: Density, n: int, widths: KernelWidths, part: float, resolution: float, reach: float
+    density: Density,
+    n: int,
+    widths: KernelWidths,
+    part: float,
+    resolution: float,
+    reach: float,
 ) -> tuple[Level, ...]:
     """Spread the density, and sample it at cells of 1, 2, 4 ... pixels.
 

@@ -139,8 +139,8 @@ class AdaptiveGaussianBlueNoise(AdaptiveMethod):
         Notes
         -----
         The energy is the sum over classes of (n / n_c)^2 E_c and ``union`` times the energy E of all n points
-        for the sum of the densities. So in flat tones, where a class has the density n_c / n of all, the pull
-        back of a point by its own class is as stiff as that by all points.
+        for the sum of the densities. So in flat tones, where a class has the density n_c / n of all, a point
+        is held as stiffly by its own class as by all points at ``union`` = 1.
         """
         whole, n = union_density(densities, counts), sum(counts)
         if reason := self.refusal(whole, n):

@@ -13,7 +13,7 @@ from gbnbench.generators.adaptive.gbn.descent import descend
 from gbnbench.generators.adaptive.gbn.energy import AdaptiveEnergy
 from gbnbench.generators.adaptive.registry import ADAPTIVE_GENERATORS, adaptive_points
 from gbnbench.opencl import runtime
-from gbnbench.reports.paper.data import averaged
+from gbnbench.reports.paper.averaged_pixels import averaged
 from gbnbench.reports.paper.figure import FigureOptions
 from gbnbench.reports.paper.figure_11 import adaptive_evolution, hill
 from gbnbench.reports.paper.registry import find
