@@ -1,4 +1,4 @@
-"""What ``gbnbench stipple`` is given: options checked, the image as inks, the number of dots."""
+"""Input of ``gbnbench stipple``: options checked, the image as inks, the number of dots."""
 
 from __future__ import annotations
 

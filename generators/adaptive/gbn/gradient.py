@@ -51,9 +51,31 @@ class DescendedEnergy(Protocol):
         ...
 
     def __call__(self, x: FloatArray) -> AdaptiveGradient:
-        """Evaluate the energy and its gradient at points (n, d) in pixels."""
+        """Evaluate the energy and its gradient.
+
+        Parameters
+        ----------
+        x : (n, d) float64
+            Points within the density, in pixels.
+
+        Returns
+        -------
+        AdaptiveGradient
+        """
         ...
 
     def allowed(self, x: FloatArray, widths: FloatArray) -> NDArray[np.bool_]:
-        """Tell which places (n, d) have ink, and kernels not much wider than ``widths``."""
+        """Tell which places have ink, and kernels not much wider than before.
+
+        Parameters
+        ----------
+        x : (n, d) float64
+            Places within the density, in pixels.
+        widths : (m,) float64
+            Of the kernels before, as ``AdaptiveGradient`` has them.
+
+        Returns
+        -------
+        (n,) bool
+        """
         ...
