@@ -107,7 +107,7 @@ def equal_masses(
     least = 0.5 * min(now.mass.min(), 1 / n)
     for _ in range(steps):
         lack = 1 / n - now.mass
-        if n * np.abs(lack).max() <= tolerance:
+        if n * np.abs(lack).max() <= tolerance or now.mass.min() <= 0:  # a hidden point's mass has no slope
             break
         step, norm, share = _newton_step(now, lack), np.linalg.norm(lack), 1.0
         for _ in range(HALVINGS):

@@ -162,11 +162,7 @@ def test_arrays_and_files_lie_on_the_image_as_generators_do(tmp_path):
     ("name", "text", "options"),
     [
         ("fractions.csv", "x,y\n0.25,0.5\n0.5,0.25\n", PLAIN),
-        (
-            "pixels.csv",
-            "x,y,amplitude\n10,24,1\n20,36,2\n",
-            PLAIN,
-        ),
+        ("pixels.csv", "x,y,amplitude\n10,24,1\n20,36,2\n", PLAIN),
         ("pixels.txt", "10 24 0.5\n20 36 0.5\n", PLAIN),
         ("box.txt", "50.0 120.0\n100.0 60.0\n", reading_options(bounds=(0, 200, 0, 240))),
     ],
@@ -202,3 +198,10 @@ def test_faults_of_sources_are_said(tmp_path):
     with pytest.raises(InputError, match="opposite borders of this density meet"):
         compare_stipplings(as_density(RAMP, toroidal=True), "rejection", n=9, out=tmp_path / "t", quiet=True)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["beyond.txt", "words.txt"]
+
+
+def test_points_on_the_borders_of_an_image_stay_there(tmp_path):
+    (tmp_path / "corners.csv").write_text("x,y\n0,0\n1,1\n")
+    ((sets, _),) = sets_on_image(tmp_path / "corners.csv", (48, 40), PLAIN)
+    assert sets[0] == pytest.approx(np.array([[48, 0], [0, 40]]))
+    assert (sets < [48, 40]).all()

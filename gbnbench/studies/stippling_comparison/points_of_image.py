@@ -57,13 +57,12 @@ def sets_on_image(
 
 
 def _attempts(shape: tuple[int, int], reading: ReadingOptions) -> Iterator[tuple[ReadingOptions, bool]]:
-    """Ways of reading, and whether y goes down: the box, then pixels, of ever fewer columns."""
-    told = reading.period is not None or reading.bounds is not None
-    boxes = [(reading.bounds, False)]
-    if not told:
-        boxes.append(((0.0, float(shape[1]), 0.0, float(shape[0])), True))
-    columns = COLUMNS if reading.columns is None else (reading.columns,)
-    for names in columns:
+    """Ways of reading, and whether y goes down: the unit square, pixels, the file's box; fewer columns."""
+    boxes: list[tuple[tuple[float, ...] | None, bool]] = [(reading.bounds, False)]
+    if reading.period is None and reading.bounds is None:
+        rows, columns = map(float, shape)
+        boxes = [((0.0, 1.0, 0.0, 1.0), False), ((0.0, columns, 0.0, rows), True), *boxes]
+    for names in COLUMNS if reading.columns is None else (reading.columns,):
         for bounds, down in boxes:
             yield dataclasses.replace(reading, columns=names, bounds=bounds), down
 

@@ -25,7 +25,7 @@ PIXEL = 0.8  # width of the Gaussian over which a pixel's charge is spread, in p
 FINEST = 2.0  # pixels that the least spacing has, at least
 MARGIN = 6  # pixels beyond the borders of a bounded image in which its pull is known: splines end there
 MOST_PIXELS = 1 << 24  # whose field is had by one transform
-LIGHTEST = 1e-9  # density over the largest below which steps grow no more
+LIGHTEST = 0.1  # density over its mean below which steps grow no more
 
 
 @dataclass(frozen=True)
@@ -53,14 +53,14 @@ class ElectrostaticHalftoning(AdaptiveMethod):
     the charge of its share of points. Every tenth step i each point is shaken in a random direction by
     max(0, log2(iterations) - 6) exp(-i / 1000) / 10 spacings of the darkest pixel, which are pixels where
     that one is black and has a point of its own; ten steps follow the last shaking. Points start independent
-    in proportion to the density. Points that would leave a bounded image stay on its border.
+    in proportion to the density. Points that would leave a bounded image go half of the way to its border.
 
-    What differs from the publication: tau counts squared spacings of the local density, where that of the
-    darkest pixel is used for all (light regions come to rest as fast as dark ones; 24.0 dB in place of 23.9
-    on ``camera``), and a step is at most one spacing. A pixel's charge is a Gaussian of 0.8 pixels,
-    and pixels are cut until the least spacing has two of them; its pull is interpolated by cubic splines.
-    Points repel on a mesh and in pairs (``repulsion``), to 1e-4 of a near one's force, in place of all
-    pairs. On the torus all images act, with an even background.
+    What differs from the publication: tau counts squared spacings of the local density, or of a tenth of the
+    mean where it is less, in place of those of the darkest pixel for all (light regions come to rest as fast
+    as dark ones; 24.0 dB in place of 23.9 on ``camera``), and a step is at most one spacing. A pixel's charge
+    is a Gaussian of 0.8 pixels, and pixels are cut until the least spacing has two of them; its pull is
+    interpolated by cubic splines. Points repel on a mesh and in pairs (``repulsion``), to 1e-4 of a near
+    one's force, in place of all pairs. On the torus all images act, with an even background.
 
     Cost: 15 CPU s for 10,000 points on 512 x 512 pixels.
 
@@ -117,9 +117,28 @@ class ElectrostaticHalftoning(AdaptiveMethod):
                 step += (
                     self.shaking * shaking_length(i, self.iterations) * attraction.least_spacing * direction
                 )
-            x = within(fine, x + step)
+            x = moved_within(fine, x, step)
             told(i, self.iterations, "steps of electrostatic")
         return within(density, to_ink(fine, x) / parts)
+
+
+def moved_within(density: Density, x: FloatArray, step: FloatArray) -> FloatArray:
+    """Move points; those that would leave a box go half of the way to its border, where none meet.
+
+    Parameters
+    ----------
+    density : Density
+        The density.
+    x, step : (n, 2) float64
+        Points and their steps, in pixels.
+
+    Returns
+    -------
+    (n, 2) float64
+    """
+    moved = x + step
+    inside = within(density, moved)
+    return inside if density.toroidal else np.where(inside == moved, moved, (x + inside) / 2)
 
 
 class Attraction:
@@ -148,7 +167,7 @@ class Attraction:
         self._pull = [ndimage.spline_filter(-along, order=3, mode=self._mode) for along in push]
         smooth = ndimage.gaussian_filter(rho, PIXEL, mode=self._mode)
         self.least_spacing = 1 / math.sqrt(float(rho.max()))
-        self._spacings: FloatArray = 1 / np.sqrt(np.maximum(smooth, LIGHTEST * rho.max()))
+        self._spacings: FloatArray = 1 / np.sqrt(np.maximum(smooth, LIGHTEST * rho.mean()))
 
     def spacings(self, x: FloatArray) -> FloatArray:
         """Wanted spacing at places, in pixels: density ** (-1/2).

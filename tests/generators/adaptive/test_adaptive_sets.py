@@ -15,8 +15,10 @@ from gbnbench.generators.adaptive.registry import ADAPTIVE_GENERATORS, adaptive_
 
 SHORT = {
     "gbn": "gbn[gradients=5]",
+    "bnot": "bnot[alternations=5]",
     "electrostatic": "electrostatic[iterations=12]",
     "kdm": "kdm[iterations=3]",
+    "voidcluster": "voidcluster[side=16]",
 }
 DISC = density_of(lambda x: np.hypot(*(x - 20).T) < 12, (40, 40))
 
