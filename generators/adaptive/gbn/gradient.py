@@ -56,7 +56,7 @@ class DescendedEnergy(Protocol):
         Parameters
         ----------
         x : (n, d) float64
-            Points within the domain, in pixels.
+            Points within the density, in pixels.
 
         Returns
         -------
@@ -65,14 +65,14 @@ class DescendedEnergy(Protocol):
         ...
 
     def allowed(self, x: FloatArray, widths: FloatArray) -> NDArray[np.bool_]:
-        """Tell which places have ink, and kernels not much wider than given.
+        """Tell which places have ink, and kernels not much wider than before.
 
         Parameters
         ----------
         x : (n, d) float64
-            Places, in pixels.
-        widths : (n,) float64
-            Of kernels, in pixels.
+            Places within the density, in pixels.
+        widths : (m,) float64
+            Of the kernels before, as ``AdaptiveGradient`` has them.
 
         Returns
         -------
