@@ -8,6 +8,9 @@ The names below load their modules when first used, so that importing gbnbench c
 - ``generate(name, n=, d=, seed=, realizations=, **settings)``: point sets from a generator;
 - ``generator_table()``: every generator with its family, dimensions, cost and reference;
 - ``stipple(image, n)``: points whose density follows an image, a volume or a function, as a ``Stippling``;
+- ``reconstruct(points, shape=)``: the picture that points draw, from them alone;
+- ``compare_stipplings(image, sources)``: stipplers and stipplings by anybody side by side, as a
+  ``StipplingComparison``;
 - ``load(path)``, ``save(path, x)``: point-set files;
 - ``wrap(x)``, ``scale(x, low, high)``: points brought onto the unit torus [0, 1)^d;
 - ``periodogram(x, fmax)``: exact power at every integer frequency; ``radial(spectrum)``: its radial mean;
@@ -34,7 +37,11 @@ if TYPE_CHECKING:
     from gbnbench.api.compare import compare
     from gbnbench.api.comparison import Comparison
     from gbnbench.api.integration import Integration, integrate
-    from gbnbench.api.stipple import Stippling, stipple
+    from gbnbench.api.reconstruct import reconstruct
+    from gbnbench.api.stipple import stipple
+    from gbnbench.api.stippling import Stippling
+    from gbnbench.api.stippling_comparison import StipplingComparison
+    from gbnbench.api.stipplings import compare_stipplings
     from gbnbench.core.errors import GbnbenchError
     from gbnbench.core.results.radial import ShellSpectrum
     from gbnbench.core.results.spectrum import Spectrum
@@ -53,8 +60,10 @@ __all__ = [
     "Spectrum",
     "SpectrumPlan",
     "Stippling",
+    "StipplingComparison",
     "WindowEstimates",
     "compare",
+    "compare_stipplings",
     "generate",
     "generator_table",
     "in_window",
@@ -64,6 +73,7 @@ __all__ = [
     "periodogram",
     "plan",
     "radial",
+    "reconstruct",
     "save",
     "scale",
     "shells",
@@ -78,9 +88,11 @@ _MODULES = {
     "ShellSpectrum": "gbnbench.core.results.radial",
     "Spectrum": "gbnbench.core.results.spectrum",
     "SpectrumPlan": "gbnbench.analysis.spectrum.spectrum_plan",
-    "Stippling": "gbnbench.api.stipple",
+    "Stippling": "gbnbench.api.stippling",
+    "StipplingComparison": "gbnbench.api.stippling_comparison",
     "WindowEstimates": "gbnbench.analysis.window.estimates",
     "compare": "gbnbench.api.compare",
+    "compare_stipplings": "gbnbench.api.stipplings",
     "generate": "gbnbench.generators.registry",
     "generator_table": "gbnbench.generators.listing",
     "in_window": "gbnbench.analysis.window.estimates",
@@ -90,6 +102,7 @@ _MODULES = {
     "periodogram": "gbnbench.analysis.spectrum.periodogram",
     "plan": "gbnbench.analysis.spectrum.plan",
     "radial": "gbnbench.analysis.radial.radial_power",
+    "reconstruct": "gbnbench.api.reconstruct",
     "save": "gbnbench.io.points",
     "scale": "gbnbench.core.torus",
     "shells": "gbnbench.analysis.spectrum.shell_spectrum",

@@ -99,6 +99,12 @@ class Stroke:
     dash: Any
 
 
+def numbered_stroke(number: int) -> Stroke:
+    """Give the stroke of a source by its number: colours go round first, then dashes."""
+    turn, colour = divmod(number, len(COLOURS))
+    return Stroke(COLOURS[colour], DASHES[turn % len(DASHES)])
+
+
 def strokes(run: Run) -> dict[str, Stroke]:
     """Assign each source key a stroke; sources of one label share it over all n and d of the run."""
     assigned: dict[tuple[str, int], Stroke] = {}
@@ -109,7 +115,6 @@ def strokes(run: Run) -> dict[str, Stroke]:
         twin = seen.get(place, 0)
         seen[place] = twin + 1
         if (source.label, twin) not in assigned:
-            turn, colour = divmod(len(assigned), len(COLOURS))
-            assigned[source.label, twin] = Stroke(COLOURS[colour], DASHES[turn % len(DASHES)])
+            assigned[source.label, twin] = numbered_stroke(len(assigned))
         result[source.key] = assigned[source.label, twin]
     return result

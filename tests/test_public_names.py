@@ -62,7 +62,18 @@ def test_no_setting_of_a_generator_has_the_name_of_an_argument_of_generate():
 
 
 @pytest.mark.parametrize(
-    "name", ["compare", "generate", "integrate", "measures", "periodogram", "plan", "shells", "stipple"]
+    "name",
+    [
+        "compare",
+        "generate",
+        "integrate",
+        "measures",
+        "periodogram",
+        "plan",
+        "reconstruct",
+        "shells",
+        "stipple",
+    ],
 )
 def test_a_device_can_be_named_wherever_a_kernel_runs(name):
     assert inspect.signature(getattr(gbnbench, name)).parameters["device"].default is None

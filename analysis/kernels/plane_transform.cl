@@ -52,9 +52,9 @@ static void transform_rows(__global const REAL *at, const size_t row_length, con
 
 __kernel void plane_rows(__global const TURN *points, const uint stride, __global const REAL *weight,
                          const uint weight_stride, __global const uint *starts, const uint bands, const uint runs,
-                         __global const REAL *means, const uint nodes, const uint rows_a_band,
+                         __global const REAL *means, const uint nodes, const uint rows_a_band, const uint sets,
                          const uint row_length, __constant REAL *terms, __global REAL *grids,
-                         __global REAL *parts, const ulong band_size, const uint sets,
+                         __global REAL *parts, const ulong band_size,
                          __global const uint *radices, __global const REAL *twiddles, __global const REAL *turns,
                          const uint harmonics, __global REAL *transforms, const ulong transform_size,
                          __local COMPLEX *memory)
@@ -94,11 +94,11 @@ static void add_power(const COMPLEX found, const SUM over, __local SUMS *sum, co
         if (minus_wanted && plus_f != minus_f) *minus_f = add ? *minus_f + power.s##lane : power.s##lane;    \
     }
 
-__kernel void plane_columns(__global const REAL *transforms, const ulong transform_size, const uint harmonics,
-                            const uint nodes, __global const uint *radices, __global const REAL *twiddles,
-                            const int fmax, const uint sets, __global const SUM *over, const uint first_set,
-                            __global const SUM *gain, const uint half_only, __global SUM *out, const ulong set_size,
-                            __local COMPLEX *memory, __local SUMS *sums)
+__kernel void plane_columns(const uint sets, __global const SUM *over, const uint first_set, const uint half_only,
+                            __global SUM *out, const ulong set_size, __global const REAL *transforms,
+                            const ulong transform_size, const uint harmonics, const uint nodes,
+                            __global const uint *radices, __global const REAL *twiddles, const int fmax,
+                            __global const SUM *gain, __local COMPLEX *memory, __local SUMS *sums)
 {
     const int column = get_global_id(0) * TILE, quarter = nodes / 4;
     const long base = 2 * fmax + 1, last = base * base - 1, start = half_only ? fmax * base : 0;

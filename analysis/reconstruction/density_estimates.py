@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Literal, get_args
 
 import numpy as np
@@ -12,10 +13,10 @@ from gbnbench.analysis.reconstruction.shaping import (
     ITERATIONS,
     REFLECTED,
     SIGMA,
-    amplitudes,
     kernel_width,
     with_reflections,
 )
+from gbnbench.analysis.reconstruction.shaping import amplitudes as shaped
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
 
@@ -37,6 +38,8 @@ def reconstructed_density(
     iterations: int = ITERATIONS,
     average: Literal["squares", "mean"] = "squares",
     reflected: bool = True,
+    amplitudes: FloatArray | None = None,
+    told: Callable[[int, int, str], None] | None = None,
 ) -> FloatArray:
     """Estimate the density that a set was made for.
 
@@ -53,7 +56,11 @@ def reconstructed_density(
     sigma : float, optional
         Width of kernels in spacings of a uniform set: 0.5 for Algorithm 2, 0.6 (in 3D 0.7) for fixed ones.
     iterations, average, reflected
-        As ``amplitudes`` takes them.
+        As ``shaping.amplitudes`` takes them.
+    amplitudes : (n,) float64, optional
+        Above 0, of mean 1: those of the kernels, in place of Algorithm 2's.
+    told : callable, optional
+        Called with (steps done, steps in all, what is being done).
 
     Returns
     -------
@@ -77,14 +84,23 @@ def reconstructed_density(
         raise InputError(f"size must be {d} numbers of pixels; got {counts}")
     if estimate == "voronoi":
         return _of_cells(points, shape, counts)
+    steps = iterations + 1 if estimate == "shaping" and amplitudes is None else 1
+
+    def tell(done: int) -> None:
+        if told is not None:
+            told(done, steps, "amplitudes" if done < steps - 1 else "kernels")
+
     n = len(points)
     width = kernel_width(n, shape, sigma or (SIGMA if estimate == "shaping" else FIXED[d]))
-    if estimate == "shaping":
-        a = amplitudes(
-            points, shape, sigma=sigma or SIGMA, iterations=iterations, average=average, reflected=reflected
-        )
-    else:
+    if estimate == "kernel":
         a = np.ones(n)
+    elif amplitudes is None:
+        a = shaped(
+            points, shape, sigma=sigma or SIGMA, iterations=iterations, average=average, reflected=reflected,
+            told=tell,
+        )  # fmt: skip
+    else:
+        a = amplitudes
     sources, number = with_reflections(points, shape, REFLECTED * width if reflected else 0.0)
     cell = np.array(shape) / np.array(counts)
     spread = float(np.exp(np.log(cell**2 * PIXEL).mean()))  # of a pixel of the result
@@ -92,7 +108,9 @@ def reconstructed_density(
     heights = (2 * np.pi * variances) ** (-d / 2)
     lines = [_centres(s, c) for s, c in zip(shape, counts, strict=True)]
     places = np.stack(np.meshgrid(*lines, indexing="ij"), -1)
-    return kernel_sums(places.reshape(-1, d), sources, heights, variances).reshape(counts)
+    found = kernel_sums(places.reshape(-1, d), sources, heights, variances).reshape(counts)
+    tell(steps)
+    return found
 
 
 def _centres(side: int, count: int) -> FloatArray:

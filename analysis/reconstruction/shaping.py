@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Literal
 
 import numpy as np
@@ -25,6 +26,7 @@ def amplitudes(
     iterations: int = ITERATIONS,
     average: Literal["squares", "mean"] = "squares",
     reflected: bool = True,
+    told: Callable[[int], None] | None = None,
 ) -> FloatArray:
     """Shape the kernels of a set so that their sum is its density.
 
@@ -43,6 +45,8 @@ def amplitudes(
         program.
     reflected : bool
         Reflect the points at the borders, so that those near them are not taken for sparse ones.
+    told : callable, optional
+        Called with the iterations done.
 
     Returns
     -------
@@ -65,7 +69,7 @@ def amplitudes(
     width = kernel_width(n, shape, sigma)
     sources, number = with_reflections(points, shape, REFLECTED * width if reflected else 0.0)
     a = np.ones(n)
-    for _ in range(iterations):
+    for done in range(iterations):
         of_sources = a[number]
         density = kernel_sums(points, sources, of_sources, width**2 * of_sources ** (-2 / d)) - a
         density = np.maximum(density, LEAST * density.mean())
@@ -73,6 +77,8 @@ def amplitudes(
             return np.ones(n)
         norm = np.sqrt((density**2).mean()) if average == "squares" else density.mean()
         a = density / norm
+        if told is not None:
+            told(done + 1)
     return a
 
 
@@ -117,9 +123,9 @@ def with_reflections(
         Which point each is of.
     """
     number = np.arange(len(points))
-    for a, side in enumerate(shape):
+    for a, side in enumerate(shape if far > 0 else ()):
         within = min(far, float(side))
-        low, high = points[:, a] < within, points[:, a] > side - within
+        low, high = points[:, a] <= within, points[:, a] >= side - within
         below, above = points[low].copy(), points[high].copy()
         below[:, a] *= -1
         above[:, a] = 2 * side - above[:, a]

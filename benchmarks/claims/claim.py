@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from gbnbench.benchmarks.claims.sets import DrawnSets, SetCache
@@ -146,12 +146,3 @@ def verdict(rows: Iterable[str]) -> str:
     if not found:
         return UNTRIED
     return found.pop() if len(found) == 1 else PARTLY
-
-
-def untried(what: str) -> Measure:
-    """Measure nothing, and say so."""
-
-    def measure(_: SetCache) -> Iterator[ClaimRow]:
-        yield ClaimRow("untried", what, holds=UNTRIED)
-
-    return measure

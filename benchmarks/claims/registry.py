@@ -6,6 +6,7 @@ import tomllib
 from importlib import resources
 
 from gbnbench.benchmarks.claims import (
+    adaptive_sets,
     box,
     complexity,
     convergence,
@@ -23,7 +24,7 @@ from gbnbench.benchmarks.claims import (
     spectra,
     steps,
 )
-from gbnbench.benchmarks.claims.claim import Claim, Measure, untried
+from gbnbench.benchmarks.claims.claim import Claim, Measure
 
 PACKAGE = "gbnbench.benchmarks.claims"
 
@@ -85,7 +86,7 @@ MEASURES: dict[str, Measure] = {
     "titan": complexity.titan,
     "large": complexity.large,
     "bnot-time": rival_times.times,
-    "adaptive": untried("adaptive sets and reconstructions"),
+    "adaptive": adaptive_sets.adaptive,
 }
 
 

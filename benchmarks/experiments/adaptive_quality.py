@@ -9,6 +9,7 @@ The first measures, set by set, and goes on where it was stopped; the second pri
 from __future__ import annotations
 
 import argparse
+import itertools
 import time
 from pathlib import Path
 
@@ -17,19 +18,14 @@ import pandas as pd
 from skimage import color, data
 
 from gbnbench.analysis.reconstruction.blurred_difference import blurred_difference
-from gbnbench.analysis.reconstruction.density_estimates import reconstructed_density
-from gbnbench.analysis.reconstruction.image_quality import image_quality
-from gbnbench.analysis.reconstruction.kernel_sums import kernel_sums
 from gbnbench.core.torus import FloatArray
-from gbnbench.generators.adaptive.density import Density, as_density
-from gbnbench.generators.adaptive.gbn.attraction import attraction_levels
-from gbnbench.generators.adaptive.gbn.energy import REACH, RESOLUTION
-from gbnbench.generators.adaptive.gbn.kernel_widths import kernel_widths
+from gbnbench.generators.adaptive.density import as_density
 from gbnbench.generators.adaptive.registry import ADAPTIVE_GENERATORS, adaptive_points
+from gbnbench.studies.stippling_comparison.measured_set import BLUR, reconstruction_quality
+from gbnbench.studies.stippling_comparison.relative_variance import relative_variance
 
 IMAGES = ("camera", "coins", "astronaut")
 POINTS, SEEDS = 10_000, 3
-BLUR = 16.0  # pixels
 COLUMNS = ["image", "method", "n", "seed", "CPU s", "variance", "F16", "PSNR", "SSIM"]
 COLUMNS += ["PSNR mirrored", "SSIM mirrored"]
 
@@ -53,33 +49,6 @@ def darkness(name: str) -> FloatArray:
     return dark
 
 
-def relative_variance(points: FloatArray, density: Density) -> float:
-    """Give the mean over the density of ((A - T) / T)^2, with the faithful kernels: sigma = c = t = 1.
-
-    Parameters
-    ----------
-    points : (n, 2) float64
-        In pixels.
-    density : Density
-        Theirs.
-
-    Returns
-    -------
-    float
-    """
-    n = len(points)
-    widths = kernel_widths(density, n, 1.0, 1.0)
-    level = attraction_levels(density, n, widths, 1.0, RESOLUTION["float"], REACH["float"])[0]
-    first = np.rint(0.5 - level.first).astype(int)
-    target = level.values[tuple(slice(a, a + size) for a, size in zip(first, density.shape, strict=True))]
-    pixels = np.minimum(points.astype(np.intp), np.array(density.shape) - 1)
-    variances = np.exp(2 * widths.log_width[tuple(pixels.T)])
-    places = np.argwhere(np.ones(density.shape)).astype(np.float64) + 0.5
-    found = kernel_sums(places, points, 1 / (2 * np.pi * variances), variances).reshape(density.shape)
-    relative = ((found - target) / np.maximum(target, 1e-12)) ** 2
-    return float((relative * density.of_points(n)).sum() / n)
-
-
 def measured(image: str, method: str, n: int, seed: int) -> list[object]:
     """Draw one set and measure it.
 
@@ -100,12 +69,7 @@ def measured(image: str, method: str, n: int, seed: int) -> list[object]:
     begun = time.process_time()
     x = adaptive_points(method, density, n, seed=seed)
     cost = time.process_time() - begun
-    authors, mirrored = (
-        image_quality(
-            reconstructed_density(x, dark.shape, average="mean", iterations=15, reflected=reflected), dark
-        )
-        for reflected in (False, True)
-    )
+    authors, mirrored = (reconstruction_quality(x, dark, reflected=mirror)[1] for mirror in (False, True))
     variance, blurred = relative_variance(x, density), blurred_difference(x, density.values, BLUR)
     return [
         image, method, n, seed, cost, variance, blurred,
@@ -129,7 +93,10 @@ def markdown(table: pd.DataFrame) -> str:
         "| picture | method | sets | CPU s | variance | F16 | PSNR, dB | SSIM | mirrored: PSNR | SSIM |",
         "|---|---|--:|--:|--:|--:|--:|--:|--:|--:|",
     ]
-    for (image, method), part in table.groupby(["image", "method"], sort=False):
+    parts = dict(list(table.groupby(["image", "method"])))
+    for image, method in itertools.product(IMAGES, ADAPTIVE_GENERATORS):
+        if (part := parts.get((image, method))) is None:
+            continue
         m = part.mean(numeric_only=True)
         lines.append(
             f"| {image} | {method} | {len(part)} | {m['CPU s']:.3g} | {m['variance']:.2e} | {m['F16']:.2e} | "
@@ -145,6 +112,7 @@ def main() -> None:
     )
     parser.add_argument("out", type=Path)
     parser.add_argument("--table", action="store_true")
+    parser.add_argument("--seeds", type=int, default=SEEDS)
     given = parser.parse_args()
     if given.table:
         print(markdown(pd.read_csv(given.out)))
@@ -152,7 +120,7 @@ def main() -> None:
     done = pd.read_csv(given.out) if given.out.exists() else pd.DataFrame(columns=COLUMNS)
     given.out.parent.mkdir(parents=True, exist_ok=True)
     adaptive_points("gbn[gradients=1]", as_density(np.ones((64, 64))), 100)  # kernels are built
-    for seed in range(SEEDS):
+    for seed in range(given.seeds):
         for image in IMAGES:
             for method in ADAPTIVE_GENERATORS:
                 if ((done["image"] == image) & (done["method"] == method) & (done["seed"] == seed)).any():

@@ -61,6 +61,10 @@ PLANTS = {
     "a fifth of a turn": Plant("fourier_passes.cl", "0.58778525", "0.58778526", "gridded FFT"),
     "an eighth of a turn": Plant("fourier_passes.cl", "b3), -root", "b3), root", "gridded FFT"),
     "a negative frequency": Plant("grid_power.cl", "f + wrap : f", "f + wrap - 1 : f", "gridded FFT"),
+    "another point's place": Plant("line_spread.cl", "y, other, at)", "y, place, at)", "gridded FFT"),
+    "lanes in another order": Plant(
+        "lane_sums.cl", "sum.s0, sum.s1, sum.s2", "sum.s0, sum.s2, sum.s1", "two-group product"
+    ),
     "a kernel of pairs": Plant("discrepancy_pairs.cl", "(t - t * t)", "(t + t * t)", "discrepancy, periodic"),
     "a lane too many": Plant("pair_distances.cl", "l < end - j", "l < LANES", "pair distances"),
     "a smaller for a larger": Plant(
@@ -85,6 +89,15 @@ PLANTS = {
         "gbn_strips.cl", "return gap * gap;", "return gap * gap * 4;", "gbn gradient, strips"
     ),
     "a triangle too small": Plant("fpo.cl", "tree[2 * i] < tree", "tree[2 * i] > tree", "farthest"),
+    "a swap's gain": Plant(
+        "ccvt_swap.cl",
+        "row.u.x + row.y[k] * row.u.y; }",
+        "row.u.x - row.y[k] * row.u.y; }",
+        "swaps of samples",
+    ),
+    "a centroid's sign": Plant(
+        "ccvt_recentre.cl", "centroid = shift", "centroid = -shift", "swaps of samples"
+    ),
     "a spline's slope": Plant("adaptive_widths.cl", "slope[3] = t * t", "slope[3] = t", "adaptive gradient"),
     "a kernel's variance": Plant(
         "adaptive_pairs.cl", "v + LOADV(variances, l)", "v + v", "adaptive gradient"

@@ -2,97 +2,14 @@
 
 from __future__ import annotations
 
-import math
-import time
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-import numpy as np
-
-from gbnbench import __version__
-from gbnbench.core.errors import DeviceError
-from gbnbench.core.settings import specification
-from gbnbench.core.torus import FloatArray
+from gbnbench.api.drawing import draw, in_progressive_order
+from gbnbench.api.stippling import Stippling
 from gbnbench.generators.adaptive.density import Density
 from gbnbench.generators.adaptive.protocol import AdaptiveGenerator
-from gbnbench.generators.adaptive.registry import adaptive_generator, adaptive_points
-from gbnbench.opencl import choose, use_device
-from gbnbench.studies.stippling.amplitudes import amplitudes
-from gbnbench.studies.stippling.darkness import Darkness, ImageLike, ToneCurve, as_darkness
-
-if TYPE_CHECKING:
-    import pandas as pd
-
-AXES = "xyz"
-
-
-@dataclass(frozen=True)
-class Stippling:
-    """Points that draw an image, as ``stipple`` returns them.
-
-    Attributes
-    ----------
-    points : (n, d) float64
-        In pixels, x to the right first, then y down from the upper border (then z, the first axis of a
-        volume): the centre of the pixel in the upper left corner is (0.5, 0.5).
-    amplitudes : (n,) float64
-        The paper's a_k, of mean 1: how dense the points are around each, over the mean of that.
-    density : Density
-        What they were drawn for; its axes are in the order of arrays, rows first.
-    coverage : float
-        Share of the image, 0 to 1, that dots have to cover to be as dark as it is; of a density its mean over
-        its largest value.
-    name : str
-        The image.
-    method : str
-        The generator with its settings.
-    seed : int
-        That they were drawn from.
-    device, version : str
-        Name of the OpenCL device, empty where there is none, and gbnbench's version.
-    seconds : float
-        Wall time of the drawing.
-    remarks : tuple of str
-        What was done to read the image that might surprise.
-
-    Examples
-    --------
-    >>> import gbnbench
-    >>> made = gbnbench.stipple(lambda x: 1 + x[:, 1], 40, shape=(16, 24), method="rejection")
-    >>> made.size, made.to_frame().columns.tolist()
-    ((24, 16), ['x', 'y', 'amplitude'])
-    """
-
-    points: FloatArray
-    amplitudes: FloatArray
-    density: Density
-    coverage: float
-    name: str
-    method: str
-    seed: int
-    device: str
-    version: str
-    seconds: float
-    remarks: tuple[str, ...] = ()
-
-    @property
-    def size(self) -> tuple[int, ...]:
-        """Pixels along x, y (and z): width first."""
-        return self.density.shape[::-1]
-
-    @property
-    def radius(self) -> float:
-        """Radius in pixels of equal dots that cover, overlaps apart, as much as the image is dark."""
-        share = self.coverage * math.prod(self.size) / len(self.points)
-        return math.sqrt(share / math.pi) if len(self.size) == 2 else math.cbrt(share * 3 / (4 * math.pi))
-
-    def to_frame(self) -> pd.DataFrame:
-        """Columns x, y (z) in pixels, and amplitude: a row a point."""
-        import pandas as pd
-
-        table = dict(zip(AXES, self.points.T, strict=False))
-        return pd.DataFrame({**table, "amplitude": self.amplitudes})
+from gbnbench.opencl import use_device
+from gbnbench.studies.stippling.darkness import ImageLike, ToneCurve, as_darkness
 
 
 def stipple(
@@ -102,6 +19,7 @@ def stipple(
     method: AdaptiveGenerator | str = "gbn",
     seed: int = 0,
     toroidal: bool = False,
+    progressive: bool = False,
     invert: bool = False,
     gamma: float = 1.0,
     white_cutoff: float | None = None,
@@ -134,6 +52,8 @@ def stipple(
         >= 0; the points are drawn from ``SeedSequence(seed, spawn_key=(0,))``.
     toroidal : bool
         Opposite borders meet, so that copies side by side have no seam.
+    progressive : bool
+        Order the points so that the first m of them draw the image too, for every m.
     invert : bool
         Of an image: light is dense.
     gamma : float
@@ -175,70 +95,12 @@ def stipple(
     ((300, 2), (384, 303))
     """
     curve = ToneCurve(invert, gamma, white_cutoff)
-    return draw(
+    made = draw(
         as_darkness(image, shape=shape, curve=curve), n,
         method=method, seed=seed, progress=progress, device=device,
         toroidal=toroidal or (isinstance(image, Density) and image.toroidal),
     )  # fmt: skip
-
-
-def draw(
-    darkness: Darkness,
-    n: int | None = None,
-    *,
-    method: AdaptiveGenerator | str = "gbn",
-    seed: int = 0,
-    realization: int = 0,
-    toroidal: bool = False,
-    progress: Callable[[int, int, str], None] | None = None,
-    device: str | None = None,
-) -> Stippling:
-    """Draw points for a darkness.
-
-    Parameters
-    ----------
-    darkness : Darkness
-        What is to be drawn.
-    n, method, seed, toroidal, progress, device
-        As ``stipple`` takes them.
-    realization : int
-        >= 0; which stream of the seed.
-
-    Returns
-    -------
-    Stippling
-
-    Raises
-    ------
-    InputError
-        If an argument breaks its rule, or nothing is dark.
-    RefusalError
-        If the method cannot make such a set.
-    """
-    generator = adaptive_generator(method) if isinstance(method, str) else method
-    density = darkness.density(toroidal=toroidal)
-    count = darkness.default_n if n is None else n
-    began = time.perf_counter()
-    with use_device(device):
-        x = adaptive_points(generator, density, count, seed=seed, realization=realization, told=progress)
-        used = _device_name()
-    return Stippling(
-        points=np.ascontiguousarray(x[:, ::-1]),
-        amplitudes=amplitudes(generator, density, x),
-        density=density,
-        coverage=darkness.coverage,
-        name=darkness.name,
-        method=specification(generator),
-        seed=int(seed),
-        device=used,
-        version=__version__,
-        seconds=time.perf_counter() - began,
-        remarks=darkness.remarks,
-    )
-
-
-def _device_name() -> str:
-    try:
-        return choose().name
-    except DeviceError:  # which a method without kernels does not need
-        return ""
+    if progressive:
+        with use_device(device):
+            return in_progressive_order(made, progress)
+    return made

@@ -11,7 +11,9 @@ import numpy as np
 
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
+from gbnbench.io.points.stippled_points import AMPLITUDE, INK, PictureHeader
 from gbnbench.io.points.writer import write_atomically
+from gbnbench.reports.stippling import animation
 from gbnbench.reports.stippling.eps import eps
 from gbnbench.reports.stippling.gcode import GcodeTemplate, gcode
 from gbnbench.reports.stippling.page import DotLayer, Page
@@ -21,7 +23,7 @@ from gbnbench.reports.stippling.svg import svg
 from gbnbench.studies.stippling.tour import path_length, tour
 
 if TYPE_CHECKING:
-    from gbnbench.api.stipple import Stippling
+    from gbnbench.api.stippling import Stippling
 
 WIDTH_MM = 160.0
 INKS = {
@@ -30,6 +32,7 @@ INKS = {
 Dots = Literal["equal", "tone"]
 PICTURES: dict[str, Callable[[Page], bytes]] = {".svg": svg, ".pdf": pdf, ".eps": eps}
 TEXTS = (".txt", ".csv")
+ANIMATIONS = animation.SUFFIXES
 SUFFIXES = (".png", *PICTURES, ".gcode", *TEXTS)
 
 
@@ -44,10 +47,10 @@ def check_picture(path: Path) -> None:
     Raises
     ------
     InputError
-        If it is none of ``SUFFIXES``.
+        If it is none of ``SUFFIXES`` or ``ANIMATIONS``.
     """
-    if path.suffix.lower() not in SUFFIXES:
-        known = ", ".join(SUFFIXES)
+    if path.suffix.lower() not in (*SUFFIXES, *ANIMATIONS):
+        known = ", ".join((*SUFFIXES, *ANIMATIONS))
         raise InputError(f"{path}: stipplings are written as {known}; got extension {path.suffix!r}")
 
 
@@ -68,9 +71,9 @@ def in_tour_order(made: Stippling) -> tuple[Stippling, float]:
     """
     from dataclasses import replace
 
-    order = tour(made.points)
-    ordered = replace(made, points=made.points[order], amplitudes=made.amplitudes[order])
-    return ordered, path_length(ordered.points)
+    order = tour(made.pixels)
+    ordered = replace(made, pixels=made.pixels[order], amplitudes=made.amplitudes[order])
+    return ordered, path_length(ordered.pixels)
 
 
 def page_of(
@@ -85,7 +88,8 @@ def page_of(
     Parameters
     ----------
     layers : mapping of str to Stippling
-        Stipplings in two dimensions of one size, by the names of their inks, in the order of printing.
+        Stipplings in two dimensions of one size, by the names of their inks (of ``INKS``, or ``#rrggbb``), in
+        the order of printing.
     width_mm : float
         Of the page, above 0; its height follows.
     dots : {"equal", "tone"}
@@ -112,15 +116,16 @@ def page_of(
     sheets = []
     for name, made in layers.items():
         radius = made.radius * mm if dot_mm is None else dot_mm / 2
-        shares = np.sqrt(made.amplitudes) if dots == "tone" else np.ones(len(made.points))
-        sheets.append(DotLayer(name, INKS.get(name, "#000000"), made.points * mm, radius * shares))
-    counts = ", ".join(f"{len(made.points)} dots of {name}" for name, made in layers.items())
+        shares = np.sqrt(made.amplitudes) if dots == "tone" else np.ones(len(made.pixels))
+        colour = name if name.startswith("#") else INKS.get(name, "#000000")
+        sheets.append(DotLayer(name, colour, made.pixels * mm, radius * shares))
+    counts = ", ".join(f"{len(made.pixels)} dots of {name}" for name, made in layers.items())
     text = f"{counts}; {first.method}, seed {first.seed}, gbnbench {first.version}"
     return Page(width_mm, first.size[1] * mm, tuple(sheets), first.name, text)
 
 
 def text_of(layers: Mapping[str, Stippling], suffix: str) -> bytes:
-    """Write points with their amplitudes as rows of numbers, in pixels.
+    """Write points with their amplitudes as rows of numbers, in the unit square, x to the right and y up.
 
     Parameters
     ----------
@@ -132,7 +137,9 @@ def text_of(layers: Mapping[str, Stippling], suffix: str) -> bytes:
     Returns
     -------
     bytes
-        UTF-8; with more than one ink a .txt has a comment before each, and a .csv a column ``ink``.
+        UTF-8. A .txt has a comment before each ink that tells the picture's size and coverage, which
+        ``gbnbench reconstruct`` reads, and one that names the columns; a .csv of several inks a column
+        ``ink``.
     """
     if suffix == ".csv":
         import pandas as pd
@@ -140,14 +147,13 @@ def text_of(layers: Mapping[str, Stippling], suffix: str) -> bytes:
         tables = [made.to_frame() for made in layers.values()]
         if len(layers) > 1:
             for name, table in zip(layers, tables, strict=True):
-                table.insert(0, "ink", name)
+                table.insert(0, INK, name)
         text: str = pd.concat(tables).to_csv(index=False, lineterminator="\n")
         return text.encode()
     lines = []
     for name, made in layers.items():
-        size = " x ".join(map(str, made.size))
-        axes = " ".join("xyz"[: len(made.size)])
-        lines.append(f"# {axes} amplitude, {name}: in pixels of {size}, y down from the upper border")
+        lines.append(PictureHeader(made.size, made.coverage).text(name))
+        lines.append(f"# {' '.join('xyz'[: len(made.size)])} {AMPLITUDE}")
         rows: FloatArray = np.column_stack([made.points, made.amplitudes])
         lines += [" ".join(map(repr, row)) for row in rows.tolist()]
     return ("\n".join(lines) + "\n").encode()
@@ -185,6 +191,8 @@ def write_stippling(
     """
     check_picture(path)
     suffix = path.suffix.lower()
+    if suffix in ANIMATIONS:
+        raise InputError(f"{path}: gbnbench.api.stippled_frames.write_frames writes moving pictures")
     if suffix in TEXTS:
         write_atomically(path, text_of(layers, suffix))
         return

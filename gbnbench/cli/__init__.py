@@ -21,6 +21,7 @@ from gbnbench.cli.figures import figures
 from gbnbench.cli.generate import generate
 from gbnbench.cli.generators import generators
 from gbnbench.cli.integrate import integrate
+from gbnbench.cli.reconstruct import reconstruct
 from gbnbench.cli.report import report
 from gbnbench.cli.spectrum import spectrum
 from gbnbench.cli.standard_streams import in_words, lasting_streams
@@ -32,7 +33,7 @@ from gbnbench.core.memory import memory_limit, too_little
 BAD, STOPPED, PIPE = 2, 130, 141  # exit codes; 0 is done, 1 is worse than a baseline or a failed check
 
 TASKS: dict[str, tuple[click.Command, ...]] = {
-    "Start here": (compare, spectrum, analyze, generate, generators, stipple, convert),
+    "Start here": (compare, spectrum, analyze, generate, generators, stipple, reconstruct, convert),
     "Studies": (integrate, figures, report),
     "This machine": (check, bench, devices, doctor),
 }
@@ -40,6 +41,19 @@ TASKS: dict[str, tuple[click.Command, ...]] = {
 
 class CommandsByTask(click.Group):
     """A group whose help shows its commands by what they are for."""
+
+    def format_help_text(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002
+        """Write what it is right below its usage, as a screen has 24 lines.
+
+        Parameters
+        ----------
+        ctx : click.Context
+            Of the command.
+        formatter : click.HelpFormatter
+            Takes the text.
+        """
+        with formatter.indentation():
+            formatter.write_text(str(self.help))
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002
         """Write a section for each task.

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from gbnbench.api.stipple import Stippling
+    from gbnbench.api.stippling import Stippling
 
 COLUMNS = 76
 BLANK = 0x2800
@@ -33,6 +33,6 @@ def braille(drawn: Iterable[Stippling]) -> str:
     cell = width / (2 * COLUMNS)
     signs = np.zeros((max(1, -(-int(np.ceil(height / cell)) // 4)), COLUMNS), np.int64)
     for made in sets:
-        x, y = np.floor(made.points / cell).astype(int).T
+        x, y = np.floor(made.pixels / cell).astype(int).T
         np.bitwise_or.at(signs, (y // 4, x // 2), 1 << BITS[y % 4, x % 2])
     return "\n".join("".join(chr(BLANK + sign) for sign in row) for row in signs.tolist())

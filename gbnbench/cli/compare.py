@@ -28,6 +28,7 @@ Examples:
   gbnbench compare --preset paper                   the methods of the paper's figures 1 and 8
   gbnbench compare gbn --family cellular
   gbnbench compare gbn --baseline runs/before       exit code 1 when worse
+  gbnbench compare --density camera gbn lbg -n 5000 stipplings of an image
 
 \b
 'gbnbench generators' lists them, 'gbnbench generators NAME' has the settings of one.
@@ -38,6 +39,14 @@ Examples:
 @click.argument("sources", nargs=-1)
 @click.option("-n", "n", type=options.WholeNumbers(), default="1024", show_default=True, help="Points a set.")
 @click.option("-d", "d", type=options.WholeNumbers(), default="2", show_default=True, help="Dimensions.")
+@click.option(
+    "--density",
+    metavar="IMAGE",
+    help="Compare stipplings of this image: a file, or a name such as camera. SOURCES are then adaptive "
+    "generators and files of points, in the unit square or in pixels; -n is by the image and "
+    "--realizations 1 unless given.",
+)
+@click.option("--invert", is_flag=True, help="With --density: light is dense.")
 @options.groups
 @options.out_folder("Run folder.  [default: runs/NAME, by the settings]")
 @click.option("--baseline", type=click.Path(path_type=Path), help="A finished run to be judged against.")
@@ -52,6 +61,8 @@ def compare(
     sources: tuple[str, ...],
     n: tuple[int, ...],
     d: tuple[int, ...],
+    density: str | None,
+    invert: bool,
     realizations: int,
     seed: int,
     out: Path | None,
@@ -67,6 +78,16 @@ def compare(
     SOURCES are generators with settings, files and folders, any mix; a folder is one source for each (n, d)
     in it. Stopped in any way, the same command goes on where it was.
     """
+    if density is not None:
+        from gbnbench.cli.compare_stipplings import compare_stipplings
+
+        compare_stipplings(
+            sources, density, n=n, realizations=realizations, seed=seed, invert=invert, out=out, jobs=jobs,
+            as_json=as_json, quiet=quiet, reading=reading,
+        )  # fmt: skip
+        return
+    if invert:
+        raise click.UsageError("--invert goes with --density IMAGE")
     from gbnbench.api.compare import compare as make
     from gbnbench.runs.source_names import double_meanings
     from gbnbench.runs.sources import DEFAULT_SOURCES

@@ -30,6 +30,10 @@ Examples:
     help="Sets of a method of the paper (bnot, kdm, vnc, bluenets, ccvt, step, ...), in place of ours: "
     "a file or folder.",
 )  # fmt: skip
+@click.option(
+    "--image", "images", multiple=True, metavar="N=IMAGE",
+    help="Image of figure 10, 15, 16 or 17, a file or a name such as camera, in place of ours.",
+)  # fmt: skip
 @click.option("--no-captions", is_flag=True, help="Leave captions out of the pictures; captions.md has them.")
 @options.reading
 @options.quick_or_full("Small counts: minutes instead of hours.", default="full")
@@ -42,6 +46,7 @@ def figures(
     quick: bool,
     out: Path,
     sets: tuple[str, ...],
+    images: tuple[str, ...],
     no_captions: bool,
     seed: int,
     jobs: int | None,
@@ -52,16 +57,16 @@ def figures(
 
     All are made, or those numbered N; 'depth' is our own. Each becomes a PNG and a PDF, with a page
     index.html of them all. What they are drawn from stays in OUT/data: stopped in any way, the same command
-    goes on where it was. Figures 10, 11 and 15 to 17 show adaptive sampling, which comes later.
+    goes on where it was. Figures 10 and 15 to 17 show images of scikit-image's, which --image replaces.
     """
     from gbnbench.execution import progress
     from gbnbench.reports.paper.figure import FigureOptions
     from gbnbench.reports.paper.maker import make
-    from gbnbench.reports.paper.registry import LATER, find
+    from gbnbench.reports.paper.registry import find
     from gbnbench.reports.paper.user_sets import check_sets
 
     wanted = find([] if names == ("all",) else names)
-    options = FigureOptions("quick" if quick else "full", _given(sets), seed, reading)
+    options = FigureOptions("quick" if quick else "full", _given(sets), seed, reading, _images(images))
     check_sets(wanted, options)
     with progress.choose(quiet) as teller:
         if options.scale == "full":
@@ -69,8 +74,6 @@ def figures(
         made = make(wanted, out, options, jobs or os.cpu_count() or 1, teller, not no_captions)
     for one in made:
         click.echo(f"{out / one.stem}.png  {one.figure.title}")
-    if not names:
-        click.echo(f"figures {', '.join(LATER)} show adaptive sampling, which comes later")
     click.echo(f"page: {out / 'index.html'}")
 
 
@@ -86,4 +89,20 @@ def _given(sets: tuple[str, ...]) -> dict[str, str]:
         if name.lower() in found:
             raise InputError(f"--sets must name each method once; got {name!r} twice")
         found[name.lower()] = path
+    return found
+
+
+def _images(images: tuple[str, ...]) -> dict[str, str]:
+    """Read N=IMAGE."""
+    from gbnbench.io.images import read_image
+    from gbnbench.reports.paper.stippling_requests import IMAGES
+
+    found: dict[str, str] = {}
+    for text in images:
+        figure, equals, image = text.partition("=")
+        if not (equals and image) or figure not in IMAGES:
+            numbers = ", ".join(IMAGES)
+            raise InputError(f"--image must read N=IMAGE, N being one of {numbers}; got {text!r}")
+        read_image(image)  # refuses what is none before any work
+        found[figure] = image
     return found

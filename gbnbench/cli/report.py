@@ -14,14 +14,19 @@ from gbnbench.cli import options
 def report(run: Path) -> None:
     """Draw the pictures of a finished run again.
 
-    RUN is the folder of a comparison or of a study of integration.
+    RUN is the folder of a comparison, also of stipplings, or of a study of integration.
     """
-    from gbnbench.api import comparison, integration
+    from gbnbench.api import comparison, integration, stippling_comparison
     from gbnbench.studies.integration.study_folder import is_study
+    from gbnbench.studies.stippling_comparison.stippling_folder import is_stippling_run
 
     if is_study(run):
         integration.draw(integration.Integration.read(run).study, run)
         click.echo(f"picture: {run / 'integration.png'}")
+        return
+    if is_stippling_run(run):
+        stippling_comparison.draw(stippling_comparison.StipplingComparison.read(run).run, run)
+        click.echo(f"report: {run / 'report.html'}")
         return
     comparison.draw(comparison.Comparison.read(run).run, run)
     click.echo(f"report: {run / 'report.html'}")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import re
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -76,3 +77,36 @@ def double_meanings(names: Iterable[object]) -> list[str]:
         else:
             told.append(f"{name} is the generator; the {what} of that name is ./{name}")
     return told
+
+
+def unique_key(label: str, taken: set[str], ending: str = "") -> str:
+    """Turn a label into a name that is safe for a file, and take it.
+
+    Parameters
+    ----------
+    label : str
+        What the user reads.
+    taken : set of str
+        Names that are taken; the new one is added.
+    ending : str
+        What the name ends in.
+
+    Returns
+    -------
+    str
+        In lower case, with a number where another label has the same name.
+
+    Examples
+    --------
+    >>> taken = set()
+    >>> unique_key("GBN[sigma=0.8]", taken), unique_key("gbn(sigma=0.8)", taken)
+    ('gbn-sigma-0.8', 'gbn-sigma-0.8-2')
+    """
+    slug = re.sub(r"[^a-z0-9.]+", "-", label.lower()).strip("-.")[:60] or "set"
+    stem = key = f"{slug}{ending}"
+    twin = 1
+    while key in taken:  # different labels may share a slug
+        twin += 1
+        key = f"{stem}-{twin}"
+    taken.add(key)
+    return key

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import hashlib
-import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -27,7 +26,7 @@ from gbnbench.generators.third_parties.faults import refusal_of
 from gbnbench.io.points import ReadingOptions
 from gbnbench.runs.file_sets import read_groups
 from gbnbench.runs.named_groups import expanded
-from gbnbench.runs.source_names import generator_named
+from gbnbench.runs.source_names import generator_named, unique_key
 
 DEFAULT_READING = ReadingOptions()
 DEFAULT_SOURCES = ("random", "jittered", "sobol", "lloyd", "fpo", "gbn")
@@ -224,12 +223,6 @@ def _distinct(sources: list[Source]) -> tuple[Source, ...]:
         seen[label, source.n, source.d] += 1
         times = seen[label, source.n, source.d]
         text = label if times == 1 else f"{label} ({times})"
-        slug = re.sub(r"[^a-z0-9.]+", "-", text.lower()).strip("-.")[:60] or "set"
-        stem = key = f"{slug}_n{source.n}_d{source.d}"
-        twin = 1
-        while key in keys:  # different labels may share a slug
-            twin += 1
-            key = f"{stem}-{twin}"
-        keys.add(key)
+        key = unique_key(text, keys, f"_n{source.n}_d{source.d}")
         result.append(replace(source, key=key, label=text))
     return tuple(result)

@@ -1,1 +1,1 @@
-"""The two studies: the comparison of point sets, and numerical integration with them."""
+"""Studies: comparisons of point sets and of stipplings, numerical integration, and stippling itself."""

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gbnbench.analysis.measures import AnalysisArrays, analyse_to_arrays
-from gbnbench.core.cpu_time import cpu_seconds
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import Generator, checked_draw, realization_rng
 from gbnbench.generators.third_parties.faults import faults_in_words
@@ -17,13 +16,10 @@ from gbnbench.io.points.point_sets import NO_TORUS
 from gbnbench.runs.comparison_folder import Realization, realization_key
 from gbnbench.runs.comparison_result import SourceResult
 from gbnbench.runs.task import Task
+from gbnbench.studies.timed_draw import mean_cost, timed_draw
 
 if TYPE_CHECKING:  # a worker loads the generators that it draws from, not all of them
     from gbnbench.runs.sources import Source
-
-REDRAW_SECONDS = 5.0
-
-_drawn_before: set[tuple[Generator, int, int]] = set()  # in a worker process
 
 
 def comparison_tasks(sources: Sequence[Source], seed: int, jobs: int) -> list[Task]:
@@ -85,27 +81,20 @@ def draw_realization(
     seed, k : int
         It draws from ``SeedSequence(seed, spawn_key=(k,))``.
     redraw : bool
-        Draw it twice where the worker has not used this generator, n and d before and the first draw took
-        under five seconds, so that the cost of the second is free of imports and kernel builds. This is for
-        sources of which no worker draws two sets.
+        As in ``timed_draw``.
 
     Returns
     -------
     Realization
         The points with the CPU seconds of one draw, and whether that was the worker's first of its kind.
     """
-    first = (generator, n, d) not in _drawn_before
-    _drawn_before.add((generator, n, d))
-    began = cpu_seconds()
-    with faults_in_words(type(generator), f"drawing n={n}, d={d}"):
-        x = generator(n, d, realization_rng(seed, k))
-    cost = cpu_seconds() - began
-    x = checked_draw(generator, x, n, d)
-    if first and redraw and cost < REDRAW_SECONDS:
-        began = cpu_seconds()
-        generator(n, d, realization_rng(seed, k))
-        return Realization(x, cpu_seconds() - began, False)
-    return Realization(x, cost, first)
+
+    def draw() -> FloatArray:
+        with faults_in_words(type(generator), f"drawing n={n}, d={d}"):
+            x = generator(n, d, realization_rng(seed, k))
+        return checked_draw(generator, x, n, d)
+
+    return timed_draw((generator, n, d), draw, redraw)
 
 
 def analyse_realizations(realizations: Sequence[Realization]) -> AnalysisArrays:
@@ -141,16 +130,9 @@ def source_result(
         d=source.d,
         realizations=source.realizations,
         points=_points(realizations) if source.sets is None else source.sets,
-        cpu_seconds=_cpu_seconds(realizations),
+        cpu_seconds=mean_cost([one.cpu_seconds for one in realizations], [one.first for one in realizations]),
     )
 
 
 def _points(realizations: Sequence[Realization]) -> FloatArray:
     return np.stack([realization.x for realization in realizations])
-
-
-def _cpu_seconds(realizations: Sequence[Realization]) -> float:
-    """Mean cost of a set, without each worker's first where there are others: set-up is not the method's."""
-    warm = [one.cpu_seconds for one in realizations if not one.first]
-    costs = warm or [one.cpu_seconds for one in realizations]
-    return float(np.mean(costs)) if costs else float("nan")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import ClassVar, Protocol, runtime_checkable
 
 import numpy as np
@@ -11,6 +11,7 @@ from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density
 
 Told = Callable[[int, int, str], None]
+Seen = Callable[[Sequence[FloatArray]], None]
 
 
 @runtime_checkable
@@ -68,5 +69,45 @@ class AdaptiveGenerator(Protocol):
         -------
         (n, d) float64
             Within the density, in pixels, in the order of its axes: rows first.
+        """
+        ...
+
+
+@runtime_checkable
+class ClassGenerator(AdaptiveGenerator, Protocol):
+    """A generator that also draws sets of several classes, each of them blue noise and so their union."""
+
+    def classes(
+        self,
+        densities: Sequence[Density],
+        counts: Sequence[int],
+        rngs: Sequence[np.random.Generator],
+        told: Told | None = None,
+        seen: Seen | None = None,
+    ) -> list[FloatArray]:
+        """Draw one set a class.
+
+        Parameters
+        ----------
+        densities : sequence of Density
+            One a class, on one grid of pixels.
+        counts : sequence of int
+            Points of each class.
+        rngs : sequence of numpy.random.Generator
+            The streams that they are drawn from.
+        told : callable, optional
+            Called with (steps done, steps in all, what is being done).
+        seen : callable, optional
+            Called with the points at the start and after each step.
+
+        Returns
+        -------
+        list of (n, d) float64
+            In pixels.
+
+        Raises
+        ------
+        RefusalError
+            If the sets cannot be made.
         """
         ...

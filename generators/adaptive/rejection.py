@@ -9,11 +9,12 @@ import numpy as np
 
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density
+from gbnbench.generators.adaptive.method import AdaptiveMethod
 from gbnbench.generators.adaptive.protocol import Told
 
 
 @dataclass(frozen=True)
-class Rejection:
+class Rejection(AdaptiveMethod):
     """Independent points, each in a pixel drawn in proportion to its density and uniform within it.
 
     Notes
@@ -33,47 +34,14 @@ class Rejection:
     summary: ClassVar[str] = "independent points in proportion to the density"
     reference: ClassVar[str] = ""
 
-    def refusal(self, density: Density, n: int) -> str | None:  # noqa: ARG002
-        """Refuse nothing.
-
-        Parameters
-        ----------
-        density : Density
-            The density.
-        n : int
-            Points.
-
-        Returns
-        -------
-        None
-        """
-        return None
-
-    def __call__(
+    def one_set(  # told is not: this is done at once
         self,
         density: Density,
         n: int,
         rng: np.random.Generator,
-        told: Told | None = None,  # noqa: ARG002
+        told: Told,  # noqa: ARG002
     ) -> FloatArray:
-        """Draw one set, as ``AdaptiveGenerator`` describes it.
-
-        Parameters
-        ----------
-        density : Density
-            The density.
-        n : int
-            Points.
-        rng : numpy.random.Generator
-            The stream that it is drawn from.
-        told : callable, optional
-            Not called: this is done at once.
-
-        Returns
-        -------
-        (n, d) float64
-            In pixels.
-        """
+        """Draw one set, as ``AdaptiveMethod.one_set`` describes it."""
         share = np.cumsum(density.values.ravel())
         last = int(np.flatnonzero(density.values.ravel())[-1])
         pixel = np.minimum(np.searchsorted(share, rng.random(n) * share[-1], side="right"), last)

@@ -5,21 +5,19 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable, Mapping, Sequence
-from importlib import resources
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from jinja2 import Environment, FunctionLoader, StrictUndefined
 from matplotlib.figure import Figure
 
 from gbnbench.core.atomic_write import write_whole
-from gbnbench.core.number_text import NOTHING
 from gbnbench.reports import captions, style
-from gbnbench.reports.comparison import gallery, loglog, points, rdf, spectrum, sweep, table, valence
+from gbnbench.reports.comparison import gallery, loglog, points, rdf, spectrum, sweep, table
 from gbnbench.reports.comparison.figure_files import stem
 from gbnbench.reports.comparison.left_out import left_out
 from gbnbench.reports.html import notes
+from gbnbench.reports.html.environment import template_environment
 from gbnbench.reports.html.pictures import Picture, colour_bar, figure_picture, gallery_panel
 from gbnbench.reports.source_groups import Group, groups, members
 from gbnbench.runs.comparison_result import Run, SourceResult
@@ -69,8 +67,8 @@ def page(run: Run, drawn: Mapping[str, bytes] = MappingProxyType({})) -> str:
     """
     every = groups(run)
     swept = sweep.several(run)
-    environment = _environment()
-    text = environment.get_template("report.html").render(
+    template = template_environment(table.COLUMNS).get_template("report.html")
+    text = template.render(
         title=_title(run),
         version=run.manifest.get("version", ""),
         settings=captions.settings(run),
@@ -93,30 +91,6 @@ def page(run: Run, drawn: Mapping[str, bytes] = MappingProxyType({})) -> str:
         colour_bar=colour_bar(),
     )
     return text.encode("utf-8", "replace").decode("utf-8")  # odd file names hold lone surrogates
-
-
-def _environment() -> Environment:
-    folder = resources.files("gbnbench.reports.html")
-    environment = Environment(
-        loader=FunctionLoader(lambda name: folder.joinpath(name).read_text(encoding="utf-8")),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.globals.update(
-        columns=table.COLUMNS,
-        marks=table.MARKS,
-        nothing=NOTHING,
-        dashes=style.DASHES,
-        ceiling=f"{spectrum.CEILING:g}",
-        degree_colours=valence.DEGREE_COLOURS,
-        degree_names=valence.DEGREE_NAMES,
-    )
-    environment.tests["nan"] = math.isnan
-    environment.filters["script_number"] = _script_number
-    environment.filters["scaled_error"] = _scaled_error
-    return environment
 
 
 def _title(run: Run) -> str:
@@ -209,14 +183,3 @@ def _gallery(run: Run, sources: Sequence[SourceResult]) -> dict[str, Any]:
         "decades": f"{-math.log10(lowest):.0f}",
         "plane": any(source.d == 2 for source in sources),
     }
-
-
-def _script_number(value: float) -> str:
-    """Write a number so that the page's script reads it back."""
-    return f"{value!r}" if math.isfinite(value) else ("1e999" if value > 0 else "-1e999")
-
-
-def _scaled_error(cell: table.Cell) -> str:
-    """Write the standard error with the power of ten of its value."""
-    _, mark, exponent = cell.text.partition("e")
-    return f"{cell.error_text}e{exponent}" if mark else cell.error_text

@@ -15,7 +15,9 @@ from numpy.typing import NDArray
 
 from gbnbench import __version__
 from gbnbench.execution.progress import Progress
+from gbnbench.generators.adaptive.density import as_density
 from gbnbench.io.points import ReadingOptions
+from gbnbench.reports.paper.averaged_pixels import averaged
 from gbnbench.runs.comparison_result import Run
 from gbnbench.runs.resumable import run_tasks
 from gbnbench.runs.sources import DEFAULT_READING, resolve
@@ -24,6 +26,10 @@ from gbnbench.runs.task_folder import Arrays, TaskFolder
 from gbnbench.studies.comparison import run_comparison
 from gbnbench.studies.integration.study import run_integration_study
 from gbnbench.studies.integration.study_folder import IntegrationStudy
+from gbnbench.studies.stippling.darkness import as_darkness
+from gbnbench.studies.stippling_comparison.stippling_results import StipplingRun
+from gbnbench.studies.stippling_comparison.stippling_sources import stippling_sources
+from gbnbench.studies.stippling_comparison.study import run_stippling_comparison
 
 
 @dataclass(frozen=True)
@@ -82,6 +88,28 @@ class IntegrationRequest:
 
 
 @dataclass(frozen=True)
+class StipplingRequest:
+    """A run of ``gbnbench compare --density``; becomes a ``StipplingRun``.
+
+    Attributes
+    ----------
+    image : str
+        A file, or a name of one of scikit-image's.
+    sources : tuple of str
+        Adaptive generators with settings.
+    n : int
+        Points a set.
+    most_pixels : int, optional
+        Along the longer side: squares of pixels of a larger image are averaged.
+    """
+
+    image: str
+    sources: tuple[str, ...]
+    n: int
+    most_pixels: int | None = None
+
+
+@dataclass(frozen=True)
 class TableRequest:
     """Calls of one library function, each in a worker; become a mapping from key to arrays by name.
 
@@ -97,9 +125,11 @@ class TableRequest:
     calls: Mapping[str, tuple[Any, ...]]
 
 
-DataRequest: TypeAlias = ComparisonRequest | IntegrationRequest | TableRequest
-KINDS = {ComparisonRequest: "Comparison", IntegrationRequest: "Study"}  # words of the settings on disk
-FigureData: TypeAlias = Run | IntegrationStudy | dict[str, dict[str, NDArray[Any]]]
+DataRequest: TypeAlias = ComparisonRequest | IntegrationRequest | StipplingRequest | TableRequest
+KINDS = {  # words of the settings on disk
+    ComparisonRequest: "Comparison", IntegrationRequest: "Study", StipplingRequest: "Stipplings"
+}  # fmt: skip
+FigureData: TypeAlias = Run | IntegrationStudy | StipplingRun | dict[str, dict[str, NDArray[Any]]]
 
 
 def folder_name(request: DataRequest, seed: int) -> str:
@@ -120,6 +150,8 @@ def folder_name(request: DataRequest, seed: int) -> str:
     digest = hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:8]
     if isinstance(request, TableRequest):
         words = request.function.__name__
+    elif isinstance(request, StipplingRequest):
+        words = f"stipplings_{Path(request.image).stem}_{'-'.join(request.sources)[:40]}_n{request.n}"
     else:
         kind = "compare" if isinstance(request, ComparisonRequest) else "integrate"
         sizes = "-".join(f"n{n}" for n in request.n) + "-" + "-".join(f"d{d}" for d in request.d)
@@ -133,7 +165,7 @@ def obtain(request: DataRequest, folder: Path, seed: int, jobs: int, progress: P
 
     Parameters
     ----------
-    request : ComparisonRequest, IntegrationRequest or TableRequest
+    request : DataRequest
         What to make.
     folder : Path
         Where it is kept; the same call goes on with what a stopped one left.
@@ -142,7 +174,7 @@ def obtain(request: DataRequest, folder: Path, seed: int, jobs: int, progress: P
 
     Returns
     -------
-    Run, IntegrationStudy or dict
+    Run, IntegrationStudy, StipplingRun or dict
         By the kind of request.
 
     Raises
@@ -150,6 +182,8 @@ def obtain(request: DataRequest, folder: Path, seed: int, jobs: int, progress: P
     GbnbenchError
         As ``compare``, ``integrate`` and ``run_tasks`` do.
     """
+    if isinstance(request, StipplingRequest):
+        return _stipplings(request, folder, seed, jobs, progress)
     if not isinstance(request, TableRequest):
         sources, skipped = resolve(
             request.sources, request.n, request.d, request.realizations, request.reading
@@ -180,6 +214,19 @@ def obtain(request: DataRequest, folder: Path, seed: int, jobs: int, progress: P
         return results
 
 
+def _stipplings(
+    request: StipplingRequest, folder: Path, seed: int, jobs: int, progress: Progress
+) -> StipplingRun:
+    darkness = as_darkness(request.image)
+    density = as_density(averaged(darkness.density().values, request.most_pixels))
+    given = [("", source) for source in request.sources]
+    sources, skipped = stippling_sources(given, density, request.n, 1, DEFAULT_READING)
+    return run_stippling_comparison(
+        sources, density, darkness.name, request.n, folder, seed=seed, jobs=jobs, command="gbnbench figures",
+        skipped=skipped, progress=progress,
+    ).run  # fmt: skip
+
+
 def _content(request: DataRequest) -> dict[str, Any]:
     """JSON-ready form of a request."""
     if isinstance(request, TableRequest):
@@ -188,8 +235,9 @@ def _content(request: DataRequest) -> dict[str, Any]:
         content: dict[str, Any] = {"function": function, "calls": calls}
     else:
         content = {"kind": KINDS[type(request)], **dataclasses.asdict(request)}
-        content["reading"] = request.reading.record()
-        if not content["reading"]:
-            del content["reading"]
+        if not isinstance(request, StipplingRequest):
+            content["reading"] = request.reading.record()
+        if not content.get("reading"):
+            content.pop("reading", None)
     done: dict[str, Any] = json.loads(json.dumps(content))  # as it will be read back
     return done

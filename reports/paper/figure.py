@@ -34,12 +34,15 @@ class FigureOptions:
         Seed of all data.
     reading : ReadingOptions
         How the files of sets are read.
+    images : mapping
+        Number of a figure of adaptive sampling -> image that it shows, a file or a name, in place of ours.
     """
 
     scale: Scale
     sets: Mapping[str, str] = field(default_factory=dict)
     seed: int = 0
     reading: ReadingOptions = field(default_factory=ReadingOptions)
+    images: Mapping[str, str] = field(default_factory=dict)
 
     def pick(self, tiny: Any, quick: Any, full: Any) -> Any:
         """Return the value for this scale.

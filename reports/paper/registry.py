@@ -1,4 +1,4 @@
-"""Every figure by name, and those that are still to come."""
+"""Every figure by name."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from gbnbench.reports.paper.figure import PaperFigure
 
 MODULES = {
     "1": "figure_01", "2": "figure_02", "3": "figure_03", "4": "figure_04", "5": "figure_05",
-    "6": "figure_06", "7": "figure_07", "8": "figure_08", "9": "figure_09", "12": "figure_12",
-    "13": "figure_13", "14": "figure_14", "depth": "depth",
+    "6": "figure_06", "7": "figure_07", "8": "figure_08", "9": "figure_09", "10": "figure_10",
+    "11": "figure_11", "12": "figure_12", "13": "figure_13", "14": "figure_14", "15": "figure_15",
+    "16": "figure_16", "17": "figure_17", "depth": "depth",
 }  # fmt: skip
-LATER = ("10", "11", "15", "16", "17")  # adaptive sampling
 
 
 def find(names: Sequence[str]) -> tuple[PaperFigure, ...]:
@@ -22,14 +22,9 @@ def find(names: Sequence[str]) -> tuple[PaperFigure, ...]:
     Raises
     ------
     InputError
-        If one is not there, saying why.
+        If one is not there.
     """
     asked = {name.lower().removeprefix("fig").removeprefix("ure").strip(". ").lstrip("0") for name in names}
-    if later := [name for name in LATER if name in asked]:
-        raise InputError(
-            f"figure {', '.join(later)} shows adaptive sampling, which gbnbench does not have yet; "
-            f"there are {', '.join(MODULES)}"
-        )
     if unknown := sorted(asked - MODULES.keys()):
         raise InputError(f"there is no figure {', '.join(unknown)}; there are {', '.join(MODULES)}")
     wanted = [name for name in MODULES if not asked or name in asked]

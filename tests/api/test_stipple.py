@@ -1,4 +1,4 @@
-"""``gbnbench.stipple``: its points lie on the ink, x first and y down, whatever the image is given as."""
+"""``gbnbench.stipple``: its points lie on the ink, x right and y up, whatever the image is given as."""
 
 from __future__ import annotations
 
@@ -23,11 +23,16 @@ def corner() -> np.ndarray:
 
 
 @pytest.mark.parametrize("method", ADAPTIVE_GENERATORS)
-def test_points_are_x_to_the_right_and_y_down(method):
+def test_points_are_in_the_unit_square_x_to_the_right_and_y_up(method):
     made = gbnbench.stipple(corner(), 40, method=method)
     assert made.size == (30, 20)
-    assert (made.points.min(axis=0) >= [22, 2]).all()
-    assert (made.points.max(axis=0) <= [26, 6]).all()
+    assert (made.pixels.min(axis=0) >= [22, 2]).all()
+    assert (made.pixels.max(axis=0) <= [26, 6]).all()
+    points, amplitudes = made
+    assert (points.min(axis=0) >= [22 / 30, 14 / 20 - 1e-15]).all()
+    assert (points.max(axis=0) <= [26 / 30, 18 / 20 + 1e-15]).all()
+    assert points == pytest.approx(made.pixels * [1 / 30, -1 / 20] + [0, 1])
+    assert amplitudes is made.amplitudes
     assert made.amplitudes.shape == (40,)
     assert made.amplitudes.mean() == pytest.approx(1)
 
@@ -38,31 +43,35 @@ def test_a_path_a_name_and_an_array_are_one_image(here):
     np.save("x.npy", picture)
     density = as_density(1 - picture / 255)
     sets = [
-        gbnbench.stipple(source, 50, method=QUICK, seed=2).points
+        gbnbench.stipple(source, 50, method=QUICK, seed=2).pixels
         for source in ("x.png", here / "x.png", "x.npy", picture, picture / np.float32(255))
     ]
     expected = adaptive_points(QUICK, density, 50, seed=2)[:, ::-1]
     for found in sets:
         assert found == pytest.approx(expected, abs=1e-3)  # tones are rounded to float32
-    assert gbnbench.stipple(density, 50, method=QUICK, seed=2).points == pytest.approx(expected)
+    assert gbnbench.stipple(density, 50, method=QUICK, seed=2).pixels == pytest.approx(expected)
 
 
 def test_functions_and_volumes_are_densities():
     made = gbnbench.stipple(lambda x: x[:, 0], 4000, shape=(40, 10), method="rejection")
     assert made.size == (10, 40)
-    assert made.points.mean(axis=0) == pytest.approx([5, 80 / 3], abs=0.6)  # denser down; 4 standard errors
+    assert made.pixels.mean(axis=0) == pytest.approx([5, 80 / 3], abs=0.6)  # denser down; 4 standard errors
     volume = np.zeros((6, 7, 8))
     volume[5, 3, 1] = 9
     made = gbnbench.stipple(volume, 5, method=QUICK)
     assert made.size == (8, 7, 6)
-    assert np.floor(made.points).tolist() == [[1, 3, 5]] * 5
+    assert np.floor(made.pixels).tolist() == [[1, 3, 5]] * 5
+    assert (
+        np.floor(made.points * [8, 7, 6]).tolist() == [[1, 3, 5]] * 5
+    )  # z along the slices, y the other way
+    assert made.points == pytest.approx(made.pixels / [8, 7, 6] * [1, -1, 1] + [0, 1, 0])
     assert made.radius == pytest.approx((1 / 5 * 3 / (4 * np.pi)) ** (1 / 3))
 
 
 def test_colours_are_no_volume():
     picture = np.ones((8, 9, 3))
     picture[4:, :, :] = 0
-    assert gbnbench.stipple(picture, 20, method="rejection").points[:, 1].min() >= 4
+    assert gbnbench.stipple(picture, 20, method="rejection").points[:, 1].max() <= 0.5
 
 
 def test_tones_are_inverted_bent_and_cut():
@@ -83,8 +92,8 @@ def test_amplitudes_tell_the_density():
     halves[:, 32:] = 0.25
     density = as_density(halves, toroidal=True)
     made = gbnbench.stipple(density, 800, method="gbn[gradients=20]")
-    dense = np.abs(made.points[:, 0] - 16) < 8
-    sparse = np.abs(made.points[:, 0] - 48) < 8
+    dense = np.abs(made.pixels[:, 0] - 16) < 8
+    sparse = np.abs(made.pixels[:, 0] - 48) < 8
     ratio = made.amplitudes[dense].mean() / made.amplitudes[sparse].mean()
     assert ratio == pytest.approx(4, rel=0.03)  # kernels of the other half reach there a little
     flat = gbnbench.stipple(as_density(np.ones((32, 32)), toroidal=True), 60, method=QUICK)

@@ -28,9 +28,11 @@ COMMANDS = dict(every_command())
 # Which command has which of the options that several have; report and analyze wait for little.
 BENCHES = "bench periodogram, bench gbn"
 SHARED = {
-    "--out": f"compare spectrum analyze generate generators stipple convert integrate figures, {BENCHES}",
-    "--json": f"compare spectrum analyze generators integrate check devices doctor, {BENCHES}",
-    "--quiet": f"compare spectrum generate generators stipple integrate figures check doctor, {BENCHES}",
+    "--out": "compare spectrum analyze generate generators stipple reconstruct convert integrate figures, "
+    f"{BENCHES}",
+    "--json": f"compare spectrum analyze generators reconstruct integrate check devices doctor, {BENCHES}",
+    "--quiet": "compare spectrum generate generators stipple reconstruct integrate figures check doctor, "
+    f"{BENCHES}",
     "--quick": f"figures check doctor, {BENCHES}",
     "--full": f"figures check doctor, {BENCHES}",
     "--seed": "compare generate generators stipple integrate figures",
@@ -38,8 +40,8 @@ SHARED = {
     "--family": "compare generators integrate",
     "--preset": "compare integrate",
     "--realizations": "compare spectrum generate generators integrate",
-    "--device": "compare spectrum analyze generate generators stipple integrate figures check devices "
-    f"doctor, {BENCHES}",
+    "--device": "compare spectrum analyze generate generators stipple reconstruct integrate figures check "
+    f"devices doctor, {BENCHES}",
 }
 
 

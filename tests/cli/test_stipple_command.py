@@ -46,7 +46,7 @@ def test_every_format_holds_the_same_dots(picture, capsys):
     assert "wrote o.svg: 50 dots of black, " in said
     assert "mm across, on 80 x 60 mm" in said
     made = stipple("x.png", 50, method="gbn[gradients=5]")
-    mm = made.points * 2
+    mm = made.pixels * 2
     table = pd.read_csv("o.csv")
     assert np.array_equal(table[["x", "y", "amplitude"]], np.column_stack([made.points, made.amplitudes]))
     assert np.array_equal(np.loadtxt("o.txt"), np.column_stack([made.points, made.amplitudes]))
@@ -122,7 +122,7 @@ def test_a_tour_is_shorter_and_its_length_is_told(picture, capsys):
     told = float(re.search(r"tour of black: (\S+) m", capsys.readouterr().out)[1])
     drawn, toured = (pd.read_csv(name).to_numpy() for name in ("d.csv", "t.csv"))
     assert {*map(tuple, drawn)} == {*map(tuple, toured)}
-    lengths = [np.hypot(*np.diff(x[:, :2], axis=0).T).sum() for x in (drawn, toured)]
+    lengths = [np.hypot(*np.diff(x[:, :2] * (40, 30), axis=0).T).sum() for x in (drawn, toured)]
     assert lengths[1] < 0.95 * lengths[0]
     assert told == pytest.approx(lengths[1] * 4 / 1000, rel=1e-3)
 
@@ -154,7 +154,10 @@ def test_an_animation_is_said(here, capsys):
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
-        (("x.png", "-o", "o.jpg"), "stipplings are written as .png, .svg, .pdf, .eps, .gcode, .txt, .csv"),
+        (
+            ("x.png", "-o", "o.jpg"),
+            "stipplings are written as .png, .svg, .pdf, .eps, .gcode, .txt, .csv, .gif, .mp4",
+        ),
         (("x.png", "-o", "x.png"), "x.png is the image itself: name another file"),
         (("x.png", "-o", "no/o.svg"), "there is no folder no"),
         (("no.png", "-o", "o.svg"), "no.png: there is no such file"),

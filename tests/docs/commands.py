@@ -10,6 +10,7 @@ import click
 
 from gbnbench.analysis.integration.integrands.registry import find as find_family
 from gbnbench.cli import gbnbench
+from gbnbench.generators.adaptive.registry import adaptive_generator
 from gbnbench.generators.registry import find
 
 PLACEHOLDER = re.compile(r"[A-Z_]+|.*\$.*|.*\.\.\..*|<.*>")
@@ -71,4 +72,5 @@ def check(arguments: list[str], whole: bool = True) -> None:
                 elif re.fullmatch(r"\w+\[.*\]", each) or (
                     command.name == "generate" and param.name == "name"
                 ):
-                    find(each)
+                    adaptive = command.name == "stipple" or given.get("density") is not None
+                    (adaptive_generator if adaptive else find)(each)

@@ -38,7 +38,14 @@ def document(page: Path) -> Document:
     return Document.parse(str(page), PythonCodeBlockParser(), SkipParser(), *shells)
 
 
-HEAVY = ("README.md", "scaling.md", "integration.md", "domains.md", "formats.md")  # seconds each
+HEAVY = (
+    "README.md",
+    "adaptive.md",
+    "scaling.md",
+    "integration.md",
+    "domains.md",
+    "formats.md",
+)  # seconds each
 
 
 @pytest.mark.parametrize(

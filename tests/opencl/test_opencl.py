@@ -224,3 +224,14 @@ def test_numbers_and_buffers_change_from_launch_to_launch():
         prepared(rt.upload(np.array([1.0, rise, 1.0])))
         built.run("fma_chains", (rt.group,), (rt.group,), factors, rt.empty(8 * rt.group), np.uint32(7))
         assert total() == 20.0 * rise  # the other launch set nothing of this one
+
+
+def test_a_prepared_launch_takes_numbers_that_change_and_numbers_that_stay():
+    rt = runtime()
+    built = rt.program("gbnbench.opencl", ("/vector.cl", "/fma.cl"), {"DOUBLE": 1, "LANES": 1, "CHAINS": 10})
+    factors, first = rt.upload(np.array([1.0, 0.5, 1.0])), sum(range(10)) / 16 + 10
+    prepared = built.prepared("fma_chains", (rt.group,), (rt.group,), None, None, np.uint32)
+    for steps in (3, 3, 1):
+        out = rt.empty(8 * rt.group)
+        prepared(factors, out, np.uint32(steps))
+        assert rt.download(out, np.empty(1))[0] - first == 5.0 * steps

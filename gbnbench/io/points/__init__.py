@@ -164,12 +164,28 @@ def read_sets(
     path = Path(path)
     try:
         file = open_point_file(path, size_limit(max_bytes), options)
-        return fractions_of_box(path, _content(file), options)
+        return fractions_of_box(path, content_of(file), options)
     except MemoryError:
         raise FormatError(path, "needs more memory than there is; split it, or free some") from None
 
 
-def _content(file: PointFile) -> FileContent:
+def content_of(file: PointFile) -> FileContent:
+    """Read a file by its format, in its own unit.
+
+    Parameters
+    ----------
+    file : PointFile
+        The file, with the options of reading.
+
+    Returns
+    -------
+    FileContent
+
+    Raises
+    ------
+    FormatError
+        If it cannot be read as points.
+    """
     options = file.options
     if options.raw is not None:
         return read_raw(file)

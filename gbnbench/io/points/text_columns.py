@@ -117,6 +117,34 @@ def plain_rows(path: Path, data: bytes, columns: tuple[str, ...] | None, *, coun
     return Rows(tuple(name.lower() for name in names), unquoted(data), False, text)
 
 
+def column_names(path: Path, data: bytes) -> tuple[str, ...]:
+    """Tell the names of a table's columns.
+
+    Parameters
+    ----------
+    path : Path
+        Named in errors.
+    data : bytes
+        The whole text.
+
+    Returns
+    -------
+    tuple of str
+        As they stand in a first line of words, or in a comment right above the first row; empty where there
+        are none.
+
+    Raises
+    ------
+    FormatError
+        If it is not sure what a comma means.
+    """
+    text = plain_text(path, data)
+    first = content_line(text.data, 0, 1)
+    if first is None:
+        return ()
+    return _names(text, first) or _names_above(text, first, counted=True)
+
+
 def _holds_no_number(cells: Sequence[bytes]) -> bool:
     """Whether a line is of names or units too: words alone, none of which stands for a missing number."""
     return not any(cell.lower() in MISSING or any(digit in cell for digit in b"0123456789") for cell in cells)

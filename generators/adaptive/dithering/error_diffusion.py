@@ -8,7 +8,6 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density
 from gbnbench.generators.adaptive.dithering.pixel_density import (
@@ -16,6 +15,7 @@ from gbnbench.generators.adaptive.dithering.pixel_density import (
     dithering_refusal,
     parts_for_dithering,
 )
+from gbnbench.generators.adaptive.method import AdaptiveMethod
 from gbnbench.generators.adaptive.protocol import Told
 
 TRIES = 12  # factors of the density until n pixels turn black
@@ -23,7 +23,7 @@ NOISE = 0.05  # added to thresholds, so that sets of different seeds differ
 
 
 @dataclass(frozen=True)
-class FloydSteinberg:
+class FloydSteinberg(AdaptiveMethod):
     """The pixels that error diffusion turns black, row by row and back.
 
     Notes
@@ -50,50 +50,11 @@ class FloydSteinberg:
     reference: ClassVar[str] = "Floyd & Steinberg, An adaptive algorithm for spatial greyscale, 1976"
 
     def refusal(self, density: Density, n: int) -> str | None:
-        """Say why a halftone has no n points.
-
-        Parameters
-        ----------
-        density : Density
-            The density.
-        n : int
-            Points.
-
-        Returns
-        -------
-        str or None
-            The reason.
-        """
+        """Say why a halftone has no n points, as ``AdaptiveMethod.refusal`` does."""
         return dithering_refusal(density, n)
 
-    def __call__(
-        self, density: Density, n: int, rng: np.random.Generator, told: Told | None = None
-    ) -> FloatArray:
-        """Draw one set, as ``AdaptiveGenerator`` describes it.
-
-        Parameters
-        ----------
-        density : Density
-            The density.
-        n : int
-            Points.
-        rng : numpy.random.Generator
-            The stream from which the noise is drawn.
-        told : callable, optional
-            Called after each try.
-
-        Returns
-        -------
-        (n, 2) float64
-            In pixels.
-
-        Raises
-        ------
-        RefusalError
-            If the density is none of an image, or its pixels cannot be cut finely enough.
-        """
-        if reason := self.refusal(density, n):
-            raise RefusalError(reason)
+    def one_set(self, density: Density, n: int, rng: np.random.Generator, told: Told) -> FloatArray:
+        """Draw one set, as ``AdaptiveMethod.one_set`` describes it."""
         parts = parts_for_dithering(density, n)
         wanted = density.finer(parts).of_points(n)
         threshold = 0.5 + NOISE * (rng.random(wanted.shape) - 0.5)
@@ -101,8 +62,7 @@ class FloydSteinberg:
         for done in range(TRIES):
             black, excess = diffuse(wanted * factor, threshold)
             count = int(black.sum())
-            if told is not None:
-                told(done + 1, TRIES, "tries of floydsteinberg")
+            told(done + 1, TRIES, "tries of floydsteinberg")
             if best is None or abs(count - n) < abs(int(best[0].sum()) - n):
                 best = black, excess
             if count == n:

@@ -8,7 +8,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density
 from gbnbench.generators.adaptive.dithering.pixel_density import (
@@ -16,6 +16,7 @@ from gbnbench.generators.adaptive.dithering.pixel_density import (
     dithering_refusal,
     parts_for_dithering,
 )
+from gbnbench.generators.adaptive.method import AdaptiveMethod
 from gbnbench.generators.adaptive.protocol import Told
 from gbnbench.generators.kernel_based.void_and_cluster import initial_binary_pattern
 
@@ -23,7 +24,7 @@ INITIAL = 0.1  # share of ones in the initial binary pattern
 
 
 @dataclass(frozen=True)
-class VoidAndClusterDither:
+class VoidAndClusterDither(AdaptiveMethod):
     """The pixels whose density lies above the thresholds of a mask that is laid side by side.
 
     Parameters
@@ -67,54 +68,17 @@ class VoidAndClusterDither:
             raise InputError(f"sigma must be above 0 and at most 20 pixels; got {self.sigma}")
 
     def refusal(self, density: Density, n: int) -> str | None:
-        """Say why a halftone has no n points.
-
-        Parameters
-        ----------
-        density : Density
-            The density.
-        n : int
-            Points.
-
-        Returns
-        -------
-        str or None
-            The reason.
-        """
+        """Say why a halftone has no n points, as ``AdaptiveMethod.refusal`` does."""
         return dithering_refusal(density, n)
 
-    def __call__(
+    def one_set(
         self,
         density: Density,
         n: int,
         rng: np.random.Generator,
-        told: Told | None = None,  # noqa: ARG002
+        told: Told,  # noqa: ARG002
     ) -> FloatArray:
-        """Draw one set, as ``AdaptiveGenerator`` describes it.
-
-        Parameters
-        ----------
-        density : Density
-            The density.
-        n : int
-            Points.
-        rng : numpy.random.Generator
-            The stream from which the mask is drawn.
-        told : callable, optional
-            Not called.
-
-        Returns
-        -------
-        (n, 2) float64
-            In pixels.
-
-        Raises
-        ------
-        RefusalError
-            If the density is none of an image, or its pixels cannot be cut finely enough.
-        """
-        if reason := self.refusal(density, n):
-            raise RefusalError(reason)
+        """Draw one set, as ``AdaptiveMethod.one_set`` describes it."""
         parts = parts_for_dithering(density, n)
         wanted = density.finer(parts).values
         ranks = mask_ranks(self.side, self.sigma, rng)

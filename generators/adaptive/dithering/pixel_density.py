@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.core.torus import FloatArray
-from gbnbench.generators.adaptive.density import MOST_PIXELS, Density
+from gbnbench.generators.adaptive.density import Density
+from gbnbench.generators.adaptive.method import too_fine
 
 FULLEST = 0.95  # of a pixel's point, at most
 
@@ -49,12 +50,7 @@ def dithering_refusal(density: Density, n: int) -> str | None:
     if density.d != 2:
         return f"halftones are of images, with two axes; got {density.d}"
     pixels = density.values.size * parts_for_dithering(density, n) ** 2
-    if pixels > MOST_PIXELS:
-        return (
-            f"{n:,} points on {density.values.size:,} pixels need these cut into {pixels:,}, and "
-            f"{MOST_PIXELS:,} are the most: fewer points, or a larger image"
-        )
-    return None
+    return too_fine(density, n, pixels, "a larger image")
 
 
 def centres(black: NDArray[np.bool_], parts: int) -> FloatArray:

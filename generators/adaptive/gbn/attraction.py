@@ -55,7 +55,12 @@ class Level:
 
 
 def attraction_levels(
-    density: Density, n: int, widths: KernelWidths, part: float, resolution: float, reach: float
+    density: Density,
+    n: int,
+    widths: KernelWidths,
+    part: float,
+    resolution: float,
+    reach: float,
 ) -> tuple[Level, ...]:
     """Spread the density, and sample it at cells of 1, 2, 4 ... pixels.
 
@@ -123,12 +128,15 @@ def _share_inside(grid: PaddedGrid, width: FloatArray) -> FloatArray:
 
 def _spread_spectrum(grid: PaddedGrid, rho: FloatArray, log_width: FloatArray, part: float) -> ComplexArray:
     """Spectrum of T: a sum over a ladder of widths, among which each pixel's share is interpolated."""
-    inked = rho > 0
-    logs = log_width[inked]
+    ink = np.flatnonzero(rho > 0)
+    logs = log_width.ravel()[ink]
     least, step = float(logs.min()), math.log(LADDER)
     at = (logs - least) / step
     last = max(1, math.ceil(float(at.max()) - 1e-9))
-    below = np.clip(np.floor(at), 0, last - 1)
+    below = np.clip(np.floor(at), 0, last - 1).astype(np.int16)
+    by_width = np.argsort(below, kind="stable")
+    ink, below, at = ink[by_width], below[by_width], at[by_width]
+    share_of_ink = rho.ravel()[ink]
     u = at - below
     # Cubic interpolation in the logarithm of the width.
     shares = {
@@ -138,17 +146,19 @@ def _spread_spectrum(grid: PaddedGrid, rho: FloatArray, log_width: FloatArray, p
         2: (u + 1) * u * (u - 1) / 6,
     }
     total = None
+    field = np.zeros(rho.size)
     for j in range(-1, last + 2):
-        share = np.zeros(rho.shape)
-        of_ink = np.zeros(len(logs))
+        field.fill(0)
         for offset, values in shares.items():
-            here = below == j - offset
-            of_ink[here] = values[here]
-        if not of_ink.any():
+            first, end = np.searchsorted(below, np.array([j - offset, j - offset + 1], np.int16))
+            field[ink[first:end]] = share_of_ink[first:end] * values[first:end]
+        if not field.any():
             continue
-        share[inked] = rho[inked] * of_ink
         width = part * math.exp(least + j * step)
-        spread = grid.smoothed(grid.transform(share), width**2 + PIXEL)
-        total = spread if total is None else total + spread
+        spread = grid.smoothed(grid.transform(field.reshape(rho.shape)), width**2 + PIXEL)
+        if total is None:
+            total = spread
+        else:
+            total += spread
     assert total is not None  # noqa: S101 - some pixel has ink
     return total

@@ -6,36 +6,35 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gbnbench.core.torus import FloatArray
-from gbnbench.generators.adaptive.gbn.energy import AdaptiveEnergy
+from gbnbench.generators.adaptive.domain import shortest, within
+from gbnbench.generators.adaptive.gbn.gradient import DescendedEnergy
 
 STEP = 1.2  # over the largest curvature of the uniform energy
 PATIENCE = 5  # gradients that the energy may lie above its lowest
 SHORTER = 0.7  # factor of the step after that
-WIDER = 2.0  # factor of a kernel's width beyond which a move is refused
 INSIDE = 1e-3  # pixels from a border, at least
 
 
 def descend(
-    energy: AdaptiveEnergy,
+    energy: DescendedEnergy,
     x: FloatArray,
     gradients: int,
-    told: Callable[[int, float], None] | None = None,
+    told: Callable[[int, float, FloatArray], None] | None = None,
 ) -> FloatArray:
     """Lower the energy of a set.
 
     Parameters
     ----------
-    energy : AdaptiveEnergy
+    energy : DescendedEnergy
         The energy.
     x : (n, d) float64
         The start, in pixels.
     gradients : int
         How many gradients.
     told : callable, optional
-        Called after each with its number and the energy.
+        Called after each with its number, the energy, and the points as they are then.
 
     Returns
     -------
@@ -56,19 +55,16 @@ def descend(
     lowest, above = math.inf, 0
     for number in range(gradients):
         at = energy(y)
-        rate = sigma / (math.sqrt(2) * at.widths)  # local density to the power 1 / d: spacings a pixel
-        # E sums Gaussians of unit mass; a density's unit of E is rho (4 pi s^2)^(-d/2) of the uniform kernel.
-        unit = (4 * math.pi * at.widths**2) ** (d / 2) / rate**2
-        step = -size * unit[:, None] * at.gradient
-        length = np.sqrt((step**2).sum(axis=1)) * rate
+        step = -size * at.gradient / at.stiffness[:, None]
+        length = np.sqrt((step**2).sum(axis=1)) / at.spacings
         moved = _inside(energy, y + step / np.maximum(1, length)[:, None])
-        refused = ~_allowed(energy, moved, at.widths)
+        refused = ~energy.allowed(moved, at.widths)
         moved[refused] = x[refused]
         above = above + 1 if at.energy > lowest else 0
         lowest = min(lowest, at.energy)
         if told is not None:
-            told(number + 1, at.energy)
-        ahead = _shortest(energy, moved - x)
+            told(number + 1, at.energy, moved)
+        ahead = shortest(energy.density, moved - x)
         if above >= PATIENCE:
             size, above, lowest = size * SHORTER, 0, at.energy
             momentum, y = 1.0, moved
@@ -78,7 +74,7 @@ def descend(
             following = (1 + math.sqrt(1 + 4 * momentum**2)) / 2
             y = _inside(energy, moved + (momentum - 1) / following * ahead)
             momentum = following
-            refused = ~_allowed(energy, y, at.widths)
+            refused = ~energy.allowed(y, at.widths)
             y[refused] = moved[refused]
         x = moved
     return x
@@ -104,27 +100,9 @@ def largest_curvature(d: int, sigma: float) -> float:
     return float(max(waves, 2 / sigma**2))
 
 
-def _inside(energy: AdaptiveEnergy, x: FloatArray) -> FloatArray:
+def _inside(energy: DescendedEnergy, x: FloatArray) -> FloatArray:
     """Bring points back to the torus, or to the domain's border."""
     shape = np.array(energy.density.shape, np.float64)
     if energy.density.toroidal:
-        wrapped = x - shape * np.floor(x / shape)
-        return np.where(wrapped >= shape, 0.0, wrapped)
+        return within(energy.density, x)
     return np.clip(x, INSIDE, shape - INSIDE)
-
-
-def _shortest(energy: AdaptiveEnergy, move: FloatArray) -> FloatArray:
-    """Give moves their shortest image."""
-    if not energy.density.toroidal:
-        return move
-    shape = np.array(energy.density.shape, np.float64)
-    return move - shape * np.rint(move / shape)
-
-
-def _allowed(energy: AdaptiveEnergy, x: FloatArray, widths: FloatArray) -> NDArray[np.bool_]:
-    """Tell which places have ink, and kernels not much wider than before."""
-    values = energy.density.values
-    pixel = np.minimum(x.astype(np.intp), np.array(values.shape) - 1)
-    inked = values[tuple(pixel.T)] > 0
-    allowed: NDArray[np.bool_] = inked & (energy.widths(x)[0] < WIDER * widths)
-    return allowed

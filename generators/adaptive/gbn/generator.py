@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
@@ -10,16 +11,18 @@ import numpy as np
 
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray
-from gbnbench.generators.adaptive.density import MOST_PIXELS, Density
+from gbnbench.generators.adaptive.density import Density
 from gbnbench.generators.adaptive.gbn.descent import descend
 from gbnbench.generators.adaptive.gbn.energy import RESOLUTION, AdaptiveEnergy
+from gbnbench.generators.adaptive.gbn.joint_energy import JointEnergy, Part, union_density
 from gbnbench.generators.adaptive.hilbert_start import hilbert_start
-from gbnbench.generators.adaptive.protocol import Told
+from gbnbench.generators.adaptive.method import AdaptiveMethod, too_fine
+from gbnbench.generators.adaptive.protocol import Seen, Told
 from gbnbench.opencl import runtime
 
 
 @dataclass(frozen=True)
-class AdaptiveGaussianBlueNoise:
+class AdaptiveGaussianBlueNoise(AdaptiveMethod):
     """Gaussian blue noise whose kernels are as wide as the density wants them.
 
     Parameters
@@ -34,6 +37,9 @@ class AdaptiveGaussianBlueNoise:
         clumps.
     gradients : int
         How many, at least 0.
+    union : float
+        Weight of the energy of all points where several classes, such as inks, are drawn together, 0 to 100;
+        at 0 each is drawn by itself.
     precision : {"float", "double"}
         Of the sums over neighbours and pixels.
 
@@ -68,37 +74,24 @@ class AdaptiveGaussianBlueNoise:
     smoothing: float = 0.5
     spread: float = 0.3
     gradients: int = 100
+    union: float = 0.1
     precision: Literal["float", "double"] = "float"
 
     def __post_init__(self) -> None:
-        for name, least, most in (("sigma", 0.5, 1.5), ("smoothing", 0.1, 2), ("spread", 0, 1)):
+        for name, least, most in (
+            ("sigma", 0.5, 1.5),
+            ("smoothing", 0.1, 2),
+            ("spread", 0, 1),
+            ("union", 0, 100),
+        ):
             if not least <= getattr(self, name) <= most:
                 raise InputError(f"{name} must be from {least} to {most}; got {getattr(self, name)}")
         if self.gradients < 0:
             raise InputError(f"gradients must be >= 0; got {self.gradients}")
 
     def refusal(self, density: Density, n: int) -> str | None:
-        """Say why the pixels cannot be cut finely enough for so many points.
-
-        Parameters
-        ----------
-        density : Density
-            The density.
-        n : int
-            Points.
-
-        Returns
-        -------
-        str or None
-            The reason.
-        """
-        pixels = density.values.size * self._parts(density, n) ** density.d
-        if pixels > MOST_PIXELS:
-            return (
-                f"{n:,} points on {density.values.size:,} pixels need these cut into {pixels:,}, and "
-                f"{MOST_PIXELS:,} are the most: fewer points, or a smaller image"
-            )
-        return None
+        """Say why pixels cannot be cut finely enough, as ``AdaptiveMethod.refusal`` does."""
+        return too_fine(density, n, density.values.size * self._parts(density, n) ** density.d)
 
     def _parts(self, density: Density, n: int) -> int:
         """Parts of a pixel's side that make pixels finer than the narrowest kernel."""
@@ -106,50 +99,110 @@ class AdaptiveGaussianBlueNoise:
         parts: int = math.ceil(RESOLUTION[self.precision] / narrowest)
         return parts
 
-    def __call__(
-        self, density: Density, n: int, rng: np.random.Generator, told: Told | None = None
-    ) -> FloatArray:
-        """Draw one set, as ``AdaptiveGenerator`` describes it.
+    def one_set(self, density: Density, n: int, rng: np.random.Generator, told: Told) -> FloatArray:
+        """Draw one set, as ``AdaptiveMethod.one_set`` describes it."""
+        return self.classes([density], [n], [rng], told)[0]
+
+    def classes(
+        self,
+        densities: Sequence[Density],
+        counts: Sequence[int],
+        rngs: Sequence[np.random.Generator],
+        told: Told | None = None,
+        seen: Seen | None = None,
+    ) -> list[FloatArray]:
+        """Draw sets of several classes, each of them blue noise and so their union.
+
+        Parameters
+        ----------
+        densities : sequence of Density
+            One a class, on one grid of pixels.
+        counts : sequence of int
+            Points of each class.
+        rngs : sequence of numpy.random.Generator
+            The streams that their starts are drawn from.
+        told : callable, optional
+            Called after each gradient.
+        seen : callable, optional
+            Called with the points at the start and after each gradient.
+
+        Returns
+        -------
+        list of (n, d) float64
+            In pixels, one set a class.
+
+        Raises
+        ------
+        RefusalError
+            If there are too many points for the pixels.
+
+        Notes
+        -----
+        The energy is the sum over classes of (n / n_c)^2 E_c and ``union`` times the energy E of all n points
+        for the sum of the densities. So in flat tones, where a class has the density n_c / n of all, a point
+        is held as stiffly by its own class as by all points at ``union`` = 1.
+        """
+        whole, n = union_density(densities, counts), sum(counts)
+        if reason := self.refusal(whole, n):
+            raise RefusalError(reason)
+        parts = self._parts(whole, n)
+        ends = np.cumsum(counts)[:-1].tolist()
+        starts = zip(densities, counts, rngs, strict=True)
+        x = np.concatenate([hilbert_start(one, count, rng) * parts for one, count, rng in starts])
+        if seen is not None:
+            seen(np.split(x / parts, ends))
+        if self.gradients:
+            fine = [one.finer(parts) for one in densities]
+            energy = self._joint_energy(whole.finer(parts), fine, counts)
+
+            def tell(done: int, _: float, now: FloatArray) -> None:
+                if told is not None:
+                    told(done, self.gradients, "gradients of gbn")
+                if seen is not None:
+                    seen(np.split(now / parts, ends))
+
+            x = descend(energy, x, self.gradients, tell)
+        return np.split(x / parts, ends)
+
+    def pull(self, density: Density, n: int, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Look up what a density of n points does at any number of places.
 
         Parameters
         ----------
         density : Density
             The density.
         n : int
-            Points.
-        rng : numpy.random.Generator
-            The stream that it is drawn from.
-        told : callable, optional
-            Called after each gradient.
+            Points that it is scaled to.
+        x : (m, d) float64
+            Places, in pixels.
 
         Returns
         -------
-        (n, d) float64
-            In pixels.
-
-        Raises
-        ------
-        RefusalError
-            If there are too many points for the pixels.
+        widths : (m,) float64
+            Of the kernels of n points there, in pixels.
+        pulls : (m,) float64
+            The density with its spread, smoothed by these, points a squared pixel (or cubed).
         """
-        if reason := self.refusal(density, n):
-            raise RefusalError(reason)
         parts = self._parts(density, n)
-        fine = density.finer(parts)
-        x = hilbert_start(density, n, rng) * parts
-        if self.gradients:
-            energy = AdaptiveEnergy(
-                runtime(),
-                fine,
-                n,
-                sigma=self.sigma,
-                smoothing=self.smoothing,
-                spread=self.spread,
-                precision=self.precision,
-            )
-            if told is None:
-                x = descend(energy, x, self.gradients)
-            else:
-                steps, tell = self.gradients, told
-                x = descend(energy, x, steps, lambda done, _: tell(done, steps, "gradients of gbn"))
-        return x / parts
+        widths, pulls = self._energy(density.finer(parts), n).pull(x * parts)
+        return widths / parts, pulls * parts**density.d
+
+    def _energy(self, density: Density, n: int) -> AdaptiveEnergy:
+        return AdaptiveEnergy(
+            runtime(), density, n, sigma=self.sigma, smoothing=self.smoothing, spread=self.spread,
+            precision=self.precision,
+        )  # fmt: skip
+
+    def _joint_energy(
+        self, whole: Density, densities: Sequence[Density], counts: Sequence[int]
+    ) -> AdaptiveEnergy | JointEnergy:
+        """Energy of all points, class after class."""
+        n = sum(counts)
+        if len(counts) == 1:
+            return self._energy(whole, n)
+        parts = [Part(slice(0, n), self._energy(whole, n), self.union)] if self.union else []
+        first = 0
+        for density, count in zip(densities, counts, strict=True):
+            parts.append(Part(slice(first, first + count), self._energy(density, count), (n / count) ** 2))
+            first += count
+        return JointEnergy(whole, parts)

@@ -74,8 +74,12 @@ def kernel_widths(density: Density, n: int, sigma: float, smoothing: float) -> K
     before = np.empty(0)
     while np.isnan(log_width).any():
         mean = grid.inside(grid.sampled(grid.smoothed(spectrum, (smoothing * width) ** 2), grid.padded))
-        mean = np.maximum(mean / _share_inside(grid.shape, grid.padded, margin, smoothing * width), 1e-300)
-        reached = 2 / d * np.log(mean) + math.log(2 * width**2 / sigma**2)
+        reached = mean / _share_inside(grid.shape, grid.padded, margin, smoothing * width)
+        del mean  # images of many pixels are many bytes
+        np.maximum(reached, 1e-300, out=reached)
+        np.log(reached, out=reached)
+        reached *= 2 / d
+        reached += math.log(2 * width**2 / sigma**2)
         new = np.isnan(log_width) & (reached >= 0)
         if before.size == 0:
             log_width[new] = math.log(width) - reached[new] / 2

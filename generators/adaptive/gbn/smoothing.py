@@ -65,10 +65,13 @@ class PaddedGrid:
         array
             Of the smoothed field.
         """
-        found = spectrum.copy()
+        factors = []
         for a, size in enumerate(self.padded):
             k = _harmonics(size, last=a == len(self.padded) - 1)
-            found *= _along(np.exp(-2 * variance * (math.pi * k / size) ** 2), a, len(self.padded))
+            factors.append(_along(np.exp(-2 * variance * (math.pi * k / size) ** 2), a, len(self.padded)))
+        found: ComplexArray = spectrum * factors[0]
+        for factor in factors[1:]:
+            found *= factor
         return found
 
     def sampled(self, spectrum: ComplexArray, counts: tuple[int, ...]) -> FloatArray:
@@ -96,8 +99,9 @@ class PaddedGrid:
                 spectrum = spectrum * _along(np.exp(1j * math.pi * k * (1 / count - 1 / size)), a, axes)
                 if a < axes - 1:
                     spectrum = _spread(spectrum, k, count, a)
-        found = fft.irfftn(spectrum, counts, workers=-1)
-        return found * (math.prod(counts) / math.prod(self.padded))
+        found: FloatArray = fft.irfftn(spectrum, counts, workers=-1)
+        found *= math.prod(counts) / math.prod(self.padded)
+        return found
 
     def inside(self, padded: FloatArray) -> FloatArray:
         """Cut the margin off a field on all padded pixels."""

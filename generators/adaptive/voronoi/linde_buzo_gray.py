@@ -8,20 +8,22 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density
+from gbnbench.generators.adaptive.domain import within
+from gbnbench.generators.adaptive.method import AdaptiveMethod
 from gbnbench.generators.adaptive.protocol import Told
 from gbnbench.generators.adaptive.rejection import Rejection
 from gbnbench.generators.adaptive.voronoi.secord import on_ink, parts_refusal
-from gbnbench.generators.adaptive.voronoi.weighted_cells import CellParts, WeightedCells, within
+from gbnbench.generators.adaptive.voronoi.weighted_cells import CellParts, WeightedCells
 
 TURNS_TO_COUNT = 60  # in which the number of points is made the one asked for
 LAST_MOVES = 5  # to centroids, once it is
 
 
 @dataclass(frozen=True)
-class LindeBuzoGray:
+class LindeBuzoGray(AdaptiveMethod):
     """Points whose cells have the ink of about one dot each.
 
     Parameters
@@ -79,58 +81,18 @@ class LindeBuzoGray:
             raise InputError(f"iterations must be >= 1; got {self.iterations}")
 
     def refusal(self, density: Density, n: int) -> str | None:
-        """Say why the pixels cannot be cut finely enough.
-
-        Parameters
-        ----------
-        density : Density
-            The density.
-        n : int
-            Points.
-
-        Returns
-        -------
-        str or None
-            The reason.
-        """
+        """Say why the pixels cannot be cut finely enough, as ``AdaptiveMethod.refusal`` does."""
         return parts_refusal(density, n)
 
-    def __call__(
-        self, density: Density, n: int, rng: np.random.Generator, told: Told | None = None
-    ) -> FloatArray:
-        """Draw one set, as ``AdaptiveGenerator`` describes it.
-
-        Parameters
-        ----------
-        density : Density
-            The density.
-        n : int
-            Points.
-        rng : numpy.random.Generator
-            The stream that it is drawn from.
-        told : callable, optional
-            Called after each iteration.
-
-        Returns
-        -------
-        (n, d) float64
-            In pixels.
-
-        Raises
-        ------
-        RefusalError
-            If there are too many points for the pixels.
-        """
-        if reason := self.refusal(density, n):
-            raise RefusalError(reason)
+    def one_set(self, density: Density, n: int, rng: np.random.Generator, told: Told) -> FloatArray:
+        """Draw one set, as ``AdaptiveMethod.one_set`` describes it."""
         parts = CellParts(density, n)
         x = Rejection()(density, min(self.start, n), rng)
         for done in range(self.iterations):
             cells = parts.cells(x)
             half = min((self.hysteresis + done * self.widening) / 2, 0.999)
             full, empty = cells.masses > 1 + half, cells.masses < 1 - half
-            if told is not None:
-                told(done + 1, self.iterations, "iterations of lbg")
+            told(done + 1, self.iterations, "iterations of lbg")
             x = within(density, split(cells, full, ~(full | empty), rng))
             if not (full.any() or empty.any()):
                 break

@@ -8,16 +8,18 @@ from typing import ClassVar
 import numpy as np
 from scipy.spatial import cKDTree
 
-from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
-from gbnbench.generators.adaptive.density import MOST_PIXELS, Density
+from gbnbench.generators.adaptive.density import Density
+from gbnbench.generators.adaptive.domain import pixels_of, within
 from gbnbench.generators.adaptive.hilbert_start import hilbert_start
+from gbnbench.generators.adaptive.method import AdaptiveMethod, too_fine
 from gbnbench.generators.adaptive.protocol import Told
-from gbnbench.generators.adaptive.voronoi.weighted_cells import CellParts, parts_of_pixels, within
+from gbnbench.generators.adaptive.voronoi.weighted_cells import CellParts, parts_of_pixels
 
 
 @dataclass(frozen=True)
-class WeightedVoronoi:
+class WeightedVoronoi(AdaptiveMethod):
     """Lloyd's method for a density.
 
     Parameters
@@ -64,58 +66,17 @@ class WeightedVoronoi:
             raise InputError(f"tolerance must be >= 0; got {self.tolerance}")
 
     def refusal(self, density: Density, n: int) -> str | None:
-        """Say why the pixels cannot be cut finely enough.
-
-        Parameters
-        ----------
-        density : Density
-            The density.
-        n : int
-            Points.
-
-        Returns
-        -------
-        str or None
-            The reason.
-        """
+        """Say why the pixels cannot be cut finely enough, as ``AdaptiveMethod.refusal`` does."""
         return parts_refusal(density, n)
 
-    def __call__(
-        self, density: Density, n: int, rng: np.random.Generator, told: Told | None = None
-    ) -> FloatArray:
-        """Draw one set, as ``AdaptiveGenerator`` describes it.
-
-        Parameters
-        ----------
-        density : Density
-            The density.
-        n : int
-            Points.
-        rng : numpy.random.Generator
-            The stream that it is drawn from.
-        told : callable, optional
-            Called after each move.
-
-        Returns
-        -------
-        (n, d) float64
-            In pixels.
-
-        Raises
-        ------
-        RefusalError
-            If there are too many points for the pixels.
-        """
-        if reason := self.refusal(density, n):
-            raise RefusalError(reason)
+    def one_set(self, density: Density, n: int, rng: np.random.Generator, told: Told) -> FloatArray:
+        """Draw one set, as ``AdaptiveMethod.one_set`` describes it."""
         x, parts = hilbert_start(density, n, rng), CellParts(density, n)
         for done in range(self.iterations):
             cells = parts.cells(x)
             x = within(density, x + cells.moves)
-            if told is not None:
-                told(done + 1, self.iterations, "moves of secord")
-            at = np.minimum(x.astype(np.intp), np.array(density.shape) - 1)
-            rate = np.maximum(density.of_points(n)[tuple(at.T)], 1e-12) ** (1 / density.d)
+            told(done + 1, self.iterations, "moves of secord")
+            rate = np.maximum(density.of_points(n)[pixels_of(density, x)], 1e-12) ** (1 / density.d)
             if np.sqrt(((cells.moves * rate[:, None]) ** 2).sum(axis=1).mean()) < self.tolerance:
                 break
         return on_ink(density, parts, x)
@@ -137,8 +98,7 @@ def on_ink(density: Density, parts: CellParts, x: FloatArray) -> FloatArray:
     -------
     (n, d) float64
     """
-    at = np.minimum(x.astype(np.intp), np.array(density.shape) - 1)
-    astray = density.values[tuple(at.T)] == 0
+    astray = density.values[pixels_of(density, x)] == 0
     if astray.any():
         x = x.copy()
         x[astray] = parts.places[cKDTree(parts.places).query(x[astray])[1]]
@@ -161,9 +121,4 @@ def parts_refusal(density: Density, n: int) -> str | None:
         The reason.
     """
     pixels = int((parts_of_pixels(density.of_points(n), density.d).astype(float) ** density.d).sum())
-    if pixels > MOST_PIXELS:
-        return (
-            f"{n:,} points on {density.values.size:,} pixels need these cut into {pixels:,}, and "
-            f"{MOST_PIXELS:,} are the most: fewer points, or a smaller image"
-        )
-    return None
+    return too_fine(density, n, pixels)

@@ -137,24 +137,3 @@ def parts_of_pixels(ink: FloatArray, d: int) -> NDArray[np.int64]:
     (...) int64
     """
     return np.maximum(np.ceil((PARTS_OF_A_CELL * ink) ** (1 / d)), 1).astype(np.int64)
-
-
-def within(density: Density, x: FloatArray) -> FloatArray:
-    """Bring points back to the torus; cells of a bounded density have their centroids inside.
-
-    Parameters
-    ----------
-    density : Density
-        The density.
-    x : (n, d) float64
-        In pixels.
-
-    Returns
-    -------
-    (n, d) float64
-    """
-    shape = np.array(density.shape, np.float64)
-    if density.toroidal:
-        x = x - shape * np.floor(x / shape)
-        return np.where(x >= shape, 0.0, x)
-    return np.clip(x, 0, np.nextafter(shape, 0))

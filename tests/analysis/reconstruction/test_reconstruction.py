@@ -88,6 +88,8 @@ def test_reflections_are_mirror_images():
     points, number = with_reflections(np.array([[1.0, 5.0]]), (10, 10), 2.0)
     assert points.tolist() == [[1.0, 5.0], [-1.0, 5.0]]
     assert number.tolist() == [0, 0]
+    assert len(with_reflections(np.array([[0.0, 10.0]]), (10, 10), 99.0)[0]) == 9  # at both ends of each axis
+    assert len(with_reflections(np.array([[0.0, 10.0]]), (10, 10), 0.0)[0]) == 1
     assert kernel_width(100, (20, 20), 0.5) == pytest.approx(1.0)
 
 

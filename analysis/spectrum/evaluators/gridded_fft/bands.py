@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.analysis.precision import Precision
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.bins import bin_counts, bins, bins_nearly
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import RealGrid
 from gbnbench.core.torus import FloatArray
 
@@ -31,24 +33,24 @@ class BinnedPoints:
     turns : (sets, d, n) uint64 or uint32
         Fixed-point coordinates.
     bin_of : (sets, n) int64
-        Bins of points: 0 .. grid.bins**d - 1, the last axis fastest.
+        Bins of points: 0 .. grid.bins**d - 1, the last axis fastest. Where sets are not divided into bands,
+        a rounding may take a point on a border to the bin beside it.
     counts : (sets, grid.bins**d) int64
         Points of each bin.
+    crowd : int
+        Points in the fullest bin of any set.
     """
 
     x: FloatArray
     turns: NDArray[Any]
     bin_of: NDArray[np.int64]
     counts: NDArray[np.int64]
-
-    @property
-    def crowd(self) -> int:
-        """Points in the fullest bin of any set."""
-        return int(self.counts.max())
+    crowd: int
 
     def __getitem__(self, sets: slice) -> BinnedPoints:
         """Give some of the sets."""
-        return BinnedPoints(self.x[sets], self.turns[sets], self.bin_of[sets], self.counts[sets])
+        counts = self.counts[sets]
+        return BinnedPoints(self.x[sets], self.turns[sets], self.bin_of[sets], counts, int(counts.max()))
 
 
 @dataclass(frozen=True)
@@ -100,9 +102,12 @@ def binned(p: Precision, grid: RealGrid, x: FloatArray) -> BinnedPoints:
     -------
     BinnedPoints
     """
-    turns = p.turns(x, x.shape[1])
-    bin_of = _bins_on_line(x, grid) if grid.d == 1 else bins(turns, grid)
-    return BinnedPoints(x, turns, bin_of, bin_counts(bin_of, grid))
+    sets, n, _ = x.shape
+    turns = p.turns(x, n)
+    divided = _division(p.runtime.device.compute_units, grid, sets, n)[0] > 1
+    bin_of = bins(turns, grid) if divided else bins_nearly(x, grid)
+    counts = bin_counts(bin_of, grid)
+    return BinnedPoints(x, turns, bin_of, counts, int(counts.max()))
 
 
 def dealt_to_bands(p: Precision, grid: RealGrid, points: BinnedPoints) -> Bands:
@@ -125,10 +130,10 @@ def dealt_to_bands(p: Precision, grid: RealGrid, points: BinnedPoints) -> Bands:
     sets, n = bin_of.shape
     runs = run_count(grid, n, crowd)
     bands, rows = _division(p.runtime.device.compute_units, grid, sets, n)
+    if grid.d == 1 or (bands == runs == 1 and grid.size * grid.itemsize <= CACHE_BYTES):
+        return Bands(turns, None, starts_of_whole(sets, n), rows, crowd, runs)
     starts = np.full((sets, bands + 1), n, np.uint32)
     starts[:, 0] = 0
-    if grid.d == 1 or (bands == runs == 1 and grid.size * grid.itemsize <= CACHE_BYTES):
-        return Bands(turns, None, starts, rows, crowd, runs)
     few = counts.shape[1] <= 1 << 16  # NumPy sorts 16 bits by radix
     order = np.argsort(bin_of.astype(np.uint16) if few else bin_of, axis=1, kind="stable")
     up_to_row = counts.reshape(sets, grid.bins, -1).sum(axis=2).cumsum(axis=1)
@@ -136,45 +141,21 @@ def dealt_to_bands(p: Precision, grid: RealGrid, points: BinnedPoints) -> Bands:
     return Bands(np.take_along_axis(turns, order[:, None], axis=2), order, starts, rows, crowd, runs)
 
 
-def bins(turns: NDArray[Any], grid: RealGrid) -> NDArray[np.int64]:
-    """Find the bins of points; they are a window's cells wide, but the last one of an axis may be narrower.
+@lru_cache(maxsize=64)
+def starts_of_whole(sets: int, n: int) -> NDArray[np.uint32]:
+    """Give the beginnings of bands of sets that are not divided.
 
     Parameters
     ----------
-    turns : (sets, d, n) uint64 or uint32
-        Fixed-point coordinates.
-    grid : RealGrid
-        The grid.
+    sets, n : int
+        Number of sets, and points of each.
 
     Returns
     -------
-    (sets, n) int64
-        0 .. grid.bins**d - 1, the last axis fastest.
+    (sets, 2) uint32
+        0 and n, to be read only.
     """
-    along = cells(turns, grid.nodes) // grid.width
-    found = along[:, 0]
-    for a in range(1, turns.shape[1]):
-        found = found * grid.bins + along[:, a]
-    return found
-
-
-def bin_counts(bin_of: NDArray[np.int64], grid: RealGrid) -> NDArray[np.int64]:
-    """Count the points of each bin.
-
-    Parameters
-    ----------
-    bin_of : (sets, n) int64
-        Bins of points.
-    grid : RealGrid
-        The grid.
-
-    Returns
-    -------
-    (sets, grid.bins**d) int64
-    """
-    sets, full = len(bin_of), grid.bins**grid.d
-    numbered = bin_of if sets == 1 else bin_of + full * np.arange(sets)[:, None]
-    return np.bincount(numbered.ravel(), minlength=sets * full).reshape(sets, full)
+    return np.tile(np.array([0, n], np.uint32), (sets, 1))
 
 
 def run_count(grid: RealGrid, n: int, crowd: int) -> int:
@@ -214,37 +195,3 @@ def _division(cores: int, grid: RealGrid, sets: int, n: int) -> tuple[int, int]:
         if last == 0 or last >= grid.width:  # a window must reach no farther than the next band
             return whole + (last > 0), rows
     return 1, grid.nodes
-
-
-def cells(turns: NDArray[Any], nodes: int) -> NDArray[np.int64]:
-    """Find the cells of fixed-point coordinates, exactly.
-
-    Parameters
-    ----------
-    turns : (...) uint64 or uint32
-        Fractions of a turn.
-    nodes : int
-        Cells of the axis, less than 2^32.
-
-    Returns
-    -------
-    (...) int64
-        0 .. nodes - 1.
-    """
-    half, size = np.uint64(32), np.uint64(nodes)
-    if turns.dtype == np.uint32:
-        return (turns.astype(np.uint64) * size >> half).astype(np.int64)
-    low = turns & np.uint64(0xFFFFFFFF)
-    low *= size
-    low >>= half
-    high = turns >> half
-    high *= size
-    high += low
-    high >>= half
-    return high.view(np.int64)  # below 2^32
-
-
-def _bins_on_line(x: FloatArray, grid: RealGrid) -> NDArray[np.int64]:
-    """Bins on a line, where they decide on runs alone: a rounding may take a point to the next one."""
-    found = (x[:, :, 0] * (grid.nodes / grid.width)).astype(np.int64)
-    return np.minimum(found, grid.bins - 1, out=found)

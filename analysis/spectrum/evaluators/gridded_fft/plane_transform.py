@@ -19,55 +19,27 @@ from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import (
     transform_of_window,
     window_terms,
 )
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.spreading import SpreadPoints
-from gbnbench.opencl import Program
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.spreading import SPREAD_ARGUMENTS, SpreadPoints
+from gbnbench.opencl.program import Launch
 
 
 @dataclass(frozen=True)
 class PlaneTransform:
-    """Kernels and memory of a transform in the plane.
+    """Kernels and memory of a transform in the plane, for one thread.
 
     Attributes
     ----------
-    grid : RealGrid
-        Layout of a grid.
-    harmonics : int
-        Harmonics of a row that are kept: fmax + 1, and as many more as fill a tile.
-    cores : int
-        Work-items that share the bands.
-    bands : buffer
-        One band of a grid for each of them, and as much memory again for the runs of crowded sets.
-    transforms : buffer
-        Transformed rows of a batch.
-    terms : buffer
-        Polynomials of the window.
+    rows : Launch
+        Carries points to bands of their grids, and transforms the rows of these.
+    columns : Launch
+        Transforms the columns, and writes their powers.
     nbytes : int
-        Bytes of bands and transforms.
-    row_tables, column_tables : (buffer, buffer)
-        Radices of the passes, up to a zero, and their twiddles.
-    turns, gains : buffer
-        exp(-2 pi i f / nodes), and the squared gains of an axis, both at f = 0 .. harmonics - 1.
-    row_memory, column_memory, sums : local memory
-        Of a work-item.
-    program : Program
-        The kernels.
+        Bytes of the bands and of the transformed rows.
     """
 
-    grid: RealGrid
-    harmonics: int
-    cores: int
-    bands: tuple[Any, Any]
-    transforms: Any
-    terms: Any
+    rows: Launch
+    columns: Launch
     nbytes: int
-    row_tables: tuple[Any, Any]
-    column_tables: tuple[Any, Any]
-    turns: Any
-    gains: Any
-    row_memory: Any
-    column_memory: Any
-    sums: Any
-    program: Program
 
     def write_powers(
         self, points: SpreadPoints, over: Any, first: int, half: bool, out: Any, set_size: int
@@ -89,44 +61,9 @@ class PlaneTransform:
         set_size : int
             Numbers from the powers of one set to those of the next one.
         """
-        grid, size = self.grid, np.uint64(transform_numbers(self.grid))
-        self.program.run(
-            "plane_rows",
-            (self.cores,),
-            (1,),
-            *points.arguments,
-            np.uint32(grid.row_length),
-            self.terms,
-            *self.bands,
-            np.uint64(points.rows * grid.row_length),
-            np.uint32(points.sets),
-            *self.row_tables,
-            self.turns,
-            np.uint32(self.harmonics),
-            self.transforms,
-            size,
-            self.row_memory,
-        )
-        self.program.run(
-            "plane_columns",
-            (self.harmonics // TILE[grid.precision],),
-            (1,),
-            self.transforms,
-            size,
-            np.uint32(self.harmonics),
-            np.uint32(grid.nodes),
-            *self.column_tables,
-            np.int32(grid.fmax),
-            np.uint32(points.sets),
-            over,
-            np.uint32(first),
-            self.gains,
-            np.uint32(half),
-            out,
-            np.uint64(set_size),
-            self.column_memory,
-            self.sums,
-        )
+        sets = np.uint32(points.sets)
+        self.rows(*points.arguments, sets)
+        self.columns(sets, over, np.uint32(first), np.uint32(half), out, np.uint64(set_size))
 
 
 def transform_numbers(grid: RealGrid) -> int:
@@ -183,30 +120,48 @@ def plane_transform(p: Precision, grid: RealGrid, sets: int, rows: int) -> Plane
     harmonics = padded(grid.fmax + 1, tile)
     gains = np.zeros(harmonics)
     gains[: grid.fmax + 1] = transform_of_window(grid) ** -2.0
-    column_memory, sums = _local_bytes(p, grid)
     cores = rt.device.compute_units
-    held = sets * transform_numbers(grid) * grid.itemsize
-    band = cores * rows * grid.row_length * grid.itemsize
-    return PlaneTransform(
-        grid=grid,
-        harmonics=harmonics,
-        cores=cores,
-        bands=(rt.empty(band), rt.empty(band)),
-        transforms=rt.empty(held),
-        terms=rt.upload(terms.astype(p.real)),
-        nbytes=2 * band + held,
-        row_tables=_tables(p, nodes // 2, radices(nodes // 2)),
-        column_tables=_tables(p, nodes, radices(nodes // 4)),  # the last pass, of radix 4, is of its own
-        turns=rt.upload(turns(np.arange(harmonics), nodes).astype(p.real)),
-        gains=rt.upload(gains.astype(p.sum)),
-        row_memory=rt.local(2 * (nodes // 2 + 1) * 2 * tile * grid.itemsize),
-        column_memory=rt.local(column_memory),
-        sums=rt.local(sums),
-        program=p.program(
-            "fourier_passes.cl", "grid_spread.cl", "plane_transform.cl",
-            AXES=grid.d, WIDTH=grid.width, TERMS=len(terms), TILE=tile,
-        ),
+    band, size = rows * grid.row_length, transform_numbers(grid)
+    band_bytes, transform_bytes = cores * band * grid.itemsize, sets * size * grid.itemsize
+    transforms = rt.empty(transform_bytes)
+    program = p.program(
+        "fourier_passes.cl", "grid_spread.cl", "plane_transform.cl",
+        AXES=grid.d, WIDTH=grid.width, TERMS=len(terms), TILE=tile,
     )  # fmt: skip
+    return PlaneTransform(
+        rows=program.prepared(
+            "plane_rows",
+            (cores,),
+            (1,),
+            *SPREAD_ARGUMENTS,
+            np.uint32,  # sets
+            np.uint32(grid.row_length),
+            rt.upload(terms.astype(p.real)),
+            *(rt.empty(band_bytes), rt.empty(band_bytes)),  # the latter for the runs of crowded sets
+            np.uint64(band),
+            *_tables(p, nodes // 2, radices(nodes // 2)),
+            rt.upload(turns(np.arange(harmonics), nodes).astype(p.real)),
+            np.uint32(harmonics),
+            transforms,
+            np.uint64(size),
+            rt.local(2 * (nodes // 2 + 1) * 2 * tile * grid.itemsize),
+        ),
+        columns=program.prepared(
+            "plane_columns",
+            (harmonics // tile,),
+            (1,),
+            *(np.uint32, None, np.uint32, np.uint32, None, np.uint64),  # as write_powers gives them
+            transforms,
+            np.uint64(size),
+            np.uint32(harmonics),
+            np.uint32(nodes),
+            *_tables(p, nodes, radices(nodes // 4)),  # the last pass, of radix 4, is of its own
+            np.int32(grid.fmax),
+            rt.upload(gains.astype(p.sum)),
+            *(rt.local(nbytes) for nbytes in _local_bytes(p, grid)),
+        ),
+        nbytes=2 * band_bytes + transform_bytes,
+    )
 
 
 def _tables(p: Precision, length: int, order: list[int]) -> tuple[Any, Any]:

@@ -7,6 +7,9 @@ less than rounding, and cells and places are exact, so that no digit is lost.
 
 from __future__ import annotations
 
+from functools import lru_cache
+from typing import Any
+
 import numpy as np
 
 from gbnbench.analysis.precision import Precision
@@ -45,8 +48,8 @@ def fft_powers(
     grid, base, rt = real_grid(d, fmax, p.name), 2 * fmax + 1, p.runtime
     together = sets_together(p, grid, sets)
     power = np.empty((1 if mean else sets, fmax + 1 if half else base, *(base,) * (d - 1)), p.sum)
-    norms = norms_of(weights, sets, n)
-    out, over = rt.shared(power), rt.upload((1 / norms).astype(p.sum))
+    norms, over = _of_equal_points(p, sets, n) if weights is None else _norms(p, weights, sets, n)
+    out = rt.shared(power)
     at, errors = coordinates(x, p.name, weights), Errors(0.0, 0.0)
     for first in range(0, sets, together):
         end = min(first + together, sets)
@@ -65,6 +68,18 @@ def fft_powers(
         power /= sets
     found = np.asarray(power, np.float64)
     return (found[0] if mean else found), errors
+
+
+def _norms(p: Precision, weights: FloatArray | None, sets: int, n: int) -> tuple[FloatArray, Any]:
+    """Norms of the sets, and one over them on the device."""
+    norms = norms_of(weights, sets, n)
+    return norms, p.runtime.upload((1 / norms).astype(p.sum))
+
+
+@lru_cache(maxsize=64)
+def _of_equal_points(p: Precision, sets: int, n: int) -> tuple[FloatArray, Any]:
+    """Norms of sets of weight 1, which are only read."""
+    return _norms(p, None, sets, n)
 
 
 def sets_together(p: Precision, grid: RealGrid, sets: int) -> int:

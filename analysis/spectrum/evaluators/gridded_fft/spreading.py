@@ -10,11 +10,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.analysis.precision import Precision
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.bands import Bands
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.bands import Bands, starts_of_whole
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import RealGrid, transform_of_window
 from gbnbench.core.torus import FloatArray
 
 KEPT_POINTS = 1 << 16  # up to which weights of 1 are kept from call to call
+# Types of the arguments from the points to the number of rows of a band, as ``Program.prepared`` takes them.
+SPREAD_ARGUMENTS = (
+    *(None, np.uint32, None, np.uint32),  # points and their stride, weights and theirs
+    *(None, np.uint32, np.uint32, None),  # beginnings of the bands, their number, that of the runs, means
+    *(np.uint32, np.uint32),  # nodes of an axis, rows of a band
+)
 
 
 @dataclass(frozen=True)
@@ -62,31 +68,45 @@ def spread_points(p: Precision, grid: RealGrid, bands: Bands, weights: FloatArra
     """
     sets, _, n = bands.turns.shape
     rt = p.runtime
-    if weights is None and n <= KEPT_POINTS:
-        weight, means = _of_equal_points(p, grid, sets, n, bands.runs)
-        stride = 0
+    if weights is None and n <= KEPT_POINTS and bands.count == 1:
+        rest = _of_equal_points(p, grid, sets, n, bands.rows, bands.runs)
     else:
-        values, stride = _in_order(p, weights, bands.order, sets, n)
-        weight, means = rt.upload(values), _means(p, grid, weights, sets, n, bands.runs)
-    arguments = (
-        rt.shared(bands.turns) if grid.d == 1 else rt.upload(bands.turns),
-        np.uint32(n),
-        weight,
-        np.uint32(stride),
-        rt.upload(bands.starts),
-        np.uint32(bands.count),
-        np.uint32(bands.runs),
-        means,
-        np.uint32(grid.nodes),
-        np.uint32(bands.rows),
-    )
-    return SpreadPoints(sets, bands.count, bands.rows, bands.runs, arguments)
+        rest = _rest(p, grid, bands.starts, n, bands.rows, bands.runs, weights, bands.order)
+    return SpreadPoints(sets, bands.count, bands.rows, bands.runs, (rt.shared(bands.turns), *rest))
 
 
 @lru_cache(maxsize=32)
-def _of_equal_points(p: Precision, grid: RealGrid, sets: int, n: int, runs: int) -> tuple[Any, Any]:
-    """Weights and means on the device, which are only read."""
-    return p.runtime.upload(np.ones(n, p.real)), _means(p, grid, None, sets, n, runs)
+def _of_equal_points(
+    p: Precision, grid: RealGrid, sets: int, n: int, rows: int, runs: int
+) -> tuple[Any, ...]:
+    """Arguments after the points, of whole sets of weight 1: their buffers are only read."""
+    return _rest(p, grid, starts_of_whole(sets, n), n, rows, runs, None, None)
+
+
+def _rest(
+    p: Precision,
+    grid: RealGrid,
+    starts: NDArray[np.uint32],
+    n: int,
+    rows: int,
+    runs: int,
+    weights: FloatArray | None,
+    order: NDArray[np.intp] | None,
+) -> tuple[Any, ...]:
+    """Arguments after the points."""
+    sets, ends = starts.shape
+    values, stride = _in_order(p, weights, order, sets, n)
+    return (
+        np.uint32(n),
+        p.runtime.upload(values),
+        np.uint32(stride),
+        p.runtime.upload(starts),
+        np.uint32(ends - 1),
+        np.uint32(runs),
+        _means(p, grid, weights, sets, n, runs),
+        np.uint32(grid.nodes),
+        np.uint32(rows),
+    )
 
 
 def _means(

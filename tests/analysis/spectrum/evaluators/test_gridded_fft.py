@@ -11,13 +11,14 @@ from gbnbench.analysis.spectrum.evaluators.cube_product import cube_powers
 from gbnbench.analysis.spectrum.evaluators.gridded_fft import bands as bands_module
 from gbnbench.analysis.spectrum.evaluators.gridded_fft import host_transform
 from gbnbench.analysis.spectrum.evaluators.gridded_fft import powers as powers_module
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.bands import bin_counts, bins, cells
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.bins import bin_counts, bins, bins_nearly, cells
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import next_fast_length, real_grid, window_terms
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.powers import fft_powers
 from gbnbench.analysis.spectrum.evaluators.kaiser_bessel import window
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.plan import plan
 from gbnbench.core.errors import InputError
+from gbnbench.core.torus import fixed_point
 from gbnbench.generators.registry import generate
 from tests.oracles.power import direct_power
 
@@ -215,6 +216,14 @@ def test_cells_and_bins_are_exact():
     assert counts.shape == (1, grid.bins**2)
     assert counts.sum() == 200
     assert counts[0, bin_of[0, 7]] >= 1
+
+
+def test_bins_of_doubles_are_the_exact_ones_but_for_points_on_a_border():
+    grid = real_grid(2, 57, "double")
+    x = np.random.default_rng(4).random((2, 300, 2))
+    assert np.array_equal(bins_nearly(x, grid), bins(fixed_point(x, 64).transpose(0, 2, 1), grid))
+    ends = np.array([[[0.0, 1 - 2.0**-53], [1 - 2.0**-53, 0.0]]])
+    assert np.array_equal(bins_nearly(ends, grid), [[grid.bins - 1, (grid.bins - 1) * grid.bins]])
 
 
 @pytest.mark.parametrize("precision", ["double", "float"])

@@ -1,0 +1,1 @@
+"""Points as particles whose kernels are to add up to the density."""

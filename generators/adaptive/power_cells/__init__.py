@@ -1,0 +1,1 @@
+"""Power cells that have equal shares of a density, and points at their centroids."""

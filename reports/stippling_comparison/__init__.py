@@ -1,0 +1,1 @@
+"""The report of a comparison of stipplings: table, pictures and page."""
