@@ -70,7 +70,7 @@ class AdaptiveGaussianBlueNoise(AdaptiveMethod):
     name: ClassVar[str] = "gbn"
     summary: ClassVar[str] = "adaptive Gaussian blue noise (Ahmed, Ren & Wonka 2022)"
     reference: ClassVar[str] = "Ahmed, Ren & Wonka, Gaussian blue noise, 2022"
-    sigma: float = 0.8
+    sigma: float = 0.78
     smoothing: float = 0.5
     spread: float = 0.3
     gradients: int = 100
