@@ -45,6 +45,8 @@ HEAVY = (
     "integration.md",
     "domains.md",
     "formats.md",
+    "stippling.md",
+    "choosing.md",
 )  # seconds each
 
 

@@ -103,6 +103,7 @@ def test_a_wrong_kernel_is_named_and_not_trusted(monkeypatch, tmp_path):
     assert not list(tmp_path.glob("trusted*"))
 
 
+@pytest.mark.slow
 def test_a_device_is_examined_once_and_remembered(monkeypatch, tmp_path):
     monkeypatch.setattr(cache_folder, "cache_folder", lambda: tmp_path)
     trust.ensure_trusted()
@@ -115,6 +116,7 @@ KERNELS = re.compile(r"__kernel\s+void\s+(\w+)")
 NO_RESULTS = {"probe", "fma_chains"}  # they measure the device: its vectors' widths, and its speed
 
 
+@pytest.mark.slow
 def test_the_doctor_runs_every_kernel_in_the_tree(monkeypatch):
     run = set()
 
