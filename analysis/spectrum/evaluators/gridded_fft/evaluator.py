@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
 
 from gbnbench.analysis.spectrum.error_model import UNIT, Errors, rms_for, rounded_at_worst
 from gbnbench.analysis.spectrum.evaluators.cube_product import CubeProduct
@@ -29,12 +29,40 @@ from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest
 from gbnbench.core.memory import memory_limit
 from gbnbench.core.torus import FloatArray
 
-# Narrow multiply-adds (work_model.py) that take as long as a point on each axis, a node that it reaches, in
-# the cache and beyond it, a node and level of the transform, a power, and a call. Fitted to the CPU times of
-# 38 cubes on one Intel core, n = 16 to 16,384 and F = 4 to 4,096 in 1D to 3D: 8 in 10 are within 15%.
-POINT, REACHED, FAR_REACHED, LEVEL, WRITTEN, SET_UP = 610.0, 7.6, 10.9, 4.9, 78.0, 3.5e6
-LINE_POINT, LINE_SET_UP = 530.0, 2.7e6  # of a point and of a call on a line; fitted to 30 spectra there
-PLANE_LEVEL = 3.6  # of a node and level in the plane, powers included; fitted to 34 cubes there
+
+class GridWork(NamedTuple):
+    """Narrow multiply-adds (work_model.py) that take as long as the parts of a spectrum.
+
+    Attributes
+    ----------
+    point : float
+        A point, on each axis.
+    reached, far_reached : float
+        A node that it reaches, on a grid that fits in the cache, and on a larger one.
+    level : float
+        A node and level of the transform.
+    written : float
+        A power.
+    call : float
+        All else of a call.
+    """
+
+    point: float
+    reached: float
+    far_reached: float
+    level: float
+    written: float
+    call: float
+
+
+# By dimension. Fitted to the CPU times of 132 cubes on one Intel core, n = 64 to 16,384 and F = 6 to 2,048,
+# in double and in float: 7 to 9 in 10 are within 15%, and the slower of product and FFT is chosen three
+# times, by a third at most. In the plane bands of a grid stay in the cache; the transform writes the powers.
+WORK = {
+    1: GridWork(354.0, 2.43, 2.43, 0.0, 429.0, 2.55e6),
+    2: GridWork(350.0, 6.57, 6.57, 2.65, 0.0, 2.25e6),
+    3: GridWork(737.0, 4.0, 5.37, 3.62, 0.0, 4.16e6),
+}
 LARGEST_TYPICAL = 9.0  # typical error in units of rounding, beyond which crowded points go to the product
 
 
@@ -80,26 +108,25 @@ class GriddedFFT(DeviceEvaluator):
 
     def work(self, request: SpectrumRequest) -> float:
         """Count the points carried to the grid, its transform, the powers written, and the set-up."""
-        set_up = LINE_SET_UP if request.d == 1 else SET_UP
-        return self._arithmetic(request) + narrow(self.on_device) * set_up
+        return self._arithmetic(request) + narrow(self.on_device) * WORK[request.d].call
 
     def _arithmetic(self, request: SpectrumRequest) -> float:
         grid = real_grid(request.d, request.fmax, self.precision)
-        nodes = grid.nodes**request.d
-        # In the plane bands of a grid stay in the cache.
-        far = request.d == AXES and grid.size * grid.itemsize > CACHE_BYTES
-        reached = FAR_REACHED if far else REACHED
-        point = LINE_POINT if request.d == 1 else POINT * request.d
-        points = request.n * (point + reached * grid.width**request.d)
-        levels, outputs = nodes * math.log2(nodes), (2 * request.fmax + 1) ** request.d
         plane = request.d == 2 and plane_serves(self.on_device, grid)
-        each = points + (PLANE_LEVEL * levels if plane else LEVEL * levels + WRITTEN * outputs)
+        work = WORK[3 if request.d == 2 and not plane else request.d]  # large planes go as volumes do
+        far = grid.size * grid.itemsize > CACHE_BYTES
+        reached = work.far_reached if far else work.reached
+        points = request.n * (work.point * request.d + reached * grid.width**request.d)
+        nodes, outputs = grid.nodes**request.d, (2 * request.fmax + 1) ** request.d
+        each = points + work.level * nodes * math.log2(nodes) + work.written * outputs
         return float(narrow(self.on_device) * request.realizations * each)
 
     def cost(self, request: SpectrumRequest) -> EvaluationCost:
         """Estimate the cost on the device, the grids of a batch and their transforms included."""
         held = self._held(request)
-        return device_cost(self.on_device, request, self._arithmetic(request), 2.0, held, SET_UP)
+        return device_cost(
+            self.on_device, request, self._arithmetic(request), 2.0, held, WORK[request.d].call
+        )
 
     def _held(self, request: SpectrumRequest) -> float:
         """Count the bytes of the grids of a batch, their transforms and the cube."""
