@@ -73,7 +73,7 @@ def test_every_thread_has_its_own():
     assert there is not here
 
 
-@pytest.mark.parametrize(("n", "d", "fmax"), [(16, 2, 4), (300, 2, 40)])
+@pytest.mark.parametrize(("n", "d", "fmax"), [(16, 2, 4), (300, 3, 8)])
 def test_a_request_seen_before_is_not_planned_again(monkeypatch, n, d, fmax):
     made, planned = [], []
     init, cheapest = PreparedCube.__init__, choice._cheapest.__wrapped__
