@@ -10,6 +10,7 @@ import gbnbench
 from gbnbench.core.errors import FormatError, InputError
 from gbnbench.generators.adaptive.density import as_density
 from gbnbench.generators.adaptive.registry import ADAPTIVE_GENERATORS, adaptive_points
+from gbnbench.studies.stippling.darkness import as_darkness
 
 WHITE = np.full((20, 30), 255, np.uint8)
 QUICK = "gbn[gradients=5]"
@@ -159,3 +160,10 @@ def test_a_bad_array_file_is_named(here):
         gbnbench.stipple("v.npy", 5)
     with pytest.raises(FormatError, match=r"^no\.npy: there is no such file"):
         gbnbench.stipple("no.npy", 5)
+
+
+def test_faint_ink_on_white_keeps_its_digits():
+    faint = 1e-8 * np.random.default_rng(0).random((12, 18))
+    darkness = as_darkness(1 - faint).values
+    assert darkness == pytest.approx(faint, abs=2e-16)
+    assert len(gbnbench.stipple(1 - faint, 20, method="rejection").points) == 20

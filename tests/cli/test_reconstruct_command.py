@@ -142,6 +142,10 @@ def test_points_on_the_border_stay_there(here):
         ),
         (("pixels.txt", "-o", "o.png", "--unit", "pixels", "--period", "9"), "leave out --period"),
         (("zero.csv", "-o", "o.png"), "zero.csv, line 3: amplitude 0 is not a finite number above 0"),
+        (
+            ("turned.csv", "-o", "o.png"),
+            "turned.csv: coordinates stand out of order; put the columns as x, y",
+        ),
         (("four.npy", "-o", "o.png"), "four.npy: points must be (n, 2) of a picture"),
         (("dots.txt", "-o", "o.png", "--coverage", "2"), "coverage must be above 0 and at most 1; got 2"),
         (("dots.txt", "-o", "o.png", "--method", "best"), "'best' is not one of"),
@@ -153,6 +157,7 @@ def test_errors_say_what_was_wrong(picture, capsys, arguments, says):
         Path(f"inks{suffix}").write_bytes(text_of({"cyan": made, "black": made}, suffix))
     Path("pixels.txt").write_text("5.5 3.5\n1.5 2.5\n")
     Path("zero.csv").write_text("x,y,amplitude\n0.5,0.5,1\n0.25,0.5,0\n")
+    Path("turned.csv").write_text("y,x,amplitude\n0.9,0.1,1\n0.6,0.2,1\n")
     np.save("four.npy", np.full((9, 4), 0.5))
     before = {path: path.read_bytes() for path in picture.iterdir()}
     assert command(*arguments) == 2

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from gbnbench.core.errors import FormatError, InputError
 from gbnbench.core.readable_text import in_one_line
-from gbnbench.io.images.image import Image
+from gbnbench.io.images.image import Image, Samples
 
 ARRAY_SUFFIX = ".npy"
 COLOURS = (1, 2, 3, 4)  # values a pixel: grey, grey and alpha, colours, colours and alpha
@@ -98,7 +98,7 @@ def image_of(array: NDArray[Any], name: str = "the array") -> Image:
     return Image(samples, name)
 
 
-def fractions(array: NDArray[Any]) -> NDArray[np.float32]:
+def fractions(array: NDArray[Any]) -> Samples:
     """Bring samples to 0 to 1.
 
     Parameters
@@ -108,8 +108,8 @@ def fractions(array: NDArray[Any]) -> NDArray[np.float32]:
 
     Returns
     -------
-    float32 ndarray
-        Of the same shape.
+    float32 or float64 ndarray
+        Of the same shape; float64 where float32 would round what is given, such as faint ink on white.
 
     Raises
     ------
@@ -119,7 +119,9 @@ def fractions(array: NDArray[Any]) -> NDArray[np.float32]:
     if array.dtype.kind == "b":
         return array.astype(np.float32)
     if array.dtype.kind == "u":
-        return np.asarray(array / np.float64(np.iinfo(array.dtype).max), np.float32)
+        return np.asarray(
+            array / np.float64(np.iinfo(array.dtype).max), np.float32 if array.itemsize <= 2 else np.float64
+        )
     if array.dtype.kind != "f":
         raise InputError(
             "an image's pixels are unsigned whole numbers (uint8, uint16) or real numbers from 0 to 1; "
@@ -132,21 +134,21 @@ def fractions(array: NDArray[Any]) -> NDArray[np.float32]:
             "real numbers of an image go from 0 (black) to 1 (white); "
             f"these from {array.min():g} to {array.max():g}: scale them"
         )
-    return array.astype(np.float32)
+    return array.astype(np.float32 if array.itemsize <= 4 else np.float64)
 
 
-def over_white(samples: NDArray[np.float32], alpha: NDArray[np.float32]) -> NDArray[np.float32]:
+def over_white(samples: Samples, alpha: Samples) -> Samples:
     """Lay transparent samples on white paper.
 
     Parameters
     ----------
-    samples : (rows, columns, channels) float32
+    samples : (rows, columns, channels) float32 or float64
         From 0 to 1.
-    alpha : (rows, columns, 1) float32
+    alpha : (rows, columns, 1) float32 or float64
         From 0, transparent, to 1, opaque.
 
     Returns
     -------
-    (rows, columns, channels) float32
+    (rows, columns, channels) float32 or float64
     """
-    return np.asarray(1 - alpha * (1 - samples), np.float32)
+    return 1 - alpha * (1 - samples)

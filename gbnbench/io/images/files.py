@@ -13,7 +13,7 @@ from PIL import ImageOps, UnidentifiedImageError
 
 from gbnbench.core.errors import FormatError, InputError
 from gbnbench.io.images.arrays import fractions, image_of, over_white
-from gbnbench.io.images.image import Image
+from gbnbench.io.images.image import Image, Samples
 from gbnbench.io.points.file_format import reason
 
 MOST_PIXELS = 89_478_485  # of a file: where Pillow begins to suspect a decompression bomb
@@ -78,7 +78,7 @@ def _by_pillow(path: Path, name: str) -> Image:
         return Image(_samples(ImageOps.exif_transpose(opened)), name, tuple(remarks))
 
 
-def _samples(picture: Pillow.Image) -> NDArray[np.float32]:
+def _samples(picture: Pillow.Image) -> Samples:
     """Values from 0 to 1 of any of Pillow's modes: (rows, columns, channels)."""
     if "transparency" in picture.info and picture.mode in TRANSPARENT:
         picture = picture.convert(TRANSPARENT[picture.mode])

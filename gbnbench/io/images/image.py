@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,8 @@ from gbnbench.core.torus import FloatArray
 
 LUMA = (0.2126, 0.7152, 0.0722)  # of red, green and blue: Rec. ITU-R BT.709
 
+Samples: TypeAlias = NDArray[np.floating[Any]]  # float32, or float64 of arrays that have more digits
+
 
 @dataclass(frozen=True)
 class Image:
@@ -18,7 +21,7 @@ class Image:
 
     Attributes
     ----------
-    samples : (rows, columns, 1, 3 or 4) float32
+    samples : (rows, columns, 1, 3 or 4) float32 or float64
         From 0 to 1: grey or red, green and blue from black to white, or shares of cyan, magenta, yellow and
         black ink.
     name : str
@@ -27,7 +30,7 @@ class Image:
         What was done to read it that might surprise, in words.
     """
 
-    samples: NDArray[np.float32]
+    samples: Samples
     name: str
     remarks: tuple[str, ...] = ()
 
@@ -41,15 +44,15 @@ class Image:
         return np.clip(luma, 0, 1)
 
     @property
-    def rgb(self) -> NDArray[np.float32]:
+    def rgb(self) -> Samples:
         """Grey, or red, green and blue: of inks, each takes its share of what the black leaves."""
         if self.samples.shape[2] < 4:
             return self.samples
-        return np.asarray((1 - self.samples[..., :3]) * (1 - self.samples[..., 3:]), np.float32)
+        return (1 - self.samples[..., :3]) * (1 - self.samples[..., 3:])
 
     @property
-    def inks(self) -> NDArray[np.float32]:
-        """(rows, columns, 4) float32: cyan, magenta, yellow and black ink.
+    def inks(self) -> Samples:
+        """(rows, columns, 4) float32 or float64: cyan, magenta, yellow and black ink.
 
         Black takes all that the three would print together, as a grey printed by one ink is sharper.
         """
@@ -58,4 +61,4 @@ class Image:
         rgb = np.broadcast_to(self.samples, (*self.samples.shape[:2], 3))
         light = rgb.max(axis=2, keepdims=True)
         coloured = 1 - rgb / np.where(light > 0, light, 1)
-        return np.concatenate([np.where(light > 0, coloured, 0), 1 - light], axis=2).astype(np.float32)
+        return np.concatenate([np.where(light > 0, coloured, 0), 1 - light], axis=2)

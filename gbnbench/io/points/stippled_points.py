@@ -12,7 +12,7 @@ import numpy as np
 from gbnbench.core.errors import FormatError
 from gbnbench.core.torus import FloatArray
 from gbnbench.io.points import content_of
-from gbnbench.io.points.columns import is_axis
+from gbnbench.io.points.columns import fault_of_names, is_axis
 from gbnbench.io.points.file_format import size_limit
 from gbnbench.io.points.formats.registry import format_of
 from gbnbench.io.points.formats.text import TEXT
@@ -103,6 +103,8 @@ def read_stipplings(path: str | os.PathLike[str], options: ReadingOptions) -> li
     weighted = any(name.lower() == AMPLITUDE for name in names)
     if weighted:
         axes = options.columns or tuple(name for name in names if is_axis(name))
+        if options.columns is None and (fault := fault_of_names(axes)):
+            raise FormatError(path, fault)
         file = replace(file, options=replace(options, columns=(*axes, AMPLITUDE)))
     content = content_of(file)
     sets = [_parted(path, one) if weighted else (one, None) for one in content.sets]
