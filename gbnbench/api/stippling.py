@@ -70,6 +70,12 @@ class Stippling:
     seconds: float
     remarks: tuple[str, ...] = ()
 
+    def __repr__(self) -> str:
+        """Say what it is in a line, without its numbers."""
+        size = " x ".join(map(str, self.size))
+        n = len(self.pixels)
+        return f"<Stippling of {self.name}, {size}: {n:,} points by {self.method}, seed {self.seed}>"
+
     def __iter__(self) -> Iterator[FloatArray]:
         """Give the points, then the amplitudes."""
         return iter((self.points, self.amplitudes))

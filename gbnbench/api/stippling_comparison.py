@@ -57,6 +57,11 @@ class StipplingComparison:
     seconds: float = 0.0
     undrawn: str = ""
 
+    def __repr__(self) -> str:
+        """Say what it is in a line, without its numbers."""
+        names = ", ".join(source.label for source in self.run.sources)
+        return f"<StipplingComparison of {names}, kept in {self.folder}>"
+
     @classmethod
     def read(cls, folder: str | Path) -> StipplingComparison:
         """Read a finished comparison from its folder.

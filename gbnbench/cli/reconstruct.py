@@ -10,7 +10,7 @@ import click
 
 from gbnbench.cli import options
 from gbnbench.cli.late_progress import late_progress
-from gbnbench.core.errors import FormatError
+from gbnbench.core.errors import FormatError, InputError
 
 if TYPE_CHECKING:
     from gbnbench.analysis.reconstruction.density_estimates import Estimate
@@ -168,7 +168,12 @@ def _stipplings(
     from gbnbench.io.points.stippled_points import read_stipplings
 
     if unit == "square":
-        return read_stipplings(path, reading)
+        try:
+            return read_stipplings(path, reading)
+        except FormatError as error:
+            if "--period" not in str(error):
+                raise
+            raise InputError(f"{error}; or, where y goes down as in pictures, --unit pixels") from None
     if reading.period is not None or reading.bounds is not None:
         raise click.UsageError("--unit pixels is of pictures of --size: leave out --period and --bounds")
     if size is None:

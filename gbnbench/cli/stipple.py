@@ -131,7 +131,7 @@ def stipple(
     counts = shared_out(darkness, n if n is not None else stipple_input.default_n(darkness, width_mm, dot_mm))
     moving = checked_frames(out, frames, sheet, dpi, generator, counts, progressive=progressive)
     if out.suffix.lower() == ".png":
-        picture_size(sheet, dpi or 300)
+        picture_size(sheet, 300 if dpi is None else dpi)
     kept = FormingDots(moving.steps, moving.frames) if moving is not None and moving.steps else None
     wanted = {
         ink: dark if dots == "equal" else replace(dark, values=dark.values**0.5)
@@ -155,7 +155,13 @@ def stipple(
     page = page_of(drawn, width_mm=width_mm, dots=dots, dot_mm=dot_mm)
     if moving is None:
         write_stippling(
-            out, drawn, width_mm=width_mm, dots=dots, dot_mm=dot_mm, dpi=dpi or 300, template=template
+            out,
+            drawn,
+            width_mm=width_mm,
+            dots=dots,
+            dot_mm=dot_mm,
+            dpi=300 if dpi is None else dpi,
+            template=template,
         )
     else:
         write_animation(out, page, moving, kept, width_mm / columns, quiet=quiet)

@@ -13,6 +13,8 @@ from gbnbench.core.errors import InputError
 if TYPE_CHECKING:
     from gbnbench.studies.stippling.darkness import Darkness, ToneCurve
 
+MOST_BY_SIZE = 1_000_000  # dots that are drawn without being asked for by their number
+
 
 def check(
     image: str, out: Path, width_mm: float, dots: str, dot_mm: float | None, template: Path | None
@@ -39,6 +41,8 @@ def check(
     for name, value in (("--width-mm", width_mm), ("--dot-mm", dot_mm)):
         if value is not None and not (math.isfinite(value) and value > 0):
             raise click.UsageError(f"{name} must be above 0; got {value}")
+    if dot_mm is not None and dot_mm > width_mm:
+        raise click.UsageError(f"--dot-mm {dot_mm:g} is wider than the page, which has {width_mm:g} mm")
     if dot_mm is not None and dots == "tone":
         raise click.UsageError("--dot-mm is of dots of one size: leave out --dots tone")
     if template is not None and out.suffix.lower() != ".gcode":
@@ -111,6 +115,11 @@ def default_n(inks: dict[str, Darkness], width_mm: float, dot_mm: float | None) 
     -------
     int
         At least one an ink.
+
+    Raises
+    ------
+    click.UsageError
+        If there are more than ``MOST_BY_SIZE`` of a size.
     """
     from gbnbench.studies.stippling.darkness import MOST_POINTS
 
@@ -120,4 +129,8 @@ def default_n(inks: dict[str, Darkness], width_mm: float, dot_mm: float | None) 
         pixel = width_mm / next(iter(inks.values())).values.shape[1]
         covered = sum(float(one.values.sum()) for one in inks.values()) * pixel**2
         wanted = round(covered / (math.pi / 4 * dot_mm**2))
+        if wanted > MOST_BY_SIZE:
+            raise click.UsageError(
+                f"the picture takes {wanted:,} dots of {dot_mm:g} mm: make them larger, or give -n"
+            )
     return max(len(inks), wanted)

@@ -40,7 +40,7 @@ class GcodeTemplate:
     Raises
     ------
     InputError
-        If a line holds a field that it has not.
+        If a line holds a field that it has not, or none tells where a dot is.
     """
 
     start: str = "; {title}\nG21 ; millimetres\nG90 ; absolute\nG0 Z5"
@@ -67,6 +67,9 @@ class GcodeTemplate:
                 raise InputError(
                     f"{key} cannot be filled in: {error}; a brace itself is {{{{ or }}}}"
                 ) from None
+        told = {name for _, name, _, _ in string.Formatter().parse(self.move + self.down + self.up)}
+        if not {"x", "y"} <= told:
+            raise InputError("move and down hold no {x} or no {y}, so that dots would lie in one place")
 
 
 def read_template(path: Path) -> GcodeTemplate:
