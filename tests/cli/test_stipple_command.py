@@ -95,6 +95,8 @@ def test_an_ink_that_is_not_needed_has_no_layer(here):
 
 def test_dots_of_a_size_are_as_many_as_cover_what_is_dark(here, capsys):
     Pillow.fromarray(np.full((20, 20), 127, np.uint8)).save("g.png")
+    assert command("g.png", "-o", "h.csv", "--dot-mm", 0.001, *QUICK) == 2
+    assert not Path("h.csv").exists()
     assert command("g.png", "-o", "g.csv", "--dot-mm", 1, "--width-mm", 40, *QUICK) == 0
     wanted = round(1600 * (128 / 255) / (np.pi / 4))
     assert len(pd.read_csv("g.csv")) == wanted
@@ -178,6 +180,9 @@ def test_an_animation_is_said(here, capsys):
         (("x.png", "-o", "o.svg", "--gamma", "-1"), "gamma must be above 0"),
         (("x.png", "-o", "o.svg", "--method", "gnb"), "did you mean 'gbn'?"),
         (("x.png", "-o", "o.png", "--dpi", "99999"), "dpi must be at least 1"),
+        (("x.png", "-o", "o.png", "--dpi", "0"), "dpi must be at least 1"),
+        (("x.png", "-o", "o.svg", "--dot-mm", "161"), "--dot-mm 161 is wider than the page"),
+        (("x.png", "-o", "o.gcode", "--gcode-template", "still.toml"), "dots would lie in one place"),
         (("x.png", "-o", "o.svg", "--colour", "cmyk", "--invert"), "invert goes with one ink"),
     ],
 )
@@ -188,6 +193,7 @@ def test_errors_say_what_was_wrong(picture, capsys, arguments, says):
     np.save("volume.npy", np.ones((5, 6, 7)))
     Pillow.fromarray(np.full((4, 4), 255, np.uint8)).save("white.png")
     Path("t.toml").write_text('move = "G0 {z}"')
+    Path("still.toml").write_text('move = "G0"')
     before = sorted(picture.iterdir())
     assert command(*arguments, "-n", 9, *(() if "--method" in arguments else QUICK)) == 2
     assert says in capsys.readouterr().err
