@@ -5,8 +5,8 @@ python -m gbnbench.benchmarks.spectra.hard_table docs/hard_cases.md
 
 from __future__ import annotations
 
+import argparse
 import math
-import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -196,14 +196,17 @@ def _verdict(row: Mapping[Any, Any]) -> str:
     return "**loose**" if row["held"] else "**fails**"
 
 
-def main(arguments: list[str]) -> None:
+def main() -> None:
     """Write the table to the file named, else print it."""
+    parser = argparse.ArgumentParser(description="Try the hard cases, and write the table of them.")
+    parser.add_argument("page", type=Path, nargs="?", help="file to write; printed where none is given")
+    page = parser.parse_args().page
     text = markdown(judged([row for case in hard_cases() for row in evaluate(case)]))
-    if arguments:
-        write_whole(Path(arguments[0]), text.encode())
+    if page is not None:
+        write_whole(page, text.encode())
     else:
         print(text, end="")
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()

@@ -95,7 +95,8 @@ def terminal_text(run: StipplingRun, width: int) -> str:
         if row.cells[column.name].reason
     ]
     head = ["source", *(column.title for column in COLUMNS)]
-    told = ["* best of its column among sources of as many points"] if any(c.best for row in table for c in row.cells.values()) else []
+    starred = any(c.best for row in table for c in row.cells.values())
+    told = ["* best of its column among sources of as many points"] if starred else []
     return "\n".join([*aligned(head, lines), *told, *footnotes(missing, width)])
 
 
