@@ -1,4 +1,4 @@
-"""The files by which a release is made, installed and cited agree with pyproject.toml and with their schemas."""
+"""The files by which a release is made and cited agree with pyproject.toml and with their schemas."""
 
 from __future__ import annotations
 
@@ -81,13 +81,14 @@ def test_the_oldest_dependencies_are_the_lower_bounds():
     ],
 )
 def test_files_keep_to_their_schema(schema, file):
-    command = [sys.executable, "-m", "check_jsonschema", "--builtin-schema", f"vendor.{schema}", str(ROOT / file)]
-    outcome = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    checker = [sys.executable, "-m", "check_jsonschema", "--builtin-schema", f"vendor.{schema}"]
+    outcome = subprocess.run([*checker, str(ROOT / file)], capture_output=True, text=True, timeout=120)
     assert outcome.returncode == 0, outcome.stdout
 
 
 def test_the_paper_cites_what_its_bibliography_holds_and_nothing_else():
     text = (ROOT / "paper" / "paper.md").read_text(encoding="utf-8")
-    held = re.findall(r"^@\w+\{(\w+),", (ROOT / "paper" / "paper.bib").read_text(encoding="utf-8"), re.MULTILINE)
+    bibliography = (ROOT / "paper" / "paper.bib").read_text(encoding="utf-8")
+    held = re.findall(r"^@\w+\{(\w+),", bibliography, re.MULTILINE)
     assert set(re.findall(r"\[@(\w+)\]", text)) == set(held)
     assert len(held) == len(set(held))
