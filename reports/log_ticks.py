@@ -11,11 +11,11 @@ MATHEMATICS = re.compile(r"\$\\mathdefault\{(?:(\S+)\\times)?10\^\{(-?\d+)\}\}\$
 
 
 class PowersOfTen(LogFormatterSciNotation):
-    """matplotlib's labels of the marks of a logarithmic axis, with the exponent in signs of the font.
+    r"""matplotlib's labels of the marks of a logarithmic axis, with the exponent in signs of the font.
 
     Examples
     --------
-    >>> PowersOfTen.plain(r"$\\mathdefault{2\\times10^{-14}}$")
+    >>> PowersOfTen.plain(r"$\mathdefault{2\times10^{-14}}$")
     '2×10⁻¹⁴'
     """
 

@@ -101,7 +101,7 @@ def gallery_panel(
 
 
 def _framed(image: AxesImage) -> bytes:
-    """Write an image that fills its panel, at a tenth of the time that it takes matplotlib, and a third of the size."""
+    """Write an image that fills its panel, in grey or 256 colours: faster and smaller than as a figure."""
     width, margin, frame = round(PANEL * DOTS), 3, 1
     side = width - 2 * (margin + frame)
     shades = image.to_rgba(image.get_array(), bytes=True)[::-1, :, :3]
