@@ -200,7 +200,7 @@ class Comparison:
         return "\n".join([html_table(self.run), *skipped, *pictures])
 
 
-def draw(run: Run, folder: Path) -> None:
+def draw(run: Run, folder: Path, *, pdf: bool = False) -> None:
     """Write the figures and report.html of a comparison into its folder.
 
     Parameters
@@ -209,6 +209,8 @@ def draw(run: Run, folder: Path) -> None:
         What was measured.
     folder : Path
         Where ``figures`` and report.html are made, or replaced.
+    pdf : bool
+        Make the figures also as PDF.
 
     Raises
     ------
@@ -221,7 +223,7 @@ def draw(run: Run, folder: Path) -> None:
     drawn: dict[str, bytes] = {}
     make_each(
         [
-            (FIGURES, lambda: write_figures(run, folder / FIGURES, drawn)),
+            (FIGURES, lambda: write_figures(run, folder / FIGURES, drawn, with_pdf=pdf)),
             (REPORT, lambda: write_report(run, folder / REPORT, drawn)),
         ]
     )
@@ -230,7 +232,6 @@ def draw(run: Run, folder: Path) -> None:
 def load_pictures() -> None:
     """Import what makes the figures and the report, while other processes work."""
     import pandas  # noqa: F401
-    from fontTools import subset  # noqa: F401
-    from matplotlib.backends import backend_agg, backend_pdf  # noqa: F401
+    from matplotlib.backends import backend_agg  # noqa: F401
 
     import gbnbench.reports.html.page  # noqa: F401

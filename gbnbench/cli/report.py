@@ -11,7 +11,8 @@ from gbnbench.cli import options
 
 @click.command(cls=options.Command)
 @click.argument("run", type=click.Path(path_type=Path))
-def report(run: Path) -> None:
+@click.option("--pdf", is_flag=True, help="Write the figures of a comparison also as PDF.")
+def report(run: Path, pdf: bool) -> None:
     """Draw the pictures of a finished run again.
 
     RUN is the folder of a comparison, also of stipplings, or of a study of integration.
@@ -28,5 +29,5 @@ def report(run: Path) -> None:
         stippling_comparison.draw(stippling_comparison.StipplingComparison.read(run).run, run)
         click.echo(f"report: {run / 'report.html'}")
         return
-    comparison.draw(comparison.Comparison.read(run).run, run)
+    comparison.draw(comparison.Comparison.read(run).run, run, pdf=pdf)
     click.echo(f"report: {run / 'report.html'}")
