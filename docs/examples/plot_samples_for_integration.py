@@ -13,6 +13,8 @@ then it pays less.
 
 import tempfile
 
+import matplotlib.pyplot as plt
+
 import gbnbench
 
 study = gbnbench.integrate(
@@ -23,7 +25,13 @@ study = gbnbench.integrate(
     out=tempfile.mkdtemp(),
     quiet=True,
 )
-figure = study.figure()
+
+figure, axes = plt.subplots(1, 2, figsize=(10, 4), layout="constrained")
+for axis, (integrand, rows) in zip(axes, study.table.groupby("integrand"), strict=True):
+    for source, part in rows.groupby("source", sort=False):
+        axis.loglog(part.n, part.variance, marker=".", label=source)
+    axis.set(title=integrand, xlabel="samples", ylabel="variance of the estimate")
+    axis.legend()
 
 # %%
 # Slopes of the variance: -1 is that of independent samples. For the edge all blue-noise sets end near
