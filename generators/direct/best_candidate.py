@@ -10,12 +10,11 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.direct.toroidal_tree import toroidal_tree
 from gbnbench.generators.lattices.regular_grid import grid_corners
 from gbnbench.generators.protocol import Family
-from gbnbench.generators.ranges import check_range, too_many
+from gbnbench.generators.ranges import check_range, raise_refusal, too_many
 
 PLAIN = 64  # points drawn from all their candidates, before cells pay
 CELLS_A_POINT = 64
@@ -92,8 +91,7 @@ class BestCandidate:
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+        raise_refusal(self.refusal(n, d))
         x = np.empty((n, d))
         x[0] = rng.random(d)
         points = Nearest(x)

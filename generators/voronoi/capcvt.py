@@ -9,10 +9,10 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.power_cells.diagram import PowerDiagram, power_diagram
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.ranges import check_least, outside_plane
 from gbnbench.generators.set_by_set import SetBySet, Told
 
 CORRECTIONS = 7  # pairs of steps and changes of the gradient that L-BFGS keeps
@@ -127,10 +127,8 @@ class CapacityConstrainedVoronoi(SetBySet):
     energy: Literal["formula", "program"] = "formula"
 
     def __post_init__(self) -> None:
-        if self.iterations < 1:
-            raise InputError(f"iterations must be >= 1; got {self.iterations}")
-        if not 0 <= self.capacity < np.inf:
-            raise InputError(f"capacity must be >= 0 and finite; got {self.capacity}")
+        check_least("iterations", self.iterations, 1)
+        check_least("capacity", self.capacity, 0)
 
     def refusal(self, n: int, d: int) -> str | None:  # noqa: ARG002 (the protocol's arguments)
         """Say why not: d is other than 2.
@@ -147,7 +145,7 @@ class CapacityConstrainedVoronoi(SetBySet):
         str or None
             The reason; None for d = 2.
         """
-        return None if d == 2 else f"capcvt has its gradient for cells of the plane; got d={d}, use d=2"
+        return outside_plane(d, "capcvt has its gradient for cells of the plane")
 
     def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
         """Draw one realization, as ``SetBySet.one_set`` says."""
