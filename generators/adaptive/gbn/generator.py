@@ -9,7 +9,6 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density
 from gbnbench.generators.adaptive.gbn.descent import descend
@@ -18,6 +17,7 @@ from gbnbench.generators.adaptive.gbn.joint_energy import JointEnergy, Part, uni
 from gbnbench.generators.adaptive.hilbert_start import hilbert_start
 from gbnbench.generators.adaptive.method import AdaptiveMethod, too_fine
 from gbnbench.generators.adaptive.protocol import Seen, Told
+from gbnbench.generators.ranges import check_least, check_range, raise_refusal
 from gbnbench.opencl import runtime
 
 
@@ -84,10 +84,8 @@ class AdaptiveGaussianBlueNoise(AdaptiveMethod):
             ("spread", 0, 1),
             ("union", 0, 100),
         ):
-            if not least <= getattr(self, name) <= most:
-                raise InputError(f"{name} must be from {least} to {most}; got {getattr(self, name)}")
-        if self.gradients < 0:
-            raise InputError(f"gradients must be >= 0; got {self.gradients}")
+            check_range(name, getattr(self, name), least, most)
+        check_least("gradients", self.gradients, 0)
 
     def refusal(self, density: Density, n: int) -> str | None:
         """Say why pixels cannot be cut finely enough, as ``AdaptiveMethod.refusal`` does."""
@@ -143,8 +141,7 @@ class AdaptiveGaussianBlueNoise(AdaptiveMethod):
         is held as stiffly by its own class as by all points at ``union`` = 1.
         """
         whole, n = union_density(densities, counts), sum(counts)
-        if reason := self.refusal(whole, n):
-            raise RefusalError(reason)
+        raise_refusal(self.refusal(whole, n))
         parts = self._parts(whole, n)
         ends = np.cumsum(counts)[:-1].tolist()
         starts = zip(densities, counts, rngs, strict=True)

@@ -17,6 +17,7 @@ from gbnbench.generators.adaptive.protocol import Told
 from gbnbench.generators.adaptive.rejection import Rejection
 from gbnbench.generators.adaptive.voronoi.secord import on_ink, parts_refusal
 from gbnbench.generators.adaptive.voronoi.weighted_cells import CellParts, WeightedCells
+from gbnbench.generators.ranges import check_least, check_range
 
 TURNS_TO_COUNT = 60  # in which the number of points is made the one asked for
 LAST_MOVES = 5  # to centroids, once it is
@@ -71,14 +72,11 @@ class LindeBuzoGray(AdaptiveMethod):
     iterations: int = 100
 
     def __post_init__(self) -> None:
-        if self.start < 1:
-            raise InputError(f"start must be >= 1; got {self.start}")
+        check_least("start", self.start, 1)
         if not 0 < self.hysteresis < 2:
             raise InputError(f"hysteresis must be above 0 and below 2; got {self.hysteresis}")
-        if not 0 <= self.widening <= 1:
-            raise InputError(f"widening must be from 0 to 1; got {self.widening}")
-        if self.iterations < 1:
-            raise InputError(f"iterations must be >= 1; got {self.iterations}")
+        check_range("widening", self.widening, 0, 1)
+        check_least("iterations", self.iterations, 1)
 
     def refusal(self, density: Density, n: int) -> str | None:
         """Say why the pixels cannot be cut finely enough, as ``AdaptiveMethod.refusal`` does."""
