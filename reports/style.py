@@ -15,6 +15,13 @@ from gbnbench.runs.comparison_result import Run
 
 # Okabe & Ito (2008), told apart with any colour vision; their yellow is darkened to be read on white.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#222222", "#9A8B00")
+ON_DARK = dict(  # the same hues, light enough to be told from a dark page
+    zip(
+        COLOURS,
+        ("#3B9FE0", "#F0843C", "#2CC295", "#E39BC4", "#F2B233", "#8FD0F7", "#E6EAF0", "#C9B92E"),
+        strict=True,
+    )
+)
 DASHES: tuple[Any, ...] = ("-", (0, (4, 1.5)), (0, (1, 1.2)), (0, (5, 1.5, 1, 1.5)))
 DPI = 130  # of every PNG
 INK, FAINT, RULE = "#1d2430", "#667080", "#d5dae1"
@@ -97,6 +104,11 @@ class Stroke:
 
     colour: str
     dash: Any
+
+    @property
+    def on_dark(self) -> str:
+        """The colour on a dark page."""
+        return ON_DARK.get(self.colour, self.colour)
 
 
 def numbered_stroke(number: int) -> Stroke:

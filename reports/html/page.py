@@ -1,4 +1,4 @@
-"""Page ``report.html`` of a run: one self-contained file that opens offline, prints and needs no scripts."""
+"""Page ``report.html`` of a run: one file that opens offline, prints and is whole without scripts."""
 
 from __future__ import annotations
 
@@ -13,12 +13,22 @@ from matplotlib.figure import Figure
 
 from gbnbench.core.atomic_write import write_whole
 from gbnbench.reports import captions, style
-from gbnbench.reports.comparison import gallery, loglog, points, rdf, spectrum, sweep, table
+from gbnbench.reports.comparison import (
+    gallery,
+    loglog,
+    points,
+    radial,
+    rdf,
+    spectrum,
+    sweep,
+    table,
+)
 from gbnbench.reports.comparison.figure_files import stem
 from gbnbench.reports.comparison.left_out import left_out
 from gbnbench.reports.html import notes
+from gbnbench.reports.html.charts import loglog_chart, radial_chart
 from gbnbench.reports.html.environment import template_environment
-from gbnbench.reports.html.pictures import Picture, colour_bar, figure_picture, gallery_panel
+from gbnbench.reports.html.pictures import Picture, colour_bar, figure_picture, gallery_panel, small_picture
 from gbnbench.reports.source_groups import Group, groups, members
 from gbnbench.runs.comparison_result import Run, SourceResult
 
@@ -31,7 +41,12 @@ ALTERNATIVE_TEXTS = {  # of the pictures in each row of the gallery
     "valence": "Voronoi cells of {name} coloured by number of Delaunay neighbours",
     "valence\n(%)": "Share of points of {name} with each number of Delaunay neighbours, percent",
 }
-GROUP_SECTIONS = (("table", "Measures"), ("gallery", "Side by side"), ("loglog", "Log-log"))
+GROUP_SECTIONS = (
+    ("table", "Measures"),
+    ("gallery", "Side by side"),
+    ("loglog", "Log-log"),
+    ("radial", "Radial"),
+)
 
 
 def write_report(run: Run, path: str | Path, drawn: Mapping[str, bytes] | None = None) -> None:
@@ -119,7 +134,7 @@ def _sentence(item: object) -> str:
 
 def _figure(drawn: Mapping[str, bytes], name: str, draw: Callable[[], Figure], alt: str) -> Picture:
     """Take a figure's PNG, or draw it where it is not there."""
-    return Picture(alt, drawn[name]) if name in drawn else figure_picture(draw(), alt)
+    return small_picture(drawn[name], alt) if name in drawn else figure_picture(draw(), alt)
 
 
 def _group(run: Run, group: Group, drawn: Mapping[str, bytes], several: bool) -> dict[str, Any]:
@@ -130,6 +145,12 @@ def _group(run: Run, group: Group, drawn: Mapping[str, bytes], several: bool) ->
         stem(run, "loglog", group),
         lambda: loglog.figure(run, group),
         "Log-log overlay of the radial power of all sources",
+    )
+    radials = _figure(
+        drawn,
+        stem(run, "radial", group),
+        lambda: radial.figure(run, group),
+        "Radial power of each source, its anisotropy below it",
     )
     pairs = None
     if any(source.rdf is not None for source in sources):
@@ -146,6 +167,9 @@ def _group(run: Run, group: Group, drawn: Mapping[str, bytes], several: bool) ->
         "rows": _rows(run, group),
         "gallery": _gallery(run, sources),
         "loglog": overlay,
+        "loglog_chart": loglog_chart(run, group),
+        "radial": radials,
+        "radial_chart": radial_chart(run, group),
         "rdf": pairs,
     }
 
