@@ -13,6 +13,8 @@ from PIL import Image
 from gbnbench.reports.comparison import table
 from gbnbench.reports.html.page import write_report
 from gbnbench.runs.comparison_result import Run
+from gbnbench.studies import growing_report
+from gbnbench.studies.growing_report import Unfinished
 from tests.reports import samples
 
 pytestmark = pytest.mark.slow
@@ -341,4 +343,36 @@ def test_on_a_narrow_screen_nothing_is_wider_than_it(browser, address):
     page.goto(address)
     drawn_chart(page, 0)
     assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    context.close()
+
+
+def test_a_growing_page_reads_itself_again_until_it_is_whole(browser, run, tmp_path, monkeypatch):
+    monkeypatch.setattr(growing_report, "RELOAD", 1)
+    path = tmp_path / "report.html"
+    first = Run(run.manifest, run.sources[:1])
+    write_report(first, path, unfinished=Unfinished(1, 3, ("jittered", "grid"), "12:00:00"))
+    context = browser.new_context()
+    page = context.new_page()
+    page.set_default_timeout(LONG)
+    loads = []
+    page.on("load", lambda: loads.append(page.url))
+    page.goto(path.as_uri())
+    status = page.get_by_role("status").filter(has_text="sources measured")
+    assert status.inner_text().startswith(
+        "1 of 3 sources measured at 12:00:00; still to come: jittered, grid."
+    )
+    page.wait_for_event("load")  # by itself
+    stop = page.get_by_role("button", name="stop reloading")
+    stop.click()
+    assert stop.get_attribute("aria-pressed") == "true"
+    before = len(loads)
+    page.wait_for_timeout(3000)
+    assert len(loads) == before
+    write_report(run, path)
+    stop.click()
+    page.wait_for_function("() => document.querySelectorAll('.measures tbody tr').length === 3")
+    assert status.count() == 0
+    before = len(loads)
+    page.wait_for_timeout(2500)
+    assert len(loads) == before
     context.close()
