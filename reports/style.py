@@ -118,7 +118,17 @@ def numbered_stroke(number: int) -> Stroke:
 
 
 def strokes(run: Run) -> dict[str, Stroke]:
-    """Assign each source key a stroke; sources of one label share it over all n and d of the run."""
+    """Assign each source key a stroke; sources of one label share it over all n and d of the run.
+
+    In joined runs colours are of sources and dashes of runs, as long as there are enough of both.
+    """
+    labels = list(dict.fromkeys(label for label, _ in run.series.values()))
+    runs = {number for _, number in run.series.values()}
+    if run.series and len(labels) <= len(COLOURS) and len(runs) <= len(DASHES):
+        return {
+            key: Stroke(COLOURS[labels.index(label)], DASHES[number])
+            for key, (label, number) in run.series.items()
+        }
     assigned: dict[tuple[str, int], Stroke] = {}
     seen: dict[tuple[str, int, int], int] = {}
     result: dict[str, Stroke] = {}

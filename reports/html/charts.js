@@ -1,4 +1,4 @@
-// Draws a chart in place of each picture that carries its data; the picture stays for print and without scripts.
+// Draws a chart in place of each picture that has data; the picture stays for print and without scripts.
 const figures = [...document.querySelectorAll("figure.charted")];
 
 class Chart {
@@ -72,6 +72,7 @@ class Chart {
       displaylogo: false,
       showSendToCloud: false,
       doubleClick: "reset",
+      doubleClickDelay: 500,
       modeBarButtonsToRemove: ["lasso2d", "select2d", "autoScale2d"],
       toImageButtonOptions: { filename: "gbnbench", scale: 2 },
     }).then(

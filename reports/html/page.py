@@ -16,9 +16,11 @@ from gbnbench.reports.html.pictures import colour_bar
 from gbnbench.reports.html.sections import anchor, figure_or_drawn, group_sections
 from gbnbench.reports.source_groups import Group, groups
 from gbnbench.runs.comparison_result import Run
+from gbnbench.runs.joined_runs import JoinedRuns
 from gbnbench.studies import growing_report
 from gbnbench.studies.growing_report import Unfinished
 
+RUN_SECTIONS = (("runs", "Runs"),)  # where several are joined
 GROUP_SECTIONS = (
     ("table", "Measures"),
     ("gallery", "Side by side"),
@@ -33,6 +35,7 @@ def write_report(
     drawn: Mapping[str, bytes] | None = None,
     *,
     unfinished: Unfinished | None = None,
+    joined: JoinedRuns | None = None,
 ) -> None:
     """Write the page of a run, whole or not at all.
 
@@ -46,13 +49,18 @@ def write_report(
         PNGs that ``write_figures`` made of the same run, by the stems of their files: not drawn again.
     unfinished : Unfinished, optional
         What is still to come; the page then says so and reads itself again from time to time.
+    joined : JoinedRuns, optional
+        The runs of which ``run`` was joined.
     """
-    write_whole(Path(path), page(run, drawn or {}, unfinished).encode("utf-8"))
+    write_whole(Path(path), page(run, drawn or {}, unfinished, joined).encode("utf-8"))
 
 
 @style.styled
 def page(
-    run: Run, drawn: Mapping[str, bytes] = MappingProxyType({}), unfinished: Unfinished | None = None
+    run: Run,
+    drawn: Mapping[str, bytes] = MappingProxyType({}),
+    unfinished: Unfinished | None = None,
+    joined: JoinedRuns | None = None,
 ) -> str:
     """Return the page as text; every label, path and setting in it is escaped.
 
@@ -64,6 +72,8 @@ def page(
         PNGs by the stems of their files, which are not drawn again.
     unfinished : Unfinished, optional
         What is still to come.
+    joined : JoinedRuns, optional
+        The runs of which ``run`` was joined.
 
     Returns
     -------
@@ -74,16 +84,17 @@ def page(
     swept = sweep.several(run)
     template = template_environment(table.COLUMNS).get_template("report.html")
     text = template.render(
-        title=_title(run),
+        title=_title(run) if joined is None else f"gbnbench: {', '.join(joined.names)}",
+        joined=joined,
         version=run.manifest.get("version", ""),
         unfinished=unfinished,
         reload_seconds=growing_report.RELOAD,
         reloads=(growing_report.START, growing_report.END),
         settings=captions.settings(run),
-        links=_links(every, swept),
+        links=_links(every, swept, joined is not None),
         warnings=[(table.row_label(s, run), warning) for s in run.sources for warning in s.warnings],
         skipped=[_sentence(source) for source in run.manifest.get("skipped") or []],
-        groups=[group_sections(run, group, drawn, several=len(every) > 1) for group in every],
+        groups=[group_sections(run, group, drawn, len(every) > 1, joined) for group in every],
         compared=bool(run.verdicts),
         sweep=figure_or_drawn(
             drawn,
@@ -94,7 +105,7 @@ def page(
         if swept
         else None,
         undefined_values=notes.undefined_values(run),
-        provenance=notes.provenance(run.manifest),
+        provenance=notes.provenance(run.manifest) if joined is None else notes.joined_provenance(joined),
         manifest=json.dumps(run.manifest, indent=2, ensure_ascii=False, default=str),
         colour_bar=colour_bar(),
     )
@@ -107,12 +118,13 @@ def _title(run: Run) -> str:
     return f"gbnbench: {few}" + (f" and {len(labels) - 4} more" if len(labels) > 4 else "")
 
 
-def _links(every: Sequence[Group], swept: bool) -> list[tuple[str, str]]:
+def _links(every: Sequence[Group], swept: bool, joined: bool) -> list[tuple[str, str]]:
     """Anchor and title of each section."""
     links = []
     for n, d in every:
         mark = f" n={n}, d={d}" if len(every) > 1 else ""
-        links += [(f"{name}-{anchor((n, d))}", title + mark) for name, title in GROUP_SECTIONS]
+        sections = (*RUN_SECTIONS, *GROUP_SECTIONS) if joined else GROUP_SECTIONS
+        links += [(f"{name}-{anchor((n, d))}", title + mark) for name, title in sections]
     links += [("sweep", "Against n")] if swept else []
     return [*links, ("undefined", "Undefined"), ("definitions", "Definitions"), ("made", "What made it")]
 

@@ -12,10 +12,12 @@ from gbnbench.reports import style
 from gbnbench.reports.comparison import gallery, loglog, points, radial, rdf, spectrum, table
 from gbnbench.reports.comparison.figure_files import stem
 from gbnbench.reports.comparison.left_out import left_out
+from gbnbench.reports.comparison.run_columns import measure_rows
 from gbnbench.reports.html.charts import loglog_chart, radial_chart
 from gbnbench.reports.html.pictures import Picture, figure_picture, gallery_panel, small_picture
 from gbnbench.reports.source_groups import Group, members
 from gbnbench.runs.comparison_result import Run, SourceResult
+from gbnbench.runs.joined_runs import JoinedRuns
 
 ALTERNATIVE_TEXTS = {  # of the pictures in each row of the gallery
     "points": "Points, first realization of {name}",
@@ -54,7 +56,9 @@ def figure_or_drawn(drawn: Mapping[str, bytes], name: str, draw: Callable[[], Fi
     return small_picture(drawn[name], alt) if name in drawn else figure_picture(draw(), alt)
 
 
-def group_sections(run: Run, group: Group, drawn: Mapping[str, bytes], several: bool) -> dict[str, Any]:
+def group_sections(
+    run: Run, group: Group, drawn: Mapping[str, bytes], several: bool, joined: JoinedRuns | None = None
+) -> dict[str, Any]:
     """Return what the templates need for the sections of one (n, d).
 
     Parameters
@@ -67,6 +71,8 @@ def group_sections(run: Run, group: Group, drawn: Mapping[str, bytes], several: 
         PNGs by the stems of their files, which are not drawn again.
     several : bool
         Whether the page has other groups too.
+    joined : JoinedRuns, optional
+        The runs of which ``run`` was joined.
 
     Returns
     -------
@@ -98,6 +104,7 @@ def group_sections(run: Run, group: Group, drawn: Mapping[str, bytes], several: 
         "mark": f", n = {group[0]}, d = {group[1]}" if several else "",
         "single": any(source.realizations == 1 for source in sources),
         "rows": _rows(run, group),
+        "measure_rows": [] if joined is None else measure_rows(joined, group),
         "gallery": _gallery(run, sources),
         "loglog": overlay,
         "loglog_chart": loglog_chart(run, group),

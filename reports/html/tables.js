@@ -1,6 +1,5 @@
 // Tables of measures: sorted by a column, columns chosen, rows filtered, copied as CSV, Markdown or LaTeX.
 const number = cell => (cell.dataset.value ? Number(cell.dataset.value) : NaN);
-const text = cell => cell.dataset.text ?? cell.textContent.trim();
 
 class Measures {
   constructor(table) {
@@ -106,7 +105,7 @@ class Measures {
   }
 
   copier() {
-    const kinds = { CSV: () => this.csv(), Markdown: () => this.markdown(), LaTeX: () => this.latex() };
+    const kinds = { CSV: () => asCsv(this), Markdown: () => asMarkdown(this), LaTeX: () => asLatex(this) };
     const buttons = Object.entries(kinds).map(([kind, write]) => {
       const button = element("button", { type: "button", textContent: kind });
       button.addEventListener("click", () => this.copy(kind, write()));
@@ -133,81 +132,6 @@ class Measures {
     this.said.value = done
       ? `copied ${this.rows().length} rows as ${kind}`
       : "the browser does not let a page copy";
-  }
-
-  csv() {
-    // full numbers, each measure with its standard error beside it where there are any
-    const quote = word => (/[",\n\r]/.test(word) ? `"${word.replaceAll('"', '""')}"` : word);
-    const fields = this.columns().flatMap(k => {
-      const title = this.heads[k].dataset.name ?? this.name(k),
-        cells = this.rows().map(row => row.cells[k]);
-      const full = cell =>
-        cell.dataset.value === undefined ? text(cell) : cell.dataset.value.replace("1e999", "inf");
-      const errors = cells.some(cell => cell.dataset.error);
-      const column = [title, ...cells.map(full)];
-      return errors
-        ? [column, [`${title}_standard_error`, ...cells.map(cell => cell.dataset.error ?? "")]]
-        : [column];
-    });
-    return (
-      Array.from({ length: this.rows().length + 1 }, (_, k) =>
-        fields.map(field => quote(field[k])).join(","),
-      ).join("\n") + "\n"
-    );
-  }
-
-  lines(write, strong) {
-    return this.rows().map(row =>
-      this.columns().map(k => {
-        const cell = row.cells[k],
-          word = write(text(cell), cell.dataset.value !== undefined);
-        return cell.classList.contains("best") ? strong(word) : word;
-      }),
-    );
-  }
-
-  markdown() {
-    const escape = word => word.replace(/[\\|*_`[\]<>]/g, "\\$&");
-    const titles = this.columns().map(k => escape(this.name(k)));
-    const rule = this.columns().map(k => (k ? "--:" : ":--"));
-    const lines = this.lines(
-      (word, value) => (value ? word : escape(word)),
-      word => `**${word}**`,
-    );
-    return [titles, rule, ...lines].map(line => `| ${line.join(" | ")} |`).join("\n") + "\n";
-  }
-
-  latex() {
-    const special = {
-      "\\": "\\textbackslash{}",
-      "~": "\\textasciitilde{}",
-      "^": "\\textasciicircum{}",
-      "<": "\\textless{}",
-      ">": "\\textgreater{}",
-      "|": "\\textbar{}",
-    };
-    const escape = word => word.replace(/[\\~^<>|&%$#_{}]/g, sign => special[sign] ?? `\\${sign}`);
-    const maths = word =>
-      word === "–"
-        ? "--"
-        : `$${word
-            .replace("∞", "\\infty")
-            .replace("±", "\\pm")
-            .replace(/e(-?)\+?0*(\d+)$/, " \\cdot 10^{$1$2}")}$`;
-    const bold = word => (word.startsWith("$") ? `$\\mathbf{${word.slice(1, -1)}}$` : `\\textbf{${word}}`);
-    const titles = this.columns().map(k => escape(this.name(k)));
-    const lines = this.lines((word, value) => (value ? maths(word) : escape(word)), bold);
-    const row = line => `${line.join(" & ")} \\\\`;
-    return [
-      `\\begin{tabular}{l${"r".repeat(titles.length - 1)}}  % needs booktabs`,
-      "\\toprule",
-      row(titles),
-      "\\midrule",
-      ...lines.map(row),
-      "\\bottomrule",
-      "\\end{tabular}",
-      "",
-    ].join("\n");
   }
 }
 

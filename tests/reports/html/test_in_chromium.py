@@ -12,6 +12,7 @@ from PIL import Image
 
 from gbnbench.reports.comparison import table
 from gbnbench.reports.html.page import write_report
+from gbnbench.runs import joined_runs
 from gbnbench.runs.comparison_result import Run
 from gbnbench.studies import growing_report
 from gbnbench.studies.growing_report import Unfinished
@@ -100,11 +101,11 @@ def test_dragging_zooms_and_a_double_click_shows_all(opened, number):
     )
     after = ranges(opened, number)
     assert before[0] < after[0] < after[1] < before[1]
-    opened.mouse.dblclick(x, y, delay=20)
-    opened.wait_for_function(
-        "([k, b]) => Math.abs(document.querySelectorAll('.chart')[k].layout.xaxis.range[0] - b) < 1e-6",
-        arg=[number, before[0]],
-    )
+    for _ in range(5):  # two clicks far apart, on a busy machine, are no double click
+        opened.mouse.dblclick(x, y)
+        opened.wait_for_timeout(1000)
+        if ranges(opened, number) == pytest.approx(before):
+            break
     assert ranges(opened, number) == pytest.approx(before)
 
 
@@ -257,6 +258,35 @@ def test_what_is_shown_is_copied(opened, run):
         r"\bottomrule",
         r"\end{tabular}",
     ]
+
+
+def test_runs_side_by_side_are_filtered_and_copied_with_their_verdicts(browser, tmp_path):
+    def made(floor):
+        return samples.source("white", samples.random(16, 2, 9), 3, measured={"noise_floor": floor})
+
+    runs = (Run(samples.manifest(), (made(1.0),)), Run(samples.manifest(), (made(2.0),)))
+    joined = joined_runs.joined(("before", "after"), runs)
+    write_report(joined.run, tmp_path / "both.html", joined=joined)
+    context = browser.new_context()
+    context.grant_permissions(["clipboard-read", "clipboard-write"])
+    page = context.new_page()
+    page.set_default_timeout(LONG)
+    page.goto((tmp_path / "both.html").as_uri())
+    page.get_by_label("Rows with").first.fill("noise floor")
+    page.get_by_role("button", name="CSV").first.click()
+    page.wait_for_function("() => document.querySelector('output.said').value.endsWith('CSV')")
+    (row,) = csv.DictReader(io.StringIO(page.evaluate("navigator.clipboard.readText()")))
+    assert (row["source"], row["measure"]) == ("white", "noise floor")
+    assert (row["before"], row["after"], row["after_verdict"]) == ("1.0", "2.0", "worse")
+    page.get_by_role("button", name="Markdown").first.click()
+    page.wait_for_function("() => document.querySelector('output.said').value.endsWith('Markdown')")
+    copied = page.evaluate("navigator.clipboard.readText()")
+    assert copied.splitlines()[-1] == "| white | noise floor | 1.00 ± 0.02 | 2.00 ± 0.04 (worse) |"
+    drawn_chart(page, 0)
+    boxes = page.locator("fieldset.sources").first
+    boxes.get_by_label("white · before").click()
+    assert shown_curves(page, 0) == [1]
+    context.close()
 
 
 def test_a_definition_opens_beside_its_name(opened):
