@@ -38,7 +38,22 @@ class JoinedRuns:
     notes: tuple[str, ...]
 
     def source(self, label: str, n: int, d: int, number: int) -> SourceResult | None:
-        """Return a source as it stands in the joined run; None where that run lacks it."""
+        """Return a source as it stands in the joined run.
+
+        Parameters
+        ----------
+        label : str
+            Its label in its own run.
+        n, d : int
+            Its size and dimension.
+        number : int
+            Which run.
+
+        Returns
+        -------
+        SourceResult or None
+            None where that run lacks it.
+        """
         for source in self.run.sources:
             of, run = self.run.series[source.key]
             if (of, source.n, source.d, run) == (label, n, d, number):

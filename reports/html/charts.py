@@ -1,4 +1,4 @@
-"""What the charts of the page show: the curves of the pictures beside them, thinned to what can be seen."""
+"""Data of the page's charts: the curves of the pictures beside them, thinned to what can be seen."""
 
 from __future__ import annotations
 
