@@ -308,7 +308,7 @@ def test_a_definition_opens_beside_its_name(opened):
 
 @pytest.mark.parametrize("case", ["no scripts", "print"])
 def test_every_picture_is_there_without_scripts_and_in_print(browser, address, case):
-    context = browser.new_context(java_script_enabled=case == "print")
+    context = browser.new_context(java_script_enabled=case == "print", color_scheme="dark")
     page = context.new_page()
     page.goto(address)
     if case == "print":
@@ -324,6 +324,10 @@ def test_every_picture_is_there_without_scripts_and_in_print(browser, address, c
     assert page.locator("#definitions").is_visible()
     if case == "print":
         assert page.pdf().startswith(b"%PDF")
+        assert (
+            page.evaluate("getComputedStyle(document.body).color") == "rgb(29, 36, 48)"
+        )  # also of a dark page
+        assert page.evaluate("getComputedStyle(document.querySelector('img')).filter") == "none"
     context.close()
 
 
