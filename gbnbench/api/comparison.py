@@ -14,16 +14,17 @@ from typing import TYPE_CHECKING
 
 from gbnbench.core.errors import InputError
 from gbnbench.runs.baseline import Change
-from gbnbench.runs.comparison_folder import read_run
+from gbnbench.runs.comparison_folder import REPORT, read_run
 from gbnbench.runs.comparison_result import Run, SourceResult
 from gbnbench.runs.comparison_tables import long_table, wide_table
 from gbnbench.studies.drawing import make_each
+from gbnbench.studies.growing_report import Unfinished
 
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
-REPORT, FIGURES = "report.html", "figures"  # in the folder
+FIGURES = "figures"  # in the folder
 NOTEBOOK_FIGURES = ("gallery", "loglog", "sweep")  # shown in a notebook
 
 
@@ -225,6 +226,23 @@ def draw(run: Run, folder: Path) -> None:
             (REPORT, lambda: write_report(run, folder / REPORT, drawn)),
         ]
     )
+
+
+def draw_unfinished(run: Run, folder: Path, unfinished: Unfinished) -> None:
+    """Write report.html of what is measured so far.
+
+    Parameters
+    ----------
+    run : Run
+        The sources that are.
+    folder : Path
+        Where report.html is made, or replaced.
+    unfinished : Unfinished
+        What is still to come.
+    """
+    from gbnbench.reports.html.page import write_report
+
+    write_report(run, folder / REPORT, unfinished=unfinished)
 
 
 def load_pictures() -> None:

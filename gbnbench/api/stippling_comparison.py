@@ -11,8 +11,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gbnbench.api.comparison import FIGURES, REPORT
+from gbnbench.api.comparison import FIGURES
 from gbnbench.core.errors import InputError
+from gbnbench.runs.comparison_folder import REPORT
 from gbnbench.studies.drawing import make_each
 from gbnbench.studies.stippling_comparison.stippling_folder import read_stippling_run
 from gbnbench.studies.stippling_comparison.stippling_results import StipplingRun, wide_table

@@ -22,6 +22,8 @@ from gbnbench.runs.comparison_result import Run, SourceResult
 from gbnbench.runs.comparison_tables import long_table, wide_table
 from gbnbench.runs.resumable_folder import FORMAT, MANIFEST, SETTINGS, ResumableFolder
 
+REPORT = "report.html"  # in the folder
+
 
 @dataclass(frozen=True)
 class Realization:

@@ -11,6 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.image import imsave
+from PIL import Image
 
 from gbnbench.reports import style
 from gbnbench.reports.comparison import spectrum
@@ -18,6 +19,7 @@ from gbnbench.reports.comparison.figure_files import png
 from gbnbench.runs.comparison_result import SourceResult
 
 PANEL = 2.5  # inches of a gallery picture, shown at 250 CSS pixels
+COLOURS, COMPRESSION = 256, 6  # of a picture in the page, which has to stay small
 WITH_AXES = ("radial power", "anisotropy\n(dB)")  # rows of the gallery whose panels need room for ticks
 
 
@@ -57,7 +59,30 @@ def figure_picture(figure: Figure, alt: str) -> Picture:
     Picture
         The figure at the resolution of all PNG files.
     """
-    return Picture(alt, png(figure))
+    return small_picture(png(figure), alt)
+
+
+def small_picture(content: bytes, alt: str) -> Picture:
+    """Pack a PNG for the page with a palette: a third of the size.
+
+    Parameters
+    ----------
+    content : bytes
+        An opaque PNG.
+    alt : str
+        Text for readers who do not see it.
+
+    Returns
+    -------
+    Picture
+        The same pixels where they have at most 256 colours. Where there are more, at the rims of smooth
+        lines, some are replaced by their neighbours in the palette, a few of 255 steps away.
+    """
+    with Image.open(io.BytesIO(content)) as picture:
+        packed, stream = picture.convert("RGB"), io.BytesIO()
+    packed = packed.quantize(COLOURS, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+    packed.save(stream, format="png", compress_level=COMPRESSION)
+    return Picture(alt, stream.getvalue())
 
 
 @style.styled
@@ -93,7 +118,7 @@ def gallery_panel(
         (room / PANEL, under / height, (PANEL - room - 0.03) / PANEL, (height - under - 0.04) / height)
     )
     draw(ax, source)
-    return Picture(alt, png(figure, dpi=160))
+    return small_picture(png(figure, dpi=160), alt)
 
 
 def colour_bar() -> Picture:

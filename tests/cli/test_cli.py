@@ -98,6 +98,8 @@ def test_bad_use_is_one_line_and_exit_2(tmp_path: Path) -> None:
         (["compare", "random", "--baseline", "thesis"], "not a run of gbnbench"),
         (["generate", "random", "-o", "x.docx"], "x.docx"),
         (["report", "nowhere"], "not a run of gbnbench"),
+        (["report", "here", "there"], "give -o FILE"),
+        (["report", "nowhere", "nowhere", "-o", "page.html"], "nowhere is given twice"),
     ):
         done = command(*arguments, cwd=tmp_path)
         assert done.returncode == 2, arguments
@@ -156,6 +158,26 @@ def test_report_remakes_the_pictures(whole: Whole) -> None:
     done = command("report", whole.out, cwd=whole.folder)
     assert done.returncode == 0, done.stderr
     assert [path.read_bytes() for path in made] == before
+
+
+@pytest.mark.slow
+def test_report_sets_runs_side_by_side(whole: Whole) -> None:
+    done = command("report", whole.out, "before", "-o", "both.html", cwd=whole.folder)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout == "report: both.html\n"
+    assert f"gbnbench: before: random (n=64, d=2): only in {whole.out.name}" in done.stderr
+    page = (whole.folder / "both.html").read_text(encoding="utf-8")
+    assert f"mine · {whole.out.name}" in page
+    assert "mine · before" in page
+    assert "▲ better" in page  # the clumped sets are worse, and the page's first run has them
+
+
+@pytest.mark.slow
+def test_the_page_of_the_default_sources_is_small(tmp_path: Path) -> None:
+    """Sets add next to nothing to a page: spectra of a single one are the noisiest and pack worst."""
+    done = command("compare", "--realizations", 1, "--quiet", "-o", "run", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "run" / "report.html").stat().st_size <= 4e6
 
 
 def test_version_and_a_closed_pipe(tmp_path: Path) -> None:

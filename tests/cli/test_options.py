@@ -25,11 +25,11 @@ def every_command(group: click.Group = gbnbench, prefix: str = "") -> Iterator[t
 
 
 COMMANDS = dict(every_command())
-# Which command has which of the options that several have; report and analyze wait for little.
+# Which command has which of the options that several have; report waits for little, and analyze.
 BENCHES = "bench periodogram, bench gbn"
 SHARED = {
-    "--out": "compare spectrum analyze generate generators stipple reconstruct convert integrate figures, "
-    f"{BENCHES}",
+    "--out": "compare spectrum analyze generate generators stipple reconstruct convert integrate figures "
+    f"report, {BENCHES}",
     "--json": f"compare spectrum analyze generators reconstruct integrate check devices doctor, {BENCHES}",
     "--quiet": "compare spectrum generate generators stipple reconstruct integrate figures check doctor, "
     f"{BENCHES}",
