@@ -8,7 +8,8 @@ BIN := $(VENV)/bin
 compare: $(VENV)/.installed
 	$(BIN)/gbnbench compare $(ARGS)
 
-PYTEST := $(BIN)/python -m pytest -n auto --dist loadfile
+# Files are dealt out whole, in the order of tests/conftest.py.
+PYTEST := $(BIN)/python -m pytest -n auto --dist loadfile --no-loadscope-reorder
 
 # The everyday loop; test-slow is the rest, and test-all is both.
 test: $(VENV)/.installed
