@@ -38,6 +38,7 @@ STYLE: dict[str, Any] = {
     "axes.grid": False,
     "axes.axisbelow": True,
     "axes.titlepad": 5,
+    "axes.titley": 1.0,  # where it would be put anyway, after all ticks were asked for their place
     "axes.labelpad": 2.5,
     "axes.spines.top": False,
     "axes.spines.right": False,

@@ -7,11 +7,12 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogFormatterSciNotation, LogLocator, NullLocator
+from matplotlib.ticker import LogLocator, NullLocator
 from numpy.typing import NDArray
 
 from gbnbench.core.torus import FloatArray
 from gbnbench.reports import captions, layout, style
+from gbnbench.reports.log_ticks import PowersOfTen
 from gbnbench.reports.source_groups import Group, members
 from gbnbench.runs.comparison_result import Run, SourceResult
 
@@ -67,7 +68,7 @@ def figure(run: Run, group: Group | None = None) -> Figure:
     labels = [captions.name(source, run, 30) for source in sources]
     room = layout.legend_room(labels)
     if curve is not None:
-        labels.append(r"$\epsilon\,e^{4\pi^2\nu^2}$")
+        labels.append("ε exp(4π²ν²)")
     caption += captions.settings(run, group)
     sheet = layout.sheet(
         "Radial power, log-log", caption, 1, 6.6, [4.6], left=0.7, under=0.42, right=room, titles=False
@@ -123,7 +124,10 @@ def figure(run: Run, group: Group | None = None) -> Figure:
     ax.yaxis.set_major_locator(LogLocator(numticks=12))
     if decades > 12:
         ax.yaxis.set_minor_locator(NullLocator())
-    ax.xaxis.set_major_formatter(LogFormatterSciNotation(minor_thresholds=(2, 0.8)))
+    ax.xaxis.set_major_formatter(PowersOfTen(minor_thresholds=(2, 0.8)))
+    ax.xaxis.set_minor_formatter(PowersOfTen())
+    ax.yaxis.set_major_formatter(PowersOfTen())
+    ax.yaxis.set_minor_formatter(PowersOfTen())
     ax.grid(True, which="major")
     ax.set_xlabel("nu = |f| n^(-1/d)")
     ax.set_ylabel("radial power")
