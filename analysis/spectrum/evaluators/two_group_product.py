@@ -211,7 +211,7 @@ def product_errors(p: Precision, n: int, slots: Slots, fmax: int, at: Coordinate
     """
     sums = slots.sums(n)
     beyond = (2 if sums > COMPENSATED_FROM else sums) + slots.splits
-    in_registers = min(SUM_POINTS, slots.length)
+    in_registers = min(SUM_POINTS, slots.length, n)  # points beyond the last weigh nothing and round nothing
     return sum_errors(p.name, "double" if p.sum is np.float64 else "float", at, fmax, 3, in_registers, beyond)
 
 
