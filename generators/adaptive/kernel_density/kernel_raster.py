@@ -95,8 +95,8 @@ class KernelRaster:
         cells : (m, window) intp
             Flat indices.
         heights : (m, window) float64
-            exp(-pi r^2), r in spacings; in a box what would lie beyond its borders is mirrored at them, so that
-            a kernel keeps its mass. 0 beyond the kernel's reach, and outside of a box.
+            exp(-pi r^2), r in spacings; in a box what would lie beyond its borders is mirrored at them, so
+            that a kernel keeps its mass. 0 beyond the kernel's reach, and outside of a box.
         away : (2, m, window) float64
             From the point to the cell, in spacings; where a mirrored part is added, the mean of both weighted
             by their heights, a mirrored part counting backwards: it moves against its point.

@@ -49,9 +49,10 @@ class LindeBuzoGray(AdaptiveMethod):
     its longest axis, and every other point moves to its centroid, until nothing splits or vanishes. The dot's
     ink is the density over n, so that about n points are left; the publication lets their number follow from
     the size of dots, and exactly n are made of them here at the end: the fullest cells split, or the emptiest
-    vanish, a few at a time, between moves to centroids. All begins with one point, wherever it lies, and would
-    come to the same set for every seed: as in the authors' program, both points of a split are jittered (there
-    by up to a thousandth of the image's sides, here by a tenth of the cell's standard deviation).
+    vanish, a few at a time, between moves to centroids. All begins with one point, wherever it lies, and
+    would come to the same set for every seed: as in the authors' program, both points of a split are
+    jittered, there by up to a thousandth of the image's sides, here by a tenth of the cell's standard
+    deviation.
 
     References
     ----------
