@@ -19,8 +19,12 @@ WIDTH = 2.5  # inches of a panel
 
 
 def difference_scale(run: StipplingRun) -> float:
-    """End of the scale of the difference: twice the root mean square of the source in the middle."""
-    return 2 * float(np.median([float(np.sqrt((s.blurred**2).mean())) for s in run.sources])) or 1.0
+    """End of the scale of the difference: twice the root mean square of the source at the first quartile.
+
+    Sources differ by a factor of fifty: a scale that holds the worst would leave the others white.
+    """
+    each = [float(np.sqrt((s.blurred.astype(np.float64) ** 2).mean())) for s in run.sources]
+    return 2 * float(np.quantile(each, 0.25, method="lower")) or 1.0
 
 
 @style.styled
@@ -55,7 +59,9 @@ def figure(run: StipplingRun) -> Figure:
             else ""
         )
         + "the picture found back from the points alone by Algorithm 2, at its best gain; set less density, "
-        "both blurred by 16 pixels, over the mean density, red too many; "
+        "both blurred by 16 pixels, over the mean density, red too many, blue too few: the colours end at "
+        f"{most:.2g}, twice the root mean square of the source at the first quartile, so that the better "
+        "ones are seen, and what is beyond has the last colour; "
         + (
             "power of the points less the density in the square, log10, 0 in the middle. "
             if run.patch
@@ -119,18 +125,25 @@ def _first_column(stack: list[Axes], names: list[str], run: StipplingRun, most: 
         elif name == "found back":
             panels.ink(ax, run.density)
         elif name == "difference":
-            _scale(ax, ScalarMappable(Normalize(-most, most), panels.DIFFERENCE), "over the mean density")
+            _scale(
+                ax,
+                ScalarMappable(Normalize(-most, most), panels.DIFFERENCE),
+                "over the mean density",
+                beyond=True,
+            )
         else:
             _scale(ax, ScalarMappable(LogNorm(*panels.POWER), spectrum.palette()), "power")
 
 
-def _scale(ax: Axes, colours: ScalarMappable, title: str) -> None:
-    """Draw a colour bar in the middle of empty axes."""
+def _scale(ax: Axes, colours: ScalarMappable, title: str, *, beyond: bool = False) -> None:
+    """Draw a colour bar in the middle of empty axes, its ends pointed where there are values beyond them."""
     layout.frame(ax)
     for spine in ax.spines.values():
         spine.set_visible(False)
     bar = ax.inset_axes((0.08, 0.5, 0.84, 0.06))
-    drawn = ax.figure.colorbar(colours, cax=bar, orientation="horizontal")
+    drawn = ax.figure.colorbar(
+        colours, cax=bar, orientation="horizontal", extend="both" if beyond else "neither"
+    )
     drawn.set_label(title, size=7)
     drawn.ax.tick_params(labelsize=6.5)
     drawn.ax.minorticks_off()

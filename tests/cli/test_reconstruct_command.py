@@ -136,7 +136,10 @@ def test_points_on_the_border_stay_there(here):
         (("x.png", "-o", "o.png"), "x.png: is a PNG image"),
         (("dots.txt", "-o", "o.png", "--size", "0x5"), "must be pixels of width and height, such as 768x512"),
         (("dots.txt", "-o", "o.png", "--size", "99999999x99999999"), "at most 134,217,728 pixels"),
-        (("dots.txt", "-o", "o.png", "--size", "8x8x8"), "shape must be (rows, columns) for points of d=2"),
+        (
+            ("dots.txt", "-o", "o.png", "--size", "8x8x8"),
+            "shape must be (rows, columns), whole numbers, each at least 1; got 8 x 8 x 8",
+        ),
         (
             ("dots.txt", "-o", "o.png", "--size", "8x8", "--against", "x.png"),
             "x.png is 36x24: leave out --size",

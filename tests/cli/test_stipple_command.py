@@ -35,13 +35,18 @@ def command(*arguments: object) -> int:
     return run(["stipple", *map(str, arguments)])
 
 
+def page(suffix: str, width: float) -> tuple[object, ...]:
+    """Options of a page without margin, which text has none of."""
+    return ("--width-mm", width) if suffix in ("csv", "txt") else ("--width-mm", width, "--margin-mm", 0)
+
+
 def drawing(name: str) -> ElementTree.Element:
     return ElementTree.parse(name).getroot()  # noqa: S314 - it is our own
 
 
 def test_every_format_holds_the_same_dots(picture, capsys):
     for suffix in ("svg", "pdf", "eps", "gcode", "csv", "txt", "png"):
-        assert command("x.png", "-n", 50, "-o", f"o.{suffix}", "--width-mm", 80, *QUICK) == 0
+        assert command("x.png", "-n", 50, "-o", f"o.{suffix}", *page(suffix, 80), *QUICK) == 0
     said = capsys.readouterr().out
     assert "wrote o.svg: 50 dots of black, " in said
     assert "mm across, on 80 x 60 mm" in said
@@ -68,7 +73,7 @@ def test_every_format_holds_the_same_dots(picture, capsys):
 
 def test_svg_is_a_page_in_millimetres_with_layers(picture):
     Pillow.fromarray(np.random.default_rng(1).integers(0, 256, (20, 30, 3), np.uint8)).save("c.png")
-    assert command("c.png", "-n", 90, "-o", "c.svg", "--colour", "cmyk", *QUICK) == 0
+    assert command("c.png", "-n", 90, "-o", "c.svg", "--colour", "cmyk", *page("svg", 160), *QUICK) == 0
     root = drawing("c.svg")
     assert (root.get("width"), root.get("viewBox")) == ("160mm", "0 0 160 106.6667")
     layers = root.findall(f"{SVG}g")
@@ -98,14 +103,15 @@ def test_dots_of_a_size_are_as_many_as_cover_what_is_dark(here, capsys):
     assert command("g.png", "-o", "h.csv", "--dot-mm", 0.001, *QUICK) == 2
     assert not Path("h.csv").exists()
     assert command("g.png", "-o", "g.csv", "--dot-mm", 1, "--width-mm", 40, *QUICK) == 0
-    wanted = round(1600 * (128 / 255) / (np.pi / 4))
+    wanted = round(39**2 * (128 / 255) / (np.pi / 4))  # half a dot is left free on each side
     assert len(pd.read_csv("g.csv")) == wanted
     assert f"{wanted:,} dots of black, 1 mm across" in capsys.readouterr().out
 
 
 def test_dots_by_tone_cover_what_is_dark(picture):
     for suffix in ("svg", "csv"):
-        assert command("x.png", "-n", 400, "-o", f"t.{suffix}", "--dots", "tone", *QUICK) == 0
+        tone = ("--dots", "tone", *page(suffix, 160))
+        assert command("x.png", "-n", 400, "-o", f"t.{suffix}", *tone, *QUICK) == 0
     circles = drawing("t.svg").iter(f"{SVG}circle")
     x, r = np.array([[float(c.get("cx")) / 4, float(c.get("r")) / 4] for c in circles]).T
     dark = np.zeros(40)
@@ -121,12 +127,14 @@ def test_a_tour_is_shorter_and_its_length_is_told(picture, capsys):
     assert command("x.png", "-n", 300, "-o", "d.csv", *QUICK) == 0
     capsys.readouterr()
     assert command("x.png", "-n", 300, "-o", "t.csv", "--order", "tour", *QUICK) == 0
-    told = float(re.search(r"tour of black: (\S+) m", capsys.readouterr().out)[1])
+    said = capsys.readouterr().out
+    told = float(re.search(r"tour of black: (\S+) m", said)[1])
     drawn, toured = (pd.read_csv(name).to_numpy() for name in ("d.csv", "t.csv"))
     assert {*map(tuple, drawn)} == {*map(tuple, toured)}
     lengths = [np.hypot(*np.diff(x[:, :2] * (40, 30), axis=0).T).sum() for x in (drawn, toured)]
     assert lengths[1] < 0.95 * lengths[0]
-    assert told == pytest.approx(lengths[1] * 4 / 1000, rel=1e-3)
+    across = float(re.search(r"(\S+) mm across", said)[1])  # half of it is left free on each side
+    assert told == pytest.approx(lengths[1] * (160 - across) / 40 / 1000, rel=1e-3)
 
 
 def test_gcode_follows_a_template(picture):
@@ -181,7 +189,19 @@ def test_an_animation_is_said(here, capsys):
         (("x.png", "-o", "o.svg", "--method", "gnb"), "did you mean 'gbn'?"),
         (("x.png", "-o", "o.png", "--dpi", "99999"), "dpi must be at least 1"),
         (("x.png", "-o", "o.png", "--dpi", "0"), "dpi must be at least 1"),
-        (("x.png", "-o", "o.svg", "--dot-mm", "161"), "--dot-mm 161 is wider than the page"),
+        (("x.png", "-o", "o.svg", "--dot-mm", "161"), "--dot-mm 161 is as wide as the page or wider"),
+        (("x.png", "-o", "o.svg", "--margin-mm", "80"), "--margin-mm must be at least 0 and less than half"),
+        (
+            ("x.png", "-o", "o.csv", "--margin-mm", "0"),
+            "holds points and no page: leave out --margin-mm",
+        ),
+        (("x.png", "-o", "o.txt", "--paper", "red"), "holds points and no page: leave out --paper"),
+        (("x.png", "-o", "o.gcode", "--paper", "red"), "is drawn on the paper that lies there"),
+        (("x.png", "-o", "o.svg", "--paper", "rad"), "'rad' is no colour"),
+        (("x.png", "-o", "o.svg", "--ink", "#fff"), "ink and paper are both #ffffff"),
+        (("x.png", "-o", "o.svg", "--ink", "red", "--palette", "2"), "--paper and --ink are of one ink"),
+        (("x.png", "-o", "o.svg", "--dpi", "300"), "--dpi is for pixels, which .png, .gif and .mp4 have"),
+        (("x.png", "-o", "o.gif", "--order", "tour"), "--order tour is not to be seen in o.gif"),
         (("x.png", "-o", "o.gcode", "--gcode-template", "still.toml"), "dots would lie in one place"),
         (("x.png", "-o", "o.svg", "--colour", "cmyk", "--invert"), "invert goes with one ink"),
     ],
@@ -202,14 +222,14 @@ def test_errors_say_what_was_wrong(picture, capsys, arguments, says):
 
 @pytest.mark.slow
 @pytest.mark.skipif(shutil.which("chromium") is None, reason="no chromium on PATH to open the drawing with")
-def test_chromium_shows_an_svg_as_the_png_is(picture):
-    size = ("--width-mm", 160, "--dpi", 127)  # 800 pixels
-    for suffix in ("svg", "png"):
-        assert command("x.png", "-n", 200, "-o", f"o.{suffix}", *size, *QUICK) == 0
-    page = f'<body style="margin:0"><img src="{(picture / "o.svg").as_uri()}" width="800"></body>'
-    Path("page.html").write_text(page)
+@pytest.mark.parametrize("colours", [(), ("--invert", "--ink", "gold", "--paper", "#024")])
+def test_chromium_shows_an_svg_as_the_png_is(picture, colours):
+    for suffix, dpi in (("svg", ()), ("png", ("--dpi", 127))):  # 800 pixels
+        assert command("x.png", "-n", 200, "-o", f"o.{suffix}", *dpi, *colours, *QUICK) == 0
+    image = f'<img src="{(picture / "o.svg").as_uri()}" width="800">'
+    Path("page.html").write_text(f'<body style="margin:0">{image}</body>')
     chromium = ["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars"]
-    chromium += ["--window-size=800,600", f"--user-data-dir={picture / 'profile'}"]
+    chromium += ["--window-size=800,620", f"--user-data-dir={picture / 'profile'}"]
     address = (picture / "page.html").as_uri()
     subprocess.run(
         [*chromium, f"--screenshot={picture / 'shot.png'}", address],
@@ -218,6 +238,80 @@ def test_chromium_shows_an_svg_as_the_png_is(picture):
         timeout=120,
     )
     with Pillow.open("shot.png") as shot, Pillow.open("o.png") as drawn:
-        shown = np.asarray(shot.convert("L"), float)[:600, :800]
-        expected = np.asarray(drawn, float)
+        shown = np.asarray(shot.convert("RGB"), float)[: drawn.height, :800]
+        expected = np.asarray(drawn.convert("RGB"), float)
     assert np.abs(shown - expected).mean() < 2  # of 255: both smooth the rims of dots
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(shutil.which("pdftoppm") is None, reason="no pdftoppm on PATH to open the page with")
+@pytest.mark.parametrize(
+    "colours", [(), ("--invert",), ("--colour", "cmyk"), ("--invert", "--ink", "gold", "--paper", "#024")]
+)
+def test_a_pdf_reader_shows_the_page_as_the_png_is(picture, colours):
+    for suffix, dpi in (("pdf", ()), ("png", ("--dpi", 127))):
+        assert command("x.png", "-n", 200, "-o", f"o.{suffix}", *dpi, *colours, *QUICK) == 0
+    reader = ["pdftoppm", "-r", "127", "-png", "-singlefile", "o.pdf", "shot"]
+    subprocess.run(reader, check=True, capture_output=True, timeout=60)
+    with Pillow.open("shot.png") as shot, Pillow.open("o.png") as drawn:
+        rows = min(shot.height, drawn.height)  # a page's last row of pixels may be a part of one
+        shown, expected = (np.asarray(one.convert("RGB"), float)[:rows, :800] for one in (shot, drawn))
+    assert np.abs(shown - expected).mean() < 3  # of 255: both smooth the rims of dots
+
+
+def test_no_dot_hangs_over_the_border(picture):
+    Pillow.fromarray(np.zeros((30, 40), np.uint8)).save("black.png")
+    for name, options in (("own", ()), ("told", ("--margin-mm", 12.5)), ("pen", ("--dot-mm", 3))):
+        assert command("black.png", "-n", 300, "-o", f"{name}.svg", *options, *QUICK) == 0
+        root = drawing(f"{name}.svg")
+        width, height = (float(side) for side in root.get("viewBox").split()[2:])
+        circles = root.iter(f"{SVG}circle")
+        x, y, r = np.array([[float(c.get(key)) for key in ("cx", "cy", "r")] for c in circles]).T
+        margin = {"own": r.max(), "told": 12.5, "pen": 1.5}[name]
+        assert width == 160
+        assert (height - 2 * margin) / (160 - 2 * margin) == pytest.approx(30 / 40, abs=1e-4)
+        assert min(x.min(), y.min(), width - x.max(), height - y.max()) >= margin - 1e-4
+        assert np.ptp(x) > 0.9 * (width - 2 * margin)
+    assert command("black.png", "-n", 300, "-o", "pen.gcode", "--margin-mm", 12.5, *QUICK) == 0
+    moves = re.findall(r"^G0 X(\S+) Y(\S+)$", Path("pen.gcode").read_text(), re.MULTILINE)[:300]
+    places = np.array(moves, float)
+    assert (places.min(axis=0) >= 12.5).all()
+    assert (places.max(axis=0) <= np.array([160, 135 * 3 / 4 + 25]) - 12.5).all()
+
+
+def test_inverted_dots_are_white_on_black(picture, capsys):
+    x = np.asarray(Pillow.open("x.png"), float)
+    for name, options in (("white", ()), ("gold", ("--ink", "gold", "--paper", "#024"))):
+        for suffix in ("png", "svg", "pdf", "eps", "gcode"):
+            no_paper = options[:2] if suffix == "gcode" else options
+            assert command("x.png", "-n", 900, "--invert", "-o", f"{name}.{suffix}", *no_paper, *QUICK) == 0
+    assert "negative" not in capsys.readouterr().err
+    with Pillow.open("white.png") as drawn:
+        assert drawn.mode == "L"
+        tones = np.asarray(drawn.resize((4, 3), Pillow.Resampling.BOX), float)
+    expected = np.asarray(Pillow.fromarray(x.astype(np.uint8)).resize((4, 3), Pillow.Resampling.BOX), float)
+    assert np.corrcoef(tones.ravel(), expected.ravel())[0, 1] > 0.97
+    assert tones[:, 0].max() < 60
+    assert tones[:, 3].min() > 150  # where dots would cover all if none overlapped
+    with Pillow.open("gold.png") as drawn:
+        seen = {colour for _, colour in drawn.getcolors(1 << 20)}
+    assert {(255, 215, 0), (0, 34, 68)} <= seen
+    root = drawing("gold.svg")
+    assert [(g.get("fill"), g.get("style")) for g in root.findall(f"{SVG}g")] == [("#ffd700", None)]
+    assert root.get("style") == "background:#002244"
+    assert [child.get("pagecolor") for child in root if child.tag.startswith("{http://sodi")] == ["#002244"]
+    assert "rectfill" in Path("gold.eps").read_text()
+    assert "; 900 dots of #ffd700" in Path("gold.gcode").read_text()
+    assert "; 900 dots of white" in Path("white.gcode").read_text()
+
+
+@pytest.mark.parametrize(
+    ("options", "says"),
+    [
+        (("--paper", "black"), "dots are lighter than the paper and dense where the image is dark; add"),
+        (("--invert", "--paper", "white"), "darker than the paper and dense where the image is light; leave"),
+    ],
+)
+def test_a_negative_is_told(picture, capsys, options, says):
+    assert command("x.png", "-n", 50, "-o", "o.png", *options, *QUICK) == 0
+    assert says in capsys.readouterr().err

@@ -240,7 +240,7 @@ def test_dots_of_several_inks_are_no_set(tmp_path, suffix):
 
 
 def test_points_of_a_volume_lie_on_no_image(tmp_path):
-    (tmp_path / "cube.csv").write_text("x,y,z\n0.25,0.5,0.5\n0.5,0.25,0.5\n")
+    (tmp_path / "cube.csv").write_text("x,y,z\n0.25,0.5,0.5\n0.5,0.25,0.75\n")
     with pytest.raises(FormatError, match="holds no points of a plane: name two columns by --columns"):
         sets_on_image(tmp_path / "cube.csv", (48, 40), PLAIN)
     ((sets, _),) = sets_on_image(tmp_path / "cube.csv", (48, 40), reading_options(columns="x,y"))
