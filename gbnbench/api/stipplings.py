@@ -9,6 +9,7 @@ from typing import Any
 from gbnbench.api.stippling import Stippling
 from gbnbench.api.stippling_comparison import StipplingComparison, draw, load_pictures
 from gbnbench.core.errors import InputError
+from gbnbench.core.least_values import require
 from gbnbench.execution import progress
 from gbnbench.generators.adaptive.density import Density
 from gbnbench.generators.adaptive.protocol import AdaptiveGenerator
@@ -117,9 +118,7 @@ def compare_stipplings(
     darkness = as_darkness(image, shape=shape, curve=ToneCurve(invert, gamma, white_cutoff))
     density = darkness.density()
     count = darkness.default_n if n is None else n
-    for name, value in (("n", count), ("realizations", realizations)):
-        if value < 1:
-            raise InputError(f"{name} must be at least 1; got {value}")
+    require(n=(count, 1), realizations=(realizations, 1))
     if density.d != 2:
         raise InputError(f"stipplings are compared on images; {darkness.name} is a volume")
     if isinstance(image, Density) and image.toroidal:

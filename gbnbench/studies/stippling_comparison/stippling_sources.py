@@ -6,21 +6,20 @@ import dataclasses
 import hashlib
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
 
 from gbnbench.core.errors import FormatError, InputError, RefusalError
-from gbnbench.core.readable_text import without_bytes
 from gbnbench.core.settings import nearest, specification
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density
 from gbnbench.generators.adaptive.protocol import AdaptiveGenerator
 from gbnbench.generators.adaptive.registry import ADAPTIVE_GENERATORS, adaptive_generator
 from gbnbench.io.points import ReadingOptions
-from gbnbench.runs.source_names import unique_key
+from gbnbench.runs.source_names import told_apart
 from gbnbench.studies.stippling_comparison.points_of_image import on_pixels, sets_on_image
 
 StipplingSourceLike = Any  # str, Path, array_like or AdaptiveGenerator
@@ -136,7 +135,7 @@ def stippling_sources(
         raise InputError("; ".join([*unread, *skipped]))
     if not sources:
         raise RefusalError("; ".join(skipped) if skipped else "no source given: name one")
-    return _distinct(sources), tuple(skipped), tuple(unread)
+    return told_apart(sources), tuple(skipped), tuple(unread)
 
 
 def _generator(item: StipplingSourceLike) -> AdaptiveGenerator | None:
@@ -184,16 +183,3 @@ def _array(item: StipplingSourceLike, label: str, density: Density) -> Stippling
     sets = on_pixels(x if x.ndim == 3 else x[None], (density.shape[0], density.shape[1]))
     digest = hashlib.sha256(repr(sets.shape).encode() + sets.tobytes()).hexdigest()
     return StipplingSource("", label, sets.shape[1], len(sets), sets=sets, digest=digest, kind="array")
-
-
-def _distinct(sources: Sequence[StipplingSource]) -> tuple[StipplingSource, ...]:
-    """Count repeated labels, and give every source a key of its own."""
-    seen: Counter[str] = Counter()
-    keys: set[str] = set()
-    result = []
-    for source in sources:
-        label = without_bytes(source.label)
-        seen[label] += 1
-        text = label if seen[label] == 1 else f"{label} ({seen[label]})"
-        result.append(replace(source, key=unique_key(text, keys), label=text))
-    return tuple(result)

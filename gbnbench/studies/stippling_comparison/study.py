@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from gbnbench import __version__
-from gbnbench.core.errors import InputError
+from gbnbench.core.least_values import require
 from gbnbench.core.torus import FloatArray
 from gbnbench.execution.progress import Progress
 from gbnbench.generators.adaptive.density import Density
@@ -123,9 +123,7 @@ def run_stippling_comparison(
     """
     began = time.monotonic()
     progress = progress or Progress()
-    for what, value, least in (("jobs", 1 if jobs is None else jobs, 1), ("seed", seed, 0)):
-        if value < least:
-            raise InputError(f"{what} must be at least {least}; got {value}")
+    require(jobs=(1 if jobs is None else jobs, 1), seed=(seed, 0))
     patch = flattest_patch(density.values, n)
     settings: dict[str, Any] = {
         "gbnbench": __version__,
