@@ -138,7 +138,7 @@ def test_points_on_the_border_stay_there(here):
         (("dots.txt", "-o", "o.png", "--size", "99999999x99999999"), "at most 134,217,728 pixels"),
         (
             ("dots.txt", "-o", "o.png", "--size", "8x8x8"),
-            "shape must be (rows, columns), whole numbers, each at least 1; got 8 x 8 x 8",
+            "shape must be (rows, columns), whole numbers of pixels",
         ),
         (
             ("dots.txt", "-o", "o.png", "--size", "8x8", "--against", "x.png"),

@@ -134,8 +134,11 @@ def test_the_worst_source_does_not_set_the_scale_of_differences():
         replace(one, blurred=flat * size) for one, size in zip(made.sources, (3, 0.02, 0.5), strict=True)
     ]
     run = replace(made, sources=tuple(sources))
-    assert gallery.difference_scale(run) == pytest.approx(0.04, rel=1e-6)
+    scale = gallery.difference_scale(run)
+    assert (scale.linthresh, scale.vmin, scale.vmax) == pytest.approx((0.02, -6, 6), rel=1e-6)
+    assert scale(0.02) - scale(0) > 0.1  # the colours of the best are told apart
+    assert scale(3) < 1  # and those of the worst do not end
     five = replace(run, sources=(*sources, replace(sources[0], blurred=flat * 0.03), sources[0]))
-    assert gallery.difference_scale(five) == pytest.approx(0.06, rel=1e-6)
+    assert gallery.difference_scale(five).linthresh == pytest.approx(0.03, rel=1e-6)
     text = gallery.figure(run).texts
-    assert any("the colours end at 0.04," in " ".join(one.get_text().split()) for one in text)
+    assert any("proportion up to 0.02," in " ".join(one.get_text().split()) for one in text)

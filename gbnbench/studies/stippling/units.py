@@ -36,7 +36,7 @@ def checked_shape(shape: object, dimensions: Collection[int]) -> tuple[int, ...]
         If it is no sequence of whole numbers above 0, or of too many axes or pixels.
     """
     sides = tuple(shape) if isinstance(shape, tuple | list) else ()
-    whole = all(isinstance(side, numbers.Integral) and side >= 1 for side in sides)
+    whole = all(isinstance(side, numbers.Integral) and int(side) >= 1 for side in sides)
     axes = " or ".join(AXES[d] for d in sorted(dimensions))
     if len(sides) not in dimensions or not whole:
         raise InputError(
