@@ -138,7 +138,8 @@ def _first_column(stack: list[Axes], names: list[str], run: StipplingRun, scale:
         elif name == "found back":
             panels.ink(ax, run.density)
         elif name == "difference":
-            ends = (-scale.vmax, -scale.linthresh, 0.0, scale.linthresh, scale.vmax)
+            linear, top = float(scale.linthresh), float(scale.vmax or 1)
+            ends = (-top, -linear, 0.0, linear, top)
             _scale(ax, ScalarMappable(scale, panels.DIFFERENCE), "over the mean density", ends)
         else:
             _scale(ax, ScalarMappable(LogNorm(*panels.POWER), spectrum.palette()), "power")
