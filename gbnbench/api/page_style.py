@@ -1,4 +1,4 @@
-"""How stipplings lie on paper: its width, margin and colour, and the size of dots."""
+"""Pages of stipplings: width, margin and colour of the paper, and the size of dots."""
 
 from __future__ import annotations
 
