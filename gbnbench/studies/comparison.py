@@ -14,6 +14,7 @@ import numpy as np
 
 from gbnbench import __version__
 from gbnbench.core.errors import InputError
+from gbnbench.core.least_values import require
 from gbnbench.execution.progress import Progress
 from gbnbench.opencl import choose
 from gbnbench.runs import comparison_folder
@@ -123,10 +124,7 @@ def run_comparison(
     """
     began = time.monotonic()
     progress = progress or Progress()
-    if jobs is not None and jobs < 1:
-        raise InputError(f"jobs must be at least 1; got {jobs}")
-    if seed < 0:
-        raise InputError(f"seed must not be negative; got {seed}")
+    require(jobs=(1 if jobs is None else jobs, 1), seed=(seed, 0))
     earlier = None if baseline is None else comparison_folder.read_run(baseline)
     if earlier is not None:
         _require_common(sources, earlier, baseline)

@@ -21,6 +21,7 @@ from gbnbench.generators.ranges import check_least, check_range
 
 TURNS_TO_COUNT = 60  # in which the number of points is made the one asked for
 LAST_MOVES = 5  # to centroids, once it is
+JITTER = 0.1  # of points that come of a split, in standard deviations of the cell
 
 
 @dataclass(frozen=True)
@@ -49,7 +50,10 @@ class LindeBuzoGray(AdaptiveMethod):
     its longest axis, and every other point moves to its centroid, until nothing splits or vanishes. The dot's
     ink is the density over n, so that about n points are left; the publication lets their number follow from
     the size of dots, and exactly n are made of them here at the end: the fullest cells split, or the emptiest
-    vanish, a few at a time, between moves to centroids.
+    vanish, a few at a time, between moves to centroids. All begins with one point, wherever it lies, and
+    would come to the same set for every seed: as in the authors' program, both points of a split are
+    jittered, there by up to a thousandth of the image's sides, here by a tenth of the cell's standard
+    deviation.
 
     References
     ----------
@@ -111,19 +115,23 @@ def split(
     full, kept : (n,) bool
         Cells of two points, and of one.
     rng : numpy.random.Generator
-        Turns the axis of cells that have no longest one.
+        Turns the axis of cells that have no longest one, and jitters both points of a split.
 
     Returns
     -------
     (m, d) float64
-        In pixels; those of two lie a standard deviation to either side along the longest axis.
+        In pixels; those of two lie about a standard deviation to either side along the longest axis.
     """
     directions, deviations = cells.main_axes()
     flat = deviations == 0
     directions[flat] = rng.normal(size=(int(flat.sum()), cells.x.shape[1]))
-    step = (np.maximum(deviations, 1e-6)[:, None] * directions)[full]
+    deviations = np.maximum(deviations, 1e-6)[full, None]
+    step = deviations * directions[full]
+    jitter = JITTER * deviations * rng.normal(size=(2, *step.shape))
     centroid = cells.x + cells.moves
-    found: FloatArray = np.concatenate([centroid[kept], centroid[full] - step, centroid[full] + step])
+    found: FloatArray = np.concatenate(
+        [centroid[kept], centroid[full] - step + jitter[0], centroid[full] + step + jitter[1]]
+    )
     return found
 
 
