@@ -104,7 +104,10 @@ def voids_of_farthest_points(n: int, toroidal: bool, precision: str) -> Iterator
     for _ in range(2):
         work.sweep()
     at = places.places.astype(np.float64)
-    error = float(np.abs(work.voids() - numpy_voids(density, places, at, work.points())).max())
+    x = work.points()
+    error = float(np.abs(work.voids() - numpy_voids(density, places, at, x)).max())
+    apart = [numpy_voids(density, places, x[k : k + 1], np.delete(x, k, axis=0))[0] for k in range(n)]
+    error = max(error, float(np.abs(work.nearest() - apart).max()))
     yield Check("voids", f"n={n} toroidal={toroidal}", precision, error, ALLOWED_VOID)
 
 
