@@ -109,8 +109,21 @@ class AdaptiveGaussianBlueNoise(AdaptiveMethod):
         parts: int = math.ceil(RESOLUTION[self.precision] / self._narrowest(density, n))
         return parts
 
-    def _blocks(self, density: Density, n: int) -> int:
-        """Pixels along the sides of blocks that resolve the narrowest kernel; 1 in double precision."""
+    def blocks(self, density: Density, n: int) -> int:
+        """Choose the blocks in which pixels are summed first.
+
+        Parameters
+        ----------
+        density : Density
+            The density.
+        n : int
+            Points.
+
+        Returns
+        -------
+        int
+            Pixels along a side of those that resolve the narrowest kernel; 1 in double precision.
+        """
         least = max(BLOCK_RESOLUTION, BLOCK_AVERAGE / self.smoothing)
         return 1 if self.precision == "double" else block_side(density, self._narrowest(density, n), least)
 
@@ -205,7 +218,7 @@ class AdaptiveGaussianBlueNoise(AdaptiveMethod):
     def _energy(self, density: Density, n: int) -> AdaptiveEnergy:
         return AdaptiveEnergy(
             runtime(), density, n, sigma=self.sigma, smoothing=self.smoothing, spread=self.spread,
-            precision=self.precision, blocks=self._blocks(density, n),
+            precision=self.precision, blocks=self.blocks(density, n),
         )  # fmt: skip
 
     def _joint_energy(

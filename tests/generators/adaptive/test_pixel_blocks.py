@@ -73,9 +73,9 @@ def test_the_gradient_is_that_of_all_pixels(sigma, smoothing, spread, toroidal):
 def test_sets_are_as_good_as_those_of_all_pixels():
     density, n = as_density(_picture(360)), 200
     generator = AdaptiveGaussianBlueNoise()
-    assert generator._blocks(density, n) > 1
+    assert generator.blocks(density, n) > 1
     by_pixels = AdaptiveGaussianBlueNoise(precision="double")
-    assert by_pixels._blocks(density, n) == 1
+    assert by_pixels.blocks(density, n) == 1
     energy = by_pixels._energy(density, n)
     ends = [energy(one(density, n, np.random.default_rng(2))).energy for one in (generator, by_pixels)]
     start = energy(hilbert_start(density, n, np.random.default_rng(2))).energy
