@@ -28,7 +28,7 @@ Examples:
 """
 
 
-class Size(click.ParamType[tuple[int, ...]]):
+class Size(click.ParamType):  # type: ignore[type-arg]  # takes no argument before click 8.4
     """Pixels along each axis, width first, such as ``768x512``."""
 
     name = "size"

@@ -125,7 +125,10 @@ def test_a_file_whose_name_begins_with_a_dash_is_told_from_an_option(tmp_path, m
     monkeypatch.chdir(tmp_path)
     (tmp_path / "-x.txt").write_text("0.5 0.25\n")
     assert run(["analyze", "-x.txt"]) == 2
-    assert "No such option '-x'. Of the file of this name, write ./-x.txt." in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert "No such option" in said
+    assert "-x'. Of the file" in said or "-x. Of the file" in said  # click quotes it since 8.4
+    assert said.endswith("Of the file of this name, write ./-x.txt.\n")
     assert run(["analyze", "-y.txt"]) == 2
     assert "Of the file" not in capsys.readouterr().err
 
