@@ -64,7 +64,7 @@ class WeightedFarthestPoint(AdaptiveMethod):
     voids are looked for among places on the ink, six along a local spacing, and the point climbs from the
     best place to the top. That void may be smaller than the largest, by an eighth of a spacing at most.
 
-    In a box points line up along a border with much ink, half a distance from it. Cost: 12 to 16 CPU s for
+    In a box points line up along a border with much ink, half a distance from it. Cost: 12 to 17 CPU s for
     10,000 points on 512 x 512 pixels.
 
     References
