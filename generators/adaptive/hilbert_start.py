@@ -80,7 +80,8 @@ def _pixels_within(
     reached = np.cumsum(values, axis=1)
     last = side**d - 1 - np.argmax(values[:, ::-1] > 0, axis=1)
     index = np.minimum((reached <= (part * reached[:, -1])[:, None]).sum(axis=1), last)
-    return within[index]
+    chosen: NDArray[np.intp] = within[index]
+    return chosen
 
 
 def hilbert_index(places: NDArray[np.intp]) -> NDArray[np.int64]:
