@@ -12,8 +12,14 @@ import numpy as np
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density
 from gbnbench.generators.adaptive.gbn.descent import descend
-from gbnbench.generators.adaptive.gbn.energy import RESOLUTION, AdaptiveEnergy
+from gbnbench.generators.adaptive.gbn.energy import (
+    BLOCK_AVERAGE,
+    BLOCK_RESOLUTION,
+    RESOLUTION,
+    AdaptiveEnergy,
+)
 from gbnbench.generators.adaptive.gbn.joint_energy import JointEnergy, Part, union_density
+from gbnbench.generators.adaptive.gbn.pixel_blocks import block_side
 from gbnbench.generators.adaptive.hilbert_start import hilbert_start
 from gbnbench.generators.adaptive.method import AdaptiveMethod, too_fine
 from gbnbench.generators.adaptive.protocol import Seen, Told
@@ -91,11 +97,33 @@ class AdaptiveGaussianBlueNoise(AdaptiveMethod):
         """Say why pixels cannot be cut finely enough, as ``AdaptiveMethod.refusal`` does."""
         return too_fine(density, n, density.values.size * self._parts(density, n) ** density.d)
 
+    def _narrowest(self, density: Density, n: int) -> float:
+        """Width of the narrowest kernel, in pixels."""
+        densest = float(density.values.max()) * (n / float(density.values.sum()))
+        return self.sigma / math.sqrt(2) / densest ** (1 / density.d)
+
     def _parts(self, density: Density, n: int) -> int:
         """Parts of a pixel's side that make pixels finer than the narrowest kernel."""
-        narrowest = self.sigma / math.sqrt(2) / float(density.of_points(n).max()) ** (1 / density.d)
-        parts: int = math.ceil(RESOLUTION[self.precision] / narrowest)
+        parts: int = math.ceil(RESOLUTION[self.precision] / self._narrowest(density, n))
         return parts
+
+    def blocks(self, density: Density, n: int) -> int:
+        """Choose the blocks in which pixels are summed first.
+
+        Parameters
+        ----------
+        density : Density
+            The density.
+        n : int
+            Points.
+
+        Returns
+        -------
+        int
+            Pixels along a side of those that resolve the narrowest kernel; 1 in double precision.
+        """
+        least = max(BLOCK_RESOLUTION, BLOCK_AVERAGE / self.smoothing)
+        return 1 if self.precision == "double" else block_side(density, self._narrowest(density, n), least)
 
     def one_set(self, density: Density, n: int, rng: np.random.Generator, told: Told) -> FloatArray:
         """Draw one set, as ``AdaptiveMethod.one_set`` describes it."""
@@ -187,7 +215,7 @@ class AdaptiveGaussianBlueNoise(AdaptiveMethod):
     def _energy(self, density: Density, n: int) -> AdaptiveEnergy:
         return AdaptiveEnergy(
             runtime(), density, n, sigma=self.sigma, smoothing=self.smoothing, spread=self.spread,
-            precision=self.precision,
+            precision=self.precision, blocks=self.blocks(density, n),
         )  # fmt: skip
 
     def _joint_energy(
