@@ -11,11 +11,11 @@ class _TicksOnDemand(Axis):
 
     def reset_ticks(self) -> None:
         """Forget the ticks."""
-        self.majorTicks, self.minorTicks = [], []
+        self.majorTicks, self.minorTicks = [], []  # pyright: ignore[reportAttributeAccessIssue]
 
     def _get_tick(self, major: bool) -> Tick:
         """Make a tick whose grid line ends at the frame."""
-        tick: Tick = super()._get_tick(major)
+        tick: Tick = super()._get_tick(major)  # type: ignore[misc]  # of XAxis or YAxis
         tick.set_clip_path(self.axes.patch)
         return tick
 

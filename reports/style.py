@@ -15,7 +15,7 @@ from gbnbench.runs.comparison_result import Run
 
 # Okabe & Ito (2008), told apart with any colour vision; their yellow is darkened to be read on white.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#222222", "#9A8B00")
-ON_DARK = dict(  # the same hues, light enough to be told from a dark page
+ON_DARK: dict[str, str] = dict(  # the same hues, light enough to be told from a dark page
     zip(
         COLOURS,
         ("#3B9FE0", "#F0843C", "#2CC295", "#E39BC4", "#F2B233", "#8FD0F7", "#E6EAF0", "#C9B92E"),

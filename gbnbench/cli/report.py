@@ -39,7 +39,7 @@ def report(runs: tuple[Path, ...], out: Path | None) -> None:
                 raise InputError(f"-o FILE is for comparisons of point sets; {run} is a {kind}")
         _page(runs, out)
         return
-    (run,) = runs
+    run = next(iter(runs))
     if is_study(run):
         integration.draw(integration.Integration.read(run).study, run)
         click.echo(f"picture: {run / 'integration.png'}")

@@ -91,10 +91,12 @@ class Labelled(Protocol):
     @property
     def key(self) -> str:
         """Unique among sources."""
+        ...
 
     @property
     def label(self) -> str:
         """What the user reads."""
+        ...
 
 
 S = TypeVar("S", bound=Labelled)

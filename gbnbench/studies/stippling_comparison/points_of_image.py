@@ -40,7 +40,7 @@ def sets_on_image(
     groups: dict[int, list[FloatArray]] = {}
     digests: dict[int, list[str]] = {}
     for file in files_of(path):
-        found = read_plane_stipplings(file, reading, shape[::-1])
+        found = read_plane_stipplings(file, reading, (shape[1], shape[0]))
         digest = checksum(file)
         inks = dict.fromkeys(one.ink for one in found)
         if len(inks) > 1:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -181,7 +182,7 @@ def _parts(pixels: NDArray[np.intp], fine: FloatArray) -> FloatArray:
 def _blocks(pixels: NDArray[np.intp], coarse: FloatArray) -> FloatArray:
     """Choose one of the pixels in each block of 2^k x 2^k pixels of about one spacing."""
     level = np.floor(np.log2(coarse)).astype(np.intp)
-    places = [np.empty((0, 2))]
+    places: list[NDArray[Any]] = [np.empty((0, 2))]
     for k in np.unique(level).tolist():
         here = pixels[level == k]
         block = here >> k

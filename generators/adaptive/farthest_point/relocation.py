@@ -124,7 +124,7 @@ def _lists(
     order = np.argsort(cell, kind="stable")
     first = np.append(True, cell[order][1:] != cell[order][:-1])
     head = np.full(cells[0] * cells[1], -1, np.int32)
-    head[cell[order][first]] = order[first]
+    head[np.asarray(cell[order][first], np.intp)] = order[first]
     following = np.full(len(x), -1, np.int32)
     following[order[:-1][~first[1:]]] = order[1:][~first[1:]]
     return head, following

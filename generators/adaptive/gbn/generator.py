@@ -100,7 +100,7 @@ class AdaptiveGaussianBlueNoise(AdaptiveMethod):
     def _narrowest(self, density: Density, n: int) -> float:
         """Width of the narrowest kernel, in pixels."""
         densest = float(density.values.max()) * (n / float(density.values.sum()))
-        return self.sigma / math.sqrt(2) / densest ** (1 / density.d)
+        return float(self.sigma / math.sqrt(2) / densest ** (1 / density.d))
 
     def _parts(self, density: Density, n: int) -> int:
         """Parts of a pixel's side that make pixels finer than the narrowest kernel."""

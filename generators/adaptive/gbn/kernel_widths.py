@@ -152,7 +152,7 @@ def padded_line(size: int, whole: int, width: float, block: int = 1) -> FloatArr
     """
     ones = np.zeros(whole)
     ones[:size] = 1
-    k = np.fft.rfftfreq(whole)
+    k: FloatArray = np.fft.rfftfreq(whole).astype(np.float64, copy=False)
     spectrum = np.fft.rfft(ones)
     if block > 1:
         pixels = np.pad(np.ones(size * block), OVERHANG * block)
