@@ -7,9 +7,10 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from gbnbench.core.errors import GbnbenchError, UnfinishedError
+from gbnbench.execution.calls import Finished
+from gbnbench.execution.executor_choice import chosen_executor
 from gbnbench.execution.progress import Progress
-from gbnbench.execution.worker_pool import Finished, Pool
-from gbnbench.runs.device_proof import prove_device_if_any
+from gbnbench.runs.device_proof import prove_device_if_any, proven_calls
 from gbnbench.runs.result_store import ResultStore
 from gbnbench.runs.task import Task
 
@@ -79,7 +80,8 @@ class TaskRun:
         Parameters
         ----------
         jobs : int or None
-            Most worker processes, each with one thread; None does the work in this process.
+            Most worker processes of the executor ``local``, each with one thread; None does the work in this
+            process.
         progress : Progress
             Counts a step a task.
         doing : str
@@ -108,14 +110,20 @@ class TaskRun:
                 if not self._awaits[task.key]:
                     yield self._done_here(task, progress)
             return
-        with Pool(max(1, min(jobs, len(self.missing)))) as pool:
-            if prove_device:
+        with proven_calls(jobs, len(self.missing), prove_device) as pool:
+            if chosen_executor().remote:
+                progress.start(len(self._tasks), self.reused, doing)
+                if meanwhile is not None:
+                    meanwhile()
+            elif prove_device:
                 prove_device_if_any(pool, progress, len(self._tasks), self.reused, meanwhile)
             progress.start(len(self._tasks), self.reused, doing)  # the time of the check is not counted
             ready = deque(task for task in self.missing if not self._awaits[task.key])
             while ready or pool.pending:
                 if not ready:
                     settled = self._settle(pool.next(), progress)
+                    while pool.left_out:
+                        progress.say(f"left out: {pool.left_out.pop()}")
                 elif (task := ready.popleft()).here:
                     settled = self._done_here(task, progress)
                 else:
@@ -218,10 +226,14 @@ def run_tasks(
         progress.say(f"resuming {store.path}: {run.reused} of {len(tasks)} pieces are there")
     labels = {task.key: task.label for task in run.missing}
     failures = []
-    for done in run.complete(jobs, progress, doing=doing, meanwhile=meanwhile):
-        if done.failure:
-            failures.append(f"{labels[str(done.key)]}: {done.failure}")
-            progress.say(failures[-1])
+    try:
+        for done in run.complete(jobs, progress, doing=doing, meanwhile=meanwhile):
+            if done.failure:
+                failures.append(f"{labels[str(done.key)]}: {done.failure}")
+                progress.say(failures[-1])
+    except UnfinishedError as error:
+        kept = f"what is finished is kept in {store.path}, and the same command goes on"
+        raise UnfinishedError(f"{error}; {kept}") from error
     if failures:
         raise UnfinishedError(
             f"{len(failures)} of {len(run.missing)} pieces failed (what is finished is kept in {store.path}; "

@@ -15,8 +15,8 @@ from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
 from gbnbench.execution.progress import Progress
 from gbnbench.generators.adaptive.density import Density
-from gbnbench.opencl import choose
 from gbnbench.runs.comparison_folder import default_folder
+from gbnbench.runs.device_proof import needed_device
 from gbnbench.runs.provenance import versions
 from gbnbench.runs.resumable import TaskRun
 from gbnbench.runs.resumable_folder import explain_interruption
@@ -123,11 +123,12 @@ def run_stippling_comparison(
     for what, value, least in (("jobs", 1 if jobs is None else jobs, 1), ("seed", seed, 0)):
         if value < least:
             raise InputError(f"{what} must be at least {least}; got {value}")
+    jobs = jobs or os.cpu_count() or 1
     patch = flattest_patch(density.values, n)
     settings: dict[str, Any] = {
         "gbnbench": __version__,
         "seed": seed,
-        "device": choose().describe(),
+        "device": needed_device(jobs),
         "density": {
             "name": name,
             "shape": list(density.shape),
@@ -137,7 +138,6 @@ def run_stippling_comparison(
         "sources": [source.identity() for source in sources],
     }
     store = StipplingFolder(Path(folder or default_folder(settings, "stipplings")), settings)
-    jobs = jobs or os.cpu_count() or 1
     tasks = stippling_tasks(sources, density, patch, seed, jobs)
     with store.lock(), explain_interruption(store.path):
         if store.whole:
