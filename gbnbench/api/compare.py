@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from gbnbench.api.comparison import Comparison, draw, draw_unfinished, load_pictures
 from gbnbench.api.source_arguments import SourceLike, as_sources
 from gbnbench.execution import progress
+from gbnbench.execution.executor_choice import use_executor
 from gbnbench.io.points import ReadingOptions
 from gbnbench.opencl import use_device
 from gbnbench.runs.sources import DEFAULT_READING, DEFAULT_SOURCES
@@ -26,6 +27,8 @@ def compare(
     out: str | Path | None = None,
     baseline: str | Path | None = None,
     jobs: int | None = None,
+    executor: str | None = None,
+    executor_config: str | Path | None = None,
     quiet: bool = False,
     device: str | None = None,
     reading: ReadingOptions = DEFAULT_READING,
@@ -55,6 +58,11 @@ def compare(
         Folder of a finished comparison against which this one is judged.
     jobs : int, optional
         Worker processes, each with one thread; by default one a core.
+    executor : str, optional
+        Who does the work: ``"local"``, ``"dask:tcp://HOST:PORT"``, ``"dask:local"``, ``"mpi"`` or
+        ``"slurm"``; by default processes on this machine.
+    executor_config : path, optional
+        A TOML file with settings of the executor.
     quiet : bool
         No progress on standard error.
     device : str, optional
@@ -98,7 +106,7 @@ def compare(
     >>> bool(comparison.table.noise_floor[1] < comparison.table.noise_floor[0])
     True
     """
-    with use_device(device):
+    with use_device(device), use_executor(executor, executor_config):
         found, skipped = as_sources(sources, n, d, realizations, reading, sides)
         with progress.choose(quiet) as shown:
             done = run_comparison(

@@ -11,6 +11,7 @@ from gbnbench.api.stippling_comparison import StipplingComparison, draw, load_pi
 from gbnbench.core.errors import InputError
 from gbnbench.core.least_values import require
 from gbnbench.execution import progress
+from gbnbench.execution.executor_choice import use_executor
 from gbnbench.generators.adaptive.density import Density
 from gbnbench.generators.adaptive.protocol import AdaptiveGenerator
 from gbnbench.io.points import ReadingOptions
@@ -38,6 +39,8 @@ def compare_stipplings(
     shape: tuple[int, ...] | None = None,
     out: str | Path | None = None,
     jobs: int | None = None,
+    executor: str | None = None,
+    executor_config: str | Path | None = None,
     quiet: bool = False,
     device: str | None = None,
     reading: ReadingOptions = DEFAULT_READING,
@@ -68,6 +71,11 @@ def compare_stipplings(
         refused.
     jobs : int, optional
         Worker processes, each with one thread; by default one a core.
+    executor : str, optional
+        Who does the work: ``"local"``, ``"dask:tcp://HOST:PORT"``, ``"dask:local"``, ``"mpi"`` or
+        ``"slurm"``; by default processes on this machine.
+    executor_config : path, optional
+        A TOML file with settings of the executor.
     quiet : bool
         No progress on standard error.
     device : str, optional
@@ -123,7 +131,7 @@ def compare_stipplings(
         raise InputError(f"stipplings are compared on images; {darkness.name} is a volume")
     if isinstance(image, Density) and image.toroidal:
         raise InputError("stipplings are compared on bounded images; opposite borders of this density meet")
-    with use_device(device):
+    with use_device(device), use_executor(executor, executor_config):
         found, skipped, unread = stippling_sources(_labelled(sources), density, count, realizations, reading)
         with progress.choose(quiet) as shown:
             done = run_stippling_comparison(

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from gbnbench.analysis.outcomes import Arrays
 from gbnbench.core import atomic_write
 from gbnbench.core.errors import FormatError, InputError
 from gbnbench.core.torus import FloatArray
@@ -22,6 +23,7 @@ from gbnbench.runs.comparison_result import Run, SourceResult
 from gbnbench.runs.comparison_tables import long_table, wide_table
 from gbnbench.runs.file_sets import checksum
 from gbnbench.runs.resumable_folder import FORMAT, MANIFEST, SETTINGS, ResumableFolder
+from gbnbench.runs.task_keys import PIECE, realization_key
 
 REPORT = "report.html"  # in the folder
 
@@ -51,31 +53,39 @@ class ComparisonFolder(ResumableFolder):
     Notes
     -----
     A task whose key is a source's, such as ``gbn_n64_d2``, results in a SourceResult; one whose key is that
-    of a realization, such as ``gbn_n64_d2/000003``, in a Realization.
+    of a realization, such as ``gbn_n64_d2/000003``, in a Realization; one whose key is that of a piece, such
+    as ``gbn_n64_d2/measured-000016``, in arrays.
     """
 
     kind = "run"
 
-    def read(self, key: str) -> SourceResult | Realization | None:
+    def read(self, key: str) -> SourceResult | Realization | Arrays | None:
         """Return what is kept under a task's key; None where it has still to be made."""
         source, _, number = key.partition("/")
+        if number.startswith(PIECE):
+            try:
+                return data_files.read_or_explain(self._part(key), data_files.read_npz)
+            except FormatError:  # absent, or spoilt after it was written: measured again
+                return None
         return self.read_realization(source, int(number)) if number else self.read_source(source)
 
-    def write(self, key: str, result: SourceResult | Realization) -> None:
+    def write(self, key: str, result: SourceResult | Realization | Arrays) -> None:
         """Keep the result of a task.
 
         Parameters
         ----------
         key : str
             The task's.
-        result : SourceResult or Realization
+        result : SourceResult, Realization or mapping of arrays
             What it made.
         """
-        if isinstance(result, Realization):
+        if isinstance(result, SourceResult):
+            self.write_source(result)
+        elif isinstance(result, Realization):
             source, _, number = key.partition("/")
             self.write_realization(source, int(number), result)
         else:
-            self.write_source(result)
+            atomic_write.write_whole(self._part(key), data_files.to_npz(**result))
 
     def write_realization(self, source: str, k: int, realization: Realization) -> None:
         """Keep a realization.
@@ -140,24 +150,10 @@ class ComparisonFolder(ResumableFolder):
         super().finish({**manifest, "sha256": sums})
 
     def _realization(self, source: str, k: int) -> Path:
-        return self.path / "parts" / f"{realization_key(source, k)}.npz"
+        return self._part(realization_key(source, k))
 
-
-def realization_key(source: str, k: int) -> str:
-    """Name the task that makes a realization.
-
-    Parameters
-    ----------
-    source : str
-        The key of its source.
-    k : int
-        Its number.
-
-    Returns
-    -------
-    str
-    """
-    return f"{source}/{k:06d}"
+    def _part(self, key: str) -> Path:
+        return self.path / "parts" / f"{key}.npz"
 
 
 def default_folder(identity: Mapping[str, Any], command: str = "") -> Path:

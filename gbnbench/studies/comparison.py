@@ -16,10 +16,10 @@ from gbnbench import __version__
 from gbnbench.core.errors import InputError
 from gbnbench.core.least_values import require
 from gbnbench.execution.progress import Progress
-from gbnbench.opencl import choose
 from gbnbench.runs import comparison_folder
 from gbnbench.runs.baseline import Change, judge
 from gbnbench.runs.comparison_result import Run
+from gbnbench.runs.device_proof import needed_device
 from gbnbench.runs.provenance import versions
 from gbnbench.runs.resumable import run_tasks
 from gbnbench.runs.resumable_folder import explain_interruption
@@ -128,7 +128,8 @@ def run_comparison(
     earlier = None if baseline is None else comparison_folder.read_run(baseline)
     if earlier is not None:
         _require_common(sources, earlier, baseline)
-    device = choose().describe()
+    jobs = jobs or os.cpu_count() or 1
+    device = needed_device(jobs)
     settings: dict[str, Any] = {
         "gbnbench": __version__,
         "seed": seed,
@@ -136,7 +137,6 @@ def run_comparison(
         "sources": [source.identity() for source in sources],
     }
     store = comparison_folder.ComparisonFolder(folder or comparison_folder.default_folder(settings), settings)
-    jobs = jobs or os.cpu_count() or 1
     tasks = comparison_tasks(sources, seed, jobs)
     with store.lock(), explain_interruption(store.path):
         if store.whole:

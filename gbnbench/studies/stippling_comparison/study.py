@@ -15,8 +15,8 @@ from gbnbench.core.least_values import require
 from gbnbench.core.torus import FloatArray
 from gbnbench.execution.progress import Progress
 from gbnbench.generators.adaptive.density import Density
-from gbnbench.opencl import choose
 from gbnbench.runs.comparison_folder import default_folder
+from gbnbench.runs.device_proof import needed_device
 from gbnbench.runs.provenance import versions
 from gbnbench.runs.resumable import TaskRun
 from gbnbench.runs.resumable_folder import explain_interruption
@@ -124,11 +124,12 @@ def run_stippling_comparison(
     began = time.monotonic()
     progress = progress or Progress()
     require(jobs=(1 if jobs is None else jobs, 1), seed=(seed, 0))
+    jobs = jobs or os.cpu_count() or 1
     patch = flattest_patch(density.values, n)
     settings: dict[str, Any] = {
         "gbnbench": __version__,
         "seed": seed,
-        "device": choose().describe(),
+        "device": needed_device(jobs),
         "density": {
             "name": name,
             "shape": list(density.shape),
@@ -138,7 +139,6 @@ def run_stippling_comparison(
         "sources": [source.identity() for source in sources],
     }
     store = StipplingFolder(Path(folder or default_folder(settings, "stipplings")), settings)
-    jobs = jobs or os.cpu_count() or 1
     tasks = stippling_tasks(sources, density, patch, seed, jobs)
     with store.lock(), explain_interruption(store.path):
         if store.whole:
