@@ -15,7 +15,7 @@ from typing import Any
 from gbnbench.execution.worker_pool import ONE_THREAD
 from tests.processes import COMMAND
 
-ASKED = ["compare", "gbn[gradients=1500]", "-n", "256", "--realizations", "20", "--quiet"]
+ASKED = ["compare", "gbn[gradients=400]", "-n", "256", "--realizations", "20", "--quiet"]
 
 
 class Cluster:
@@ -41,7 +41,7 @@ class Cluster:
         self.address = json.loads(told.read_text())["address"]
 
     def worker(self, *options: object, **environment: str) -> subprocess.Popen[bytes]:
-        """Start a worker, whose environment has these variables too, and wait until the scheduler knows it."""
+        """Start a worker, whose environment has these variables too, and wait until it is known."""
         made = self._start(
             "worker", self.address, "--nthreads", "1", "--no-nanny", "--no-dashboard", "--host", "127.0.0.1",
             "--local-directory", self.folder, *options, **environment,
@@ -110,7 +110,7 @@ def sums(out: Path) -> dict[str, str]:
     return {name: digest for name, digest in held.items() if not name.endswith("source.json")}
 
 
-def until(true: Callable[[], Any], seconds: float = 120) -> None:
+def until(true: Callable[[], Any], seconds: float = 400) -> None:
     """Wait until something is true."""
     deadline = time.monotonic() + seconds
     while not true():
