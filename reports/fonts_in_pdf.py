@@ -12,7 +12,7 @@ from matplotlib.font_manager import get_font
 
 LAYOUT_TABLES = ("GDEF", "GPOS", "GSUB", "MATH", "kern")
 USUAL = (*range(32, 127), *range(160, 256))  # ASCII and Latin-1
-SIGNS = "".join(map(chr, USUAL)) + "–−→↑…≤≥∞▲▼ﬁﬂαενπρσ"
+SIGNS = "".join(map(chr, USUAL)) + "–−→↑…≤≥∞▲▼ﬁﬂαενπρσ⁰⁴⁵⁶⁷⁸⁹⁻"
 
 
 class Part(NamedTuple):

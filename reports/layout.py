@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 
 from gbnbench.core.readable_text import display_width
 from gbnbench.reports.captions import shown
+from gbnbench.reports.plot_axes import PlotAxes
 from gbnbench.reports.style import FAINT, RULE
 
 
@@ -110,7 +111,8 @@ def sheet(
             y -= height
             stack.append(
                 figure.add_axes(
-                    (x / total_width, y / total_height, width / total_width, height / total_height)
+                    (x / total_width, y / total_height, width / total_width, height / total_height),
+                    axes_class=PlotAxes,
                 )
             )
             y -= gaps[position] if position < len(gaps) else 0.0

@@ -8,8 +8,6 @@ area is that of the torus. If all edges are Delaunay's then, no point lies in th
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import csr_array
-from scipy.sparse.csgraph import connected_components
 
 from gbnbench.analysis.spatial.plane_rings import IndexArray, Rings
 from gbnbench.core.periodic_delaunay import circumcentre
@@ -70,7 +68,8 @@ def _closed_faces(rings: Rings, rows: IndexArray, after: IndexArray) -> int | No
 
 def _cycles(following: IndexArray) -> tuple[int, IndexArray]:
     """Count the cycles of a permutation, and say of which each entry is part."""
-    m = len(following)
-    graph = csr_array((np.ones(m, dtype=np.int8), following, np.arange(m + 1)), shape=(m, m))
-    count, label = connected_components(graph, directed=False)
-    return int(count), label.astype(np.intp)
+    least, ahead = np.arange(len(following)), following
+    while (least != least[following]).any():  # each round sees twice as far along the cycles
+        least, ahead = np.minimum(least, least[ahead]), ahead[ahead]
+    first, label = np.unique(least, return_inverse=True)
+    return len(first), label

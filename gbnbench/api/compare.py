@@ -7,7 +7,7 @@ from pathlib import Path
 
 from numpy.typing import ArrayLike
 
-from gbnbench.api.comparison import Comparison, draw, load_pictures
+from gbnbench.api.comparison import Comparison, draw, draw_unfinished, load_pictures
 from gbnbench.api.source_arguments import SourceLike, as_sources
 from gbnbench.execution import progress
 from gbnbench.execution.executor_choice import use_executor
@@ -119,6 +119,7 @@ def compare(
                 skipped=skipped,
                 progress=shown,
                 draw=draw if pictures else None,
+                grow=draw_unfinished if pictures else None,
                 meanwhile=load_pictures if pictures else None,
             )
     return Comparison(

@@ -42,7 +42,7 @@ class Command(click.Command):
                     formatter.write_dl(records)
 
 
-class WholeNumbers(click.ParamType[tuple[int, ...]]):
+class WholeNumbers(click.ParamType):  # type: ignore[type-arg]  # takes no argument before click 8.4
     """Whole numbers separated by commas, such as ``256,1024,4096``."""
 
     name = "numbers"

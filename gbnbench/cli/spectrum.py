@@ -25,7 +25,7 @@ Examples:
 """
 
 
-class Band(click.ParamType[tuple[float, float]]):
+class Band(click.ParamType):  # type: ignore[type-arg]  # takes no argument before click 8.4
     """The least and largest |f| of a band, separated by a comma."""
 
     name = "low,high"

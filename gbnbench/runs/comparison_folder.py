@@ -21,8 +21,11 @@ from gbnbench.io import data_files
 from gbnbench.runs import source_files
 from gbnbench.runs.comparison_result import Run, SourceResult
 from gbnbench.runs.comparison_tables import long_table, wide_table
+from gbnbench.runs.file_sets import checksum
 from gbnbench.runs.resumable_folder import FORMAT, MANIFEST, SETTINGS, ResumableFolder
 from gbnbench.runs.task_keys import PIECE, realization_key
+
+REPORT = "report.html"  # in the folder
 
 
 @dataclass(frozen=True)
@@ -143,7 +146,7 @@ class ComparisonFolder(ResumableFolder):
         """Declare it whole: checksums of the data, and the manifest as the very last file."""
         self.drop("parts")
         data = sorted((self.path / "sources").rglob("*.*"))
-        sums = {p.relative_to(self.path).as_posix(): _sha256(p) for p in data if p.is_file()}
+        sums = {p.relative_to(self.path).as_posix(): checksum(p) for p in data if p.is_file()}
         super().finish({**manifest, "sha256": sums})
 
     def _realization(self, source: str, k: int) -> Path:
@@ -210,11 +213,6 @@ def read_run(folder: str | Path) -> Run:
     for name, expected in sums.items():
         if not (path / name).is_file():
             raise FormatError(path / name, "is missing from the run")
-        if _sha256(path / name) != expected:
+        if checksum(path / name) != expected:
             raise FormatError(path / name, "was changed after the run was written")
     return Run(manifest, tuple(source_files.decode(path / "sources" / key) for key in keys), verdicts)
-
-
-def _sha256(path: Path) -> str:
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
+from importlib.resources import as_file, files
 from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import Family
-from gbnbench.generators.ranges import too_many
+from gbnbench.generators.ranges import raise_refusal, too_many, too_many_axes
 
 MOST_DIMENSIONS = 21201  # of Joe & Kuo's direction numbers in scipy
-MOST_BITS = 30  # digits of scipy's unscrambled points, each exact in a double
+MOST_BITS = 30  # digits of the unscrambled points
+NUMBERS = "stats/_sobol_direction_numbers.npz"  # of scipy, whose statistics take half a second to load
 DIGITS = 53  # of a scrambled coordinate
 
 
@@ -43,6 +45,63 @@ def owen_permutation(bits: int, rng: np.random.Generator) -> NDArray[np.int64]:
         flip = rng.integers(0, 2, size=2**level)
         permutation = (2 * permutation[:, None] + np.stack([flip, 1 - flip], axis=1)).reshape(-1)
     return permutation
+
+
+@cache
+def directions(d: int) -> NDArray[np.int64]:
+    """Direction numbers of Joe & Kuo, from the table within scipy.
+
+    Parameters
+    ----------
+    d : int
+        Dimension, at most 21,201.
+
+    Returns
+    -------
+    (d, 30) int64
+        Number j of each axis, times 2**30: its leading digit has the weight 2**-(j+1).
+
+    Notes
+    -----
+    Joe & Kuo 2008, Eq. (2). Of a primitive polynomial of degree s with the digits a_0 = 1, a_1 ... a_s, the
+    first s numbers m are tabulated, and m_j = 2 a_1 m_{j-1} ^ 4 a_2 m_{j-2} ^ ... ^ 2**s a_s m_{j-s} ^
+    m_{j-s}; number j is m_j / 2**(j+1).
+    """
+    with as_file(files("scipy") / NUMBERS) as path, np.load(path) as table:
+        polynomials, tabulated = table["poly"][:d].tolist(), table["vinit"][:d]
+    m = np.ones((d, MOST_BITS), dtype=np.int64)  # the first axis has no polynomial: van der Corput's
+    for axis in range(1, d):
+        degree = polynomials[axis].bit_length() - 1
+        m[axis, :degree] = tabulated[axis, :degree]
+        for j in range(degree, MOST_BITS):
+            number = m[axis, j - degree]
+            for k in range(1, degree + 1):
+                if polynomials[axis] >> (degree - k) & 1:
+                    number ^= m[axis, j - k] << k
+            m[axis, j] = number
+    return m << np.arange(MOST_BITS - 1, -1, -1)
+
+
+def unscrambled(bits: int, d: int) -> NDArray[np.int64]:
+    """Sobol's points in the order of the Gray code.
+
+    Parameters
+    ----------
+    bits : int
+        There are 2**bits of them, <= 2**30.
+    d : int
+        Dimension, at most 21,201.
+
+    Returns
+    -------
+    (2**bits, d) int64
+        Coordinates times 2**bits.
+    """
+    numbers = directions(d)[:, :bits] >> (MOST_BITS - bits)
+    points = np.zeros((1, d), dtype=np.int64)
+    for number in numbers.T:  # the second half of a Gray code is the first in reverse, with one digit more
+        points = np.concatenate([points, points[::-1] ^ number])
+    return points
 
 
 @dataclass(frozen=True)
@@ -95,19 +154,14 @@ class Sobol:
         str or None
             The reason, with the nearest numbers that can; None where they can.
         """
-        if d > MOST_DIMENSIONS:
-            return f"d must be at most {MOST_DIMENSIONS} for Sobol points; got d={d}"
-        return too_many(n, 2**MOST_BITS, "for Sobol points")
+        what = "for Sobol points"
+        return too_many_axes(d, MOST_DIMENSIONS, what) or too_many(n, 2**MOST_BITS, what)
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
-        from scipy.stats import qmc  # half a second to load, and the registry imports every generator
-
+        raise_refusal(self.refusal(n, d))
         bits = (n - 1).bit_length()
-        plain = qmc.Sobol(d, scramble=False, bits=MOST_BITS).random_base2(bits)[:n]
-        prefix = np.floor(plain * 2**bits).astype(np.int64)
+        prefix = unscrambled(bits, d)[:n]
         x = np.empty((n, d))
         for axis in range(d):
             scrambled = owen_permutation(bits, rng)[prefix[:, axis]] << (DIGITS - bits)

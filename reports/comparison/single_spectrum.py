@@ -20,6 +20,7 @@ from gbnbench.core.sides import sides_text
 from gbnbench.reports import captions, layout, style
 from gbnbench.reports.comparison import radial, spectrum
 from gbnbench.reports.comparison.loglog import ZERO
+from gbnbench.reports.log_ticks import PowersOfTen
 from gbnbench.runs.comparison_result import Run, SourceResult
 from gbnbench.runs.spectrum_files import rings_of
 
@@ -132,6 +133,7 @@ def _profile(ax: Axes, source: SourceResult) -> None:
     ax.set_yscale("log")
     ax.set_ylim(bottom, top)
     ax.yaxis.set_major_locator(LogLocator(numticks=9))
+    ax.yaxis.set_major_formatter(PowersOfTen())
     ax.yaxis.set_minor_formatter(NullFormatter())
     ax.xaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
 

@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 from gbnbench.core.results.spectrum import Spectrum
 from gbnbench.core.torus import FloatArray
 from gbnbench.reports import captions, layout, style
+from gbnbench.reports.log_ticks import PowersOfTen
 from gbnbench.reports.source_groups import Group, members
 from gbnbench.runs.comparison_result import Run, SourceResult
 
@@ -199,6 +200,8 @@ def add_colour_bar(sheet: layout.Sheet, scale: LogNorm) -> None:
     bar = sheet.figure.add_axes(
         (0.35 / width, (sheet.foot + 0.36) / height, min(3.0, width - 0.8) / width, 0.1 / height)
     )
-    sheet.figure.colorbar(ScalarMappable(scale, palette()), cax=bar, orientation="horizontal")
+    sheet.figure.colorbar(
+        ScalarMappable(scale, palette()), cax=bar, orientation="horizontal", format=PowersOfTen()
+    )
     bar.set_xlabel("power (white noise = 1)", size=7)
     bar.minorticks_off()

@@ -11,6 +11,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from gbnbench.analysis.measure_definitions import BY_NAME
 from gbnbench.reports import captions, layout, style
+from gbnbench.reports.log_ticks import PowersOfTen
 from gbnbench.reports.source_groups import Group
 from gbnbench.runs.comparison_result import Run, SourceResult
 
@@ -78,6 +79,8 @@ def panel(ax: Axes, run: Run, measure: str, logarithmic: bool) -> None:
     strokes = style.strokes(run)
     if logarithmic:
         ax.set_yscale("log")
+        ax.yaxis.set_major_formatter(PowersOfTen())
+        ax.yaxis.set_minor_formatter(PowersOfTen())
     drawn = False
     for line in lines(run).values():
         n = np.array([s.n for s in line], dtype=float)

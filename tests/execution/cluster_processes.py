@@ -41,7 +41,7 @@ class Cluster:
         self.address = json.loads(told.read_text())["address"]
 
     def worker(self, *options: object, **environment: str) -> subprocess.Popen[bytes]:
-        """Start a worker, whose environment has these variables too, and wait until it is known."""
+        """Start a worker with these variables in its environment; wait until the scheduler knows it."""
         made = self._start(
             "worker", self.address, "--nthreads", "1", "--no-nanny", "--no-dashboard", "--host", "127.0.0.1",
             "--local-directory", self.folder, *options, **environment,

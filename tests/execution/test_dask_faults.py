@@ -1,4 +1,4 @@
-"""Comparisons by a real Dask scheduler and its workers which are killed, lack a device or differ."""
+"""Comparisons by a real Dask scheduler, whose workers are killed, lack a device or have another version."""
 
 from __future__ import annotations
 

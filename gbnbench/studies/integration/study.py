@@ -15,6 +15,7 @@ from typing import Any
 from gbnbench import __version__
 from gbnbench.analysis.integration.integrands.registry import find as find_family
 from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.least_values import require
 from gbnbench.core.settings import specification
 from gbnbench.core.sides import as_sides
 from gbnbench.execution.progress import Progress
@@ -26,7 +27,7 @@ from gbnbench.runs.resumable_folder import explain_interruption
 from gbnbench.runs.sources import Source, resolve
 from gbnbench.studies.drawing import failure_of
 from gbnbench.studies.integration.blocks import tasks_of
-from gbnbench.studies.integration.requirements import require, served
+from gbnbench.studies.integration.requirements import served
 from gbnbench.studies.integration.study_folder import IntegrationStudy, StudyFolder, read_integration
 from gbnbench.studies.integration.tables import gather, tables
 

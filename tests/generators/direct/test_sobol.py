@@ -8,7 +8,14 @@ import numpy as np
 import pytest
 from scipy.stats import chisquare, kstest, qmc
 
-from gbnbench.generators.direct.sobol import Sobol, owen_permutation
+from gbnbench.generators.direct.sobol import (
+    MOST_BITS,
+    MOST_DIMENSIONS,
+    Sobol,
+    directions,
+    owen_permutation,
+    unscrambled,
+)
 from gbnbench.generators.registry import generate
 from tests.oracles.power import direct_power, half_space
 
@@ -19,6 +26,17 @@ def test_every_elementary_interval_holds_one_point_in_2d(m: int) -> None:
         for k in range(m + 1):
             cell = np.floor(x * [2**k, 2 ** (m - k)]) @ [2 ** (m - k), 1]
             assert np.array_equal(np.sort(cell), np.arange(2**m))
+
+
+@pytest.mark.parametrize(("bits", "d"), [(0, 1), (1, 2), (10, 2), (7, 40), (3, 1000), (13, 3)])
+def test_unscrambled_points_are_those_of_scipy(bits: int, d: int) -> None:
+    theirs = qmc.Sobol(d, scramble=False, bits=MOST_BITS).random_base2(bits)
+    assert np.array_equal(unscrambled(bits, d) * 2.0**-bits, theirs)
+
+
+def test_all_direction_numbers_are_those_of_scipy() -> None:
+    theirs = qmc.Sobol(MOST_DIMENSIONS, scramble=False, bits=MOST_BITS)._sv
+    assert np.array_equal(directions(MOST_DIMENSIONS), theirs)
 
 
 @pytest.mark.parametrize("d", [1, 5, 40])
