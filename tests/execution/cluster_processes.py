@@ -15,7 +15,7 @@ from typing import Any
 from gbnbench.execution.worker_pool import ONE_THREAD
 from tests.processes import COMMAND
 
-ASKED = ["compare", "gbn[gradients=1500]", "-n", "256", "--realizations", "20", "--quiet"]
+ASKED = ["compare", "gbn[gradients=400]", "-n", "256", "--realizations", "20", "--quiet"]
 
 
 class Cluster:
@@ -110,7 +110,7 @@ def sums(out: Path) -> dict[str, str]:
     return {name: digest for name, digest in held.items() if not name.endswith("source.json")}
 
 
-def until(true: Callable[[], Any], seconds: float = 120) -> None:
+def until(true: Callable[[], Any], seconds: float = 400) -> None:
     """Wait until something is true."""
     deadline = time.monotonic() + seconds
     while not true():

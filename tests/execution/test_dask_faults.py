@@ -28,7 +28,7 @@ def test_a_worker_that_is_killed_costs_nothing_but_time(alone: Path, tmp_path: P
         victim = workers.worker()
         process = spread(workers.address, out)
         until(lambda: finished_pieces(out) >= 3)
-        victim.kill()
+        workers.lose(victim)
         code, said = ended(process)
     assert code == 0, said
     assert sums(out) == sums(alone)
@@ -40,8 +40,7 @@ def test_all_workers_killed_and_new_ones_go_on_where_they_were(alone: Path, tmp_
         victims = [workers.worker(), workers.worker()]
         process = spread(workers.address, out)
         until(lambda: finished_pieces(out) >= 3)
-        for victim in victims:
-            victim.kill()
+        workers.lose(*victims)
         code, said = ended(process)
         assert code == 2, said
         assert "there has been no worker at the Dask scheduler" in said
