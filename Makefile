@@ -3,12 +3,16 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: compare test test-slow test-all docs lint types wheel clean
+.PHONY: compare test test-slow test-all docs lint types mypy pyright wheel clean
+
+# Processes of the tests start faster where bytecode is kept, which images of containers often turn off.
+unexport PYTHONDONTWRITEBYTECODE
 
 compare: $(VENV)/.installed
 	$(BIN)/gbnbench compare $(ARGS)
 
-PYTEST := $(BIN)/python -m pytest -n auto --dist loadfile
+# Files are dealt out whole, in the order of tests/conftest.py.
+PYTEST := $(BIN)/python -m pytest -n auto --dist loadfile --no-loadscope-reorder
 
 # The everyday loop; test-slow is the rest, and test-all is both.
 test: $(VENV)/.installed
@@ -30,8 +34,12 @@ lint: $(VENV)/.installed
 	$(BIN)/ruff format --check .
 	$(BIN)/lint-imports
 
-types: $(VENV)/.installed
+types: mypy pyright
+
+mypy: $(VENV)/.installed
 	$(BIN)/mypy
+
+pyright: $(VENV)/.installed
 	$(BIN)/pyright
 
 wheel: $(VENV)/.installed

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 
-from gbnbench.analysis.set_powers import SetPowers, ball_powers, box_ball_powers, box_powers, cube_powers
+from gbnbench.analysis.frequency_region import FrequencyRegion
+from gbnbench.analysis.realization_pieces import kept_groups
 from gbnbench.analysis.spectrum.ball_power import half_band
 from gbnbench.analysis.spectrum.box_shells import harmonics_within
 from gbnbench.analysis.spectrum.limits import (
@@ -25,19 +26,20 @@ from gbnbench.analysis.spectrum.listed_shells import (
 )
 from gbnbench.core.errors import InputError
 from gbnbench.core.sides import Sides
-from gbnbench.core.torus import FloatArray
 
 SHORTER = 0.9  # factor by which the radius of a ball is lowered until its frequencies are affordable
-MOST_CUBE = 1 << 28  # powers of all sets together: 2 GB; beyond it a ball is listed
+MOST_CUBE = 1 << 28  # powers that are kept together: 2 GB; beyond it a ball is listed
 
 
-def set_powers(points: FloatArray, fmax: int | None, sides: Sides | None = None) -> SetPowers:
-    """Evaluate the cube of every set where that is affordable, and the shells of a ball where it is not.
+def near_region(
+    n: int, d: int, realizations: int, fmax: int | None, sides: Sides | None = None
+) -> FrequencyRegion:
+    """Choose the cube where that is affordable, and a ball where it is not.
 
     Parameters
     ----------
-    points : (realizations, n, d) float64
-        Checked points.
+    n, d, realizations : int
+        Points of a set, dimension, and number of sets.
     fmax : int or None
         Largest harmonic on each axis, or radius of the ball; None for the default.
     sides : tuple of d floats, optional
@@ -45,47 +47,45 @@ def set_powers(points: FloatArray, fmax: int | None, sides: Sides | None = None)
 
     Returns
     -------
-    SetPowers
+    FrequencyRegion
 
     Raises
     ------
     InputError
         If fmax is no positive integer, or neither its cube nor its ball can be held.
     """
-    realizations, n, d = points.shape
+    kept = kept_groups(realizations)
     if sides is not None:
-        return _box_or_ball(points, fmax, sides)
+        return _box_or_ball(n, d, kept, fmax, sides)
     if fmax is None:
-        cube = default_fmax(n, d, realizations)
-        if realizations * (2 * cube + 1) ** d <= MOST_CUBE and cube_fits(cube, d):
-            return cube_powers(points, cube)
-        return ball_powers(points, affordable_square(n, d, realizations))
+        cube = default_fmax(n, d, kept)
+        if kept * (2 * cube + 1) ** d <= MOST_CUBE and cube_fits(cube, d):
+            return FrequencyRegion("cube", cube, d)
+        return FrequencyRegion("ball", affordable_square(n, d, kept), d)
     f = check_positive(fmax)
     if cube_fits(f, d):
-        return cube_powers(points, f)
+        return FrequencyRegion("cube", check_fmax(f, d), d)
     if largest_square(d, 2 * MOST_COORDINATES // d, f * f) < f * f:
         check_fmax(f, d)  # says what would fit
-    return ball_powers(points, f * f)
+    return FrequencyRegion("ball", f * f, d)
 
 
-def _box_or_ball(points: FloatArray, fmax: int | None, sides: Sides) -> SetPowers:
-    """Evaluate the box round the ball |k| <= fmax, or the ball alone where that reaches farther."""
-    realizations, n, d = points.shape
+def _box_or_ball(n: int, d: int, kept: int, fmax: int | None, sides: Sides) -> FrequencyRegion:
+    """Choose the box round the ball |k| <= fmax, or the ball alone where that reaches farther."""
     if fmax is not None:
         radius = check_positive(fmax)
-        if realizations * _box_size(radius, sides) <= MOST_CUBE:
-            return box_powers(points, radius, sides)
-        return box_ball_powers(points, float(radius), sides)
-    radius = default_radius(n, d, realizations, sides)
-    boxed = realizations * _box_size(radius, sides) <= MOST_CUBE and radius > math.pow(n, 1 / d)
+        boxed = kept * _box_size(radius, sides) <= MOST_CUBE
+        return FrequencyRegion("cube" if boxed else "ball", radius, d, sides)
+    radius = default_radius(n, d, kept, sides)
+    boxed = kept * _box_size(radius, sides) <= MOST_CUBE and radius > math.pow(n, 1 / d)
     if boxed and _box_size(radius, sides) <= MOST_FREQUENCIES:
-        return box_powers(points, radius, sides)
+        return FrequencyRegion("cube", radius, d, sides)
     lowest = 1 / max(sides)
-    most = min(MOST_COORDINATES / d, MOST_TERMS / (n * d), MOST_KEPT / realizations)
+    most = min(MOST_COORDINATES / d, MOST_TERMS / (n * d), MOST_KEPT / kept)
     reach = LARGEST_NU * math.pow(n, 1 / d) + 1
     while reach > lowest and not _affordable(reach, sides, most):
         reach *= SHORTER
-    return box_ball_powers(points, max(reach, lowest), sides)
+    return FrequencyRegion("ball", max(reach, lowest), d, sides)
 
 
 def _box_size(radius: float, sides: Sides) -> int:
@@ -99,23 +99,23 @@ def _affordable(radius: float, sides: Sides, most: float) -> bool:
         return False
 
 
-def farther_powers(points: FloatArray, near: SetPowers) -> SetPowers | None:
-    """Evaluate the shells of a ball that reaches beyond a default cube.
+def farther_region(n: int, realizations: int, near: FrequencyRegion) -> FrequencyRegion | None:
+    """Choose the ball whose shells reach beyond a default cube.
 
     Parameters
     ----------
-    points : (realizations, n, d) float64
-        Checked points.
-    near : SetPowers
-        Power at the frequencies of the cube.
+    n, realizations : int
+        Points of a set, and number of sets.
+    near : FrequencyRegion
+        The cube.
 
     Returns
     -------
-    SetPowers or None
+    FrequencyRegion or None
         None where no such ball is affordable, and for unequal sides.
     """
-    if near.spectrum.sides is not None:
+    if near.sides is not None:
         return None
-    realizations, n, d = points.shape
-    most = affordable_square(n, d, realizations)
-    return ball_powers(points, most) if most > max(near.most, near.spectrum.fmax**2) else None
+    most = affordable_square(n, near.d, kept_groups(realizations))
+    reached = near.reach if near.listed else near.reach**2
+    return FrequencyRegion("ball", most, near.d) if most > max(near.most, reached) else None

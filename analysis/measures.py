@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeVar
 
+import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gbnbench.analysis.measuring_plan import MeasuringPlan
+from gbnbench.analysis.outcomes import Arrays, is_refused
+from gbnbench.analysis.piece_measures import measure_piece
 from gbnbench.analysis.radial.border_warning import border_warnings
 from gbnbench.analysis.scalars import Scalars
-from gbnbench.analysis.spatial.rdf import RadialDistribution, rdf
-from gbnbench.analysis.spatial.valence import Valence, valence
-from gbnbench.analysis.spatial.zone_plate import zone_plate
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.results.measures import Measures
 from gbnbench.core.results.radial import RadialPower
@@ -68,8 +69,8 @@ class AnalysisArrays:
     spectrum: Spectrum
     radial: RadialPower
     anisotropy: dict[str, NDArray[Any]]
-    rdf: RadialDistribution | None
-    valence: Valence | None
+    rdf: dict[str, NDArray[Any]] | None
+    valence: dict[str, NDArray[Any]] | None
     zone_plate: FloatArray | None
     measures: Measures
     warnings: tuple[str, ...]
@@ -80,8 +81,8 @@ class AnalysisArrays:
 
         tables = {
             "anisotropy": pd.DataFrame(self.anisotropy),
-            "rdf": None if self.rdf is None else self.rdf.to_frame(),
-            "valence": None if self.valence is None else self.valence.to_frame(),
+            "rdf": None if self.rdf is None else pd.DataFrame(self.rdf),
+            "valence": None if self.valence is None else pd.DataFrame(self.valence),
         }
         return Analysis(**{**vars(self), **tables})
 
@@ -147,7 +148,8 @@ def measures(
     """
     points = as_realizations(x)
     with use_device(device):
-        return Scalars(points, fmax, as_sides(sides, points.shape[2])).measures()
+        plan = _plan(points, fmax, sides, curves=False)
+        return Scalars(plan, _pieces(points, plan)).measures()
 
 
 def analyse(x: ArrayLike, fmax: int | None = None, sides: ArrayLike | None = None) -> Analysis:
@@ -183,19 +185,61 @@ def analyse_to_arrays(
     Parameters, and what is raised, are those of ``analyse``.
     """
     points = as_realizations(x)
-    lengths = as_sides(sides, points.shape[2])
-    scalars = Scalars(points, fmax, lengths)
-    found = scalars.measures()  # first: it may take the shells farther
+    plan = _plan(points, fmax, sides)
+    return merged_analysis(plan, _pieces(points, plan))
+
+
+def merged_analysis(plan: MeasuringPlan, pieces: Sequence[Arrays]) -> AnalysisArrays:
+    """Put together everything that was measured of the pieces of a source.
+
+    Parameters
+    ----------
+    plan : MeasuringPlan
+        Of the source.
+    pieces : sequence of mapping
+        As ``measure_piece`` returns them, all, in the order of the sets.
+
+    Returns
+    -------
+    AnalysisArrays
+        The same bits wherever and whenever the pieces were made.
+    """
+    scalars = Scalars(plan, pieces)
     return AnalysisArrays(
         spectrum=scalars.spectrum,
         radial=scalars.radial,
         anisotropy=scalars.anisotropy(),
-        rdf=_unless_refused(lambda: rdf(points, lengths)),
-        valence=_unless_refused(lambda: valence(scalars.neighbours())),
-        zone_plate=_unless_refused(lambda: zone_plate(points, sides=lengths)),
-        measures=found,
+        rdf=_unless_refused(lambda: _mean_rdf(scalars.outcomes("rdf"), plan.realizations)),
+        valence=_unless_refused(lambda: _mean_valence(scalars.outcomes("valence"), plan.realizations)),
+        zone_plate=None if is_refused(pieces[0]["zone_plate"]) else pieces[0]["zone_plate"],
+        measures=scalars.measures(),
         warnings=border_warnings(scalars.spectrum, scalars.radial),
     )
+
+
+def _plan(
+    points: FloatArray, fmax: int | None, sides: ArrayLike | None, *, curves: bool = True
+) -> MeasuringPlan:
+    realizations, n, d = points.shape
+    return MeasuringPlan(n, d, realizations, fmax, as_sides(sides, d), curves)
+
+
+def _pieces(points: FloatArray, plan: MeasuringPlan) -> list[dict[str, NDArray[Any]]]:
+    return [measure_piece(points[k : k + count], plan, k) for k, count in plan.pieces]
+
+
+def _mean_rdf(sums: Sequence[NDArray[Any]], realizations: int) -> dict[str, NDArray[Any]]:
+    """Columns r, g, of the edges and sums of the pieces."""
+    return {"r": sums[0][0], "g": np.sum([piece[1] for piece in sums], axis=0) / realizations}
+
+
+def _mean_valence(sums: Sequence[NDArray[Any]], realizations: int) -> dict[str, NDArray[Any]]:
+    """Columns degree, share, of the degrees that occur in each piece and the sums of their shares."""
+    low, high = (int(end(end(piece[0]) for piece in sums)) for end in (min, max))
+    total = np.zeros(high - low + 1)
+    for degree, share in sums:
+        total[int(degree[0]) - low :][: len(degree)] += share
+    return {"degree": np.arange(low, high + 1, dtype=np.intp), "share": total / realizations}
 
 
 def _unless_refused(compute: Callable[[], Result]) -> Result | None:

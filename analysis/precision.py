@@ -14,7 +14,7 @@ from gbnbench.core.torus import FloatArray, fixed_point
 from gbnbench.opencl import Program, Runtime, devices_present, runtime
 
 SUM_POINTS = 128  # points that a lane sums in registers, at most, before these sums are added up in double
-SUM_BYTES = 4096  # of these in all lanes, so that the rows' tables of a product stay in the first cache
+SUM_BYTES = 4096  # of these in all lanes, so that they stay in the first cache
 PACKAGE = "gbnbench.analysis"
 PrecisionName = Literal["double", "float"]
 
@@ -61,6 +61,13 @@ class Precision:
     def sum(self) -> type[np.floating[Any]]:
         """Type in which register sums are added up: double wherever the device has it."""
         return np.float64 if self.runtime.device.has_double else np.float32
+
+    @property
+    def sum_lanes(self) -> int:
+        """Width of vectors of ``sum``, of which at most four make one of ``real``."""
+        if self.real is self.sum:
+            return self.lanes
+        return max(min(self.lanes, self.runtime.lanes("double")), self.lanes // 4)
 
     def program(self, *files: str, **defines: object) -> Program:
         """Build kernel files of the analysis for this precision.

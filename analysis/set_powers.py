@@ -1,47 +1,65 @@
-"""Power of every set at the frequencies of a cube, or of a ball that is listed, with their exact shells."""
+"""Power of the sets of a source over a region of frequencies: measured by pieces, then put together."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.analysis.radial.radial_power import mean_over_groups, shells_of
-from gbnbench.analysis.spectrum.ball_power import half_band
-from gbnbench.analysis.spectrum.box_shells import listed_box_shells, pooled
-from gbnbench.analysis.spectrum.listed_shells import (
-    half_ball,
-)
-from gbnbench.analysis.spectrum.periodogram import each_listed_power, each_power
-from gbnbench.analysis.spectrum.shells import Shells, exact_shells, listed_shells, squared_radius
+from gbnbench.analysis.frequency_region import FrequencyRegion
+from gbnbench.analysis.outcomes import Arrays, outcome
+from gbnbench.analysis.radial.profile_measures import evacuated_energy, evacuated_energy_of_ball
+from gbnbench.analysis.radial.radial_power import mean_over_groups
+from gbnbench.analysis.spectrum.power_of_each import averaged
+from gbnbench.analysis.spectrum.shells import Shells
 from gbnbench.core.results.radial import RadialPower, ShellSpectrum
 from gbnbench.core.results.spectrum import Spectrum
-from gbnbench.core.sides import Sides, squared_lengths
 from gbnbench.core.torus import FloatArray
+
+OF_SPECTRUM = ("fmax", "precision", "method", "device", "error_rms", "error_bound")
 
 
 @dataclass(frozen=True)
 class SetPowers:
-    """Power of every set, and its mean, at the frequencies of a cube or of one half of a ball.
+    """What is kept of the power of every set of a source, and its mean.
 
     Attributes
     ----------
-    powers : (realizations, ...) float64
-        Of each set: cubes, or (m,) at listed frequencies.
+    region : FrequencyRegion
+        The frequencies.
     spectrum : Spectrum
         Mean over the sets.
-    shells : Shells
-        Exact shells of these frequencies.
-    most : float
-        Largest |f|^2, or |k|^2 for unequal sides, of which every frequency is there.
+    rows, full_rows : (realizations, shells) float64
+        Mean power of every set on each exact and on each full shell.
+    groups : (groups, ...) float64
+        Sums of the power over consecutive groups of sets, at every frequency; the last may be of fewer.
+    group : int
+        Sets of a group.
+    energies : tuple of array
+        Evacuated energy of each set, or its refusal: outcomes of the pieces.
     """
 
-    powers: FloatArray
+    region: FrequencyRegion
     spectrum: Spectrum
-    shells: Shells
-    most: float
+    rows: FloatArray
+    full_rows: FloatArray
+    groups: FloatArray
+    group: int
+    energies: tuple[NDArray[Any], ...]
+
+    @property
+    def shells(self) -> Shells:
+        """Exact shells of the frequencies."""
+        return self.region.shells
+
+    @property
+    def full_shells(self) -> Shells:
+        """Shells with frequencies enough for a mean and a spread: pooled ones where sides are unequal."""
+        return self.region.full_shells
 
     @cached_property
     def radial(self) -> RadialPower:
@@ -49,36 +67,11 @@ class SetPowers:
         return mean_over_groups(self.spectrum.power, self.shells, self.spectrum.spacing)
 
     @cached_property
-    def full_shells(self) -> Shells:
-        """Shells with frequencies enough for a mean and a spread: pooled ones where sides are unequal."""
-        return self.shells if self.spectrum.sides is None else pooled(self.shells, self.spectrum.d)
-
-    @cached_property
     def profile(self) -> RadialPower:
         """Mean power of every full shell."""
         if self.spectrum.sides is None:
             return self.radial
         return mean_over_groups(self.spectrum.power, self.full_shells, self.spectrum.spacing)
-
-    @property
-    def listed(self) -> bool:
-        """Whether the frequencies are listed, and of f and -f only one is there."""
-        return self.spectrum.frequencies is not None
-
-    @property
-    def square(self) -> NDArray[np.int64] | FloatArray:
-        """|f|^2 or |k|^2 of every frequency, in the order of a set's flattened powers."""
-        f, sides = self.spectrum.frequencies, self.spectrum.sides
-        if sides is not None:
-            return (
-                squared_lengths(self.spectrum.harmonics, sides).ravel()
-                if f is None
-                else ((f / np.array(sides)) ** 2).sum(axis=1)
-            )
-        if f is None:
-            return squared_radius(self.spectrum.fmax, self.spectrum.d)
-        squares: NDArray[np.int64] = (f * f).sum(axis=1)
-        return squares
 
     def shell_spectrum(self) -> ShellSpectrum:
         """Mean and spread of every shell."""
@@ -97,86 +90,111 @@ class SetPowers:
         )
 
 
-def cube_powers(points: FloatArray, fmax: int) -> SetPowers:
-    """Evaluate the cube of every set.
+def measured_powers(points: FloatArray, region: FrequencyRegion, group: int) -> dict[str, NDArray[Any]]:
+    """Evaluate the power of the sets of a piece, and keep what ``merged_powers`` needs of it.
 
     Parameters
     ----------
-    points : (realizations, n, d) float64
+    points : (sets, n, d) float64
         Checked points.
-    fmax : int
-        Checked by ``check_fmax``.
+    region : FrequencyRegion
+        At which frequencies.
+    group : int
+        Sets of a group, as ``group_size`` gives them.
+
+    Returns
+    -------
+    dict of arrays
+        ``rows``, ``full_rows`` (for unequal sides), ``groups``, ``energies``, and what a spectrum says of how
+        it was found.
+    """
+    powers, first = region.powers(points)
+    n, d = points.shape[1:]
+    kept: dict[str, NDArray[Any]] = {
+        "rows": np.stack([region.shells.mean(power) for power in powers]),
+        "groups": powers
+        if group == 1
+        else np.stack([powers[k : k + group].sum(axis=0) for k in range(0, len(powers), group)]),
+        "energies": outcome(lambda: [_energy(power, region, n, d) for power in powers]),
+    }
+    if region.sides is not None:
+        kept["full_rows"] = np.stack([region.full_shells.mean(power) for power in powers])
+    return kept | {name: np.asarray(getattr(first, name)) for name in OF_SPECTRUM}
+
+
+def merged_powers(pieces: Sequence[Arrays], region: FrequencyRegion, group: int, n: int) -> SetPowers:
+    """Put together what was kept of the pieces of a source.
+
+    Parameters
+    ----------
+    pieces : sequence of mapping
+        As ``measured_powers`` returns them, in the order of the sets.
+    region : FrequencyRegion
+        The same.
+    group : int
+        The same.
+    n : int
+        Points of a set.
 
     Returns
     -------
     SetPowers
+        The same bits wherever and whenever the pieces were made: sums are taken in their order.
     """
-    powers, spectrum = each_power(points, fmax)
-    shells = exact_shells(fmax, points.shape[2])
-    # Every |f|^2 up to this has all its frequencies within the cube.
-    return SetPowers(powers, spectrum, shells, (fmax + 1) ** 2 - 1)
+    rows = np.concatenate([piece["rows"] for piece in pieces])
+    groups = _grouped(pieces, group)
+    first = Spectrum(
+        groups[0],
+        n=n,
+        d=region.d,
+        realizations=1,
+        fmax=int(pieces[0]["fmax"]),
+        frequencies=region.frequencies,
+        precision=_words(pieces, "precision"),
+        method=_words(pieces, "method"),
+        device=_words(pieces, "device"),
+        error_rms=max(float(piece["error_rms"]) for piece in pieces),
+        error_bound=max(float(piece["error_bound"]) for piece in pieces),
+        sides=region.sides,
+    )
+    return SetPowers(
+        region=region,
+        spectrum=averaged(first, groups.sum(axis=0) / len(rows), len(rows)),
+        rows=rows,
+        full_rows=rows if region.sides is None else np.concatenate([piece["full_rows"] for piece in pieces]),
+        groups=groups,
+        group=group,
+        energies=tuple(piece["energies"] for piece in pieces),
+    )
 
 
-def ball_powers(points: FloatArray, most: int) -> SetPowers:
-    """Evaluate one half of the ball |f|^2 <= most of every set, listed frequency by frequency.
-
-    Parameters
-    ----------
-    points : (realizations, n, d) float64
-        Checked points.
-    most : int
-        Largest |f|^2.
-
-    Returns
-    -------
-    SetPowers
-    """
-    square, frequencies = half_ball(points.shape[2], most)
-    powers, spectrum = each_listed_power(points, frequencies)
-    return SetPowers(powers, spectrum, listed_shells(square), most)
+def one_set(powers: SetPowers) -> SetPowers:
+    """Return the same as if the first set, or group, were all: what it is too short for, they all are."""
+    few = replace(powers.spectrum, realizations=1)
+    return replace(powers, spectrum=few, rows=powers.rows[:1], full_rows=powers.full_rows[:1])
 
 
-def box_powers(points: FloatArray, radius: int, sides: Sides) -> SetPowers:
-    """Evaluate the box of every set that holds the ball |k| <= radius, the torus having unequal sides.
-
-    Parameters
-    ----------
-    points : (realizations, n, d) float64
-        Checked points.
-    radius : int
-        Largest |k|.
-    sides : tuple of d floats
-        As ``as_sides`` returns them.
-
-    Returns
-    -------
-    SetPowers
-    """
-    powers, spectrum = each_power(points, radius, sides=sides)
-    return SetPowers(powers, spectrum, shells_of(spectrum), float(radius) ** 2)
+def _words(pieces: Sequence[Arrays], name: str) -> str:
+    """Join what pieces say, where they differ."""
+    return ", ".join(dict.fromkeys(str(piece[name]) for piece in pieces))
 
 
-def box_ball_powers(points: FloatArray, radius: float, sides: Sides) -> SetPowers:
-    """Evaluate one half of the ball |k| <= radius of every set, listed frequency by frequency.
+def _grouped(pieces: Sequence[Arrays], group: int) -> FloatArray:
+    """List the groups; where a group is larger than a piece, consecutive pieces are its parts."""
+    size = len(pieces[0]["rows"])
+    if group <= size:
+        return np.concatenate([piece["groups"] for piece in pieces])
+    many = group // size
+    return np.stack(
+        [
+            np.sum([piece["groups"][0] for piece in pieces[k : k + many]], axis=0)
+            for k in range(0, len(pieces), many)
+        ]
+    )
 
-    Parameters
-    ----------
-    points : (realizations, n, d) float64
-        Checked points.
-    radius : float
-        Largest |k|.
-    sides : tuple of d floats
-        As ``as_sides`` returns them.
 
-    Returns
-    -------
-    SetPowers
-
-    Raises
-    ------
-    InputError
-        If no frequency lies within the ball, or too many.
-    """
-    frequencies, square = half_band((0.0, radius), sides)
-    powers, spectrum = each_listed_power(points, frequencies, sides=sides)
-    return SetPowers(powers, spectrum, listed_box_shells(square), radius**2)
+def _energy(power: FloatArray, region: FrequencyRegion, n: int, d: int) -> float:
+    """Evacuated energy of one set."""
+    if region.listed:
+        return evacuated_energy_of_ball(power, region.square, n, d, region.most if region.sides else None)
+    return evacuated_energy(power, n, d, int(region.reach), region.sides)

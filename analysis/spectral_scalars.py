@@ -8,10 +8,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from gbnbench.analysis.outcomes import values_of
 from gbnbench.analysis.radial.anisotropy import anisotropy_db
 from gbnbench.analysis.radial.profile_measures import (
-    evacuated_energy,
-    evacuated_energy_of_ball,
     exponential_fit,
     noise_floor,
     peak,
@@ -19,7 +18,6 @@ from gbnbench.analysis.radial.profile_measures import (
     powerlaw_fit,
 )
 from gbnbench.analysis.set_powers import SetPowers
-from gbnbench.analysis.spectrum.shells import Shells
 from gbnbench.analysis.standard_errors import Estimate, jackknife, left_out_sums, mean_over_sets
 from gbnbench.core.results.radial import RadialPower
 from gbnbench.core.torus import FloatArray
@@ -33,7 +31,7 @@ def spectral_scalars(powers: SetPowers) -> Entries:
     Parameters
     ----------
     powers : SetPowers
-        Power of every set, in a cube or a ball.
+        Of the sets of a source, in a cube or a ball.
 
     Returns
     -------
@@ -42,14 +40,9 @@ def spectral_scalars(powers: SetPowers) -> Entries:
         RefusalError where they are undefined, ShortSpectrumError where the spectrum ends too early. A new
         measure is one more entry.
     """
-
-    def rows_of(shells: Shells) -> FloatArray:
-        return np.stack([shells.mean(power) for power in powers.powers])
-
-    rows = rows_of(powers.shells)
-    full_rows = rows if powers.full_shells is powers.shells else rows_of(powers.full_shells)
+    rows = powers.rows
+    full_rows = powers.full_rows
     realizations, spacing = len(rows), powers.spectrum.spacing
-    n, d = powers.spectrum.n, powers.spectrum.d
 
     def profile(
         compute: Callable[[RadialPower], Sequence[float]], *, full: bool = False
@@ -68,21 +61,17 @@ def spectral_scalars(powers: SetPowers) -> Entries:
         def decibels(power: FloatArray, sets: int) -> list[float]:
             return [anisotropy_db(power, powers.full_shells, sets, spacing)]
 
-        # Left-out spectra read -10 log10(M - 1): the same shift for each, so the spread is not touched.
-        rest = realizations - 1
-        others = (decibels(total / rest, rest) for total in left_out_sums(powers.powers))
-        return jackknife(decibels(powers.spectrum.power, realizations), others, realizations)
+        # Left-out spectra read -10 log10(M - m): the same shift for each, so the spread is not touched.
+        size = powers.group
+        whole, rest = realizations // size, realizations - size
+        others = (
+            decibels(total / rest, rest)
+            for total in left_out_sums(powers.groups[:whole], powers.groups[whole:].sum(axis=0))
+        )
+        return jackknife(decibels(powers.spectrum.power, realizations), others, realizations, size)
 
     def energy() -> list[Estimate]:
-        each = [
-            evacuated_energy_of_ball(
-                power, powers.square, n, d, powers.most if powers.spectrum.sides else None
-            )
-            if powers.listed
-            else evacuated_energy(power, n, d, powers.spectrum.fmax, powers.spectrum.sides)
-            for power in powers.powers
-        ]
-        return [mean_over_sets(np.array(each))]
+        return [mean_over_sets(np.concatenate(values_of(powers.energies)))]
 
     def exponential(radial: RadialPower) -> Sequence[float]:
         fit = exponential_fit(radial)

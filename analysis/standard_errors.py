@@ -37,13 +37,15 @@ def sample_variance(values: FloatArray) -> FloatArray:
     return np.asarray(np.sum(away * away, axis=0) / (len(values) - 1))
 
 
-def left_out_sums(values: FloatArray) -> Iterator[FloatArray]:
+def left_out_sums(values: FloatArray, always: FloatArray | None = None) -> Iterator[FloatArray]:
     """Sum over the first axis without each entry in turn.
 
     Parameters
     ----------
     values : (m, ...) float64
         What is summed.
+    always : (...) float64, optional
+        Added to each sum.
 
     Yields
     ------
@@ -51,7 +53,7 @@ def left_out_sums(values: FloatArray) -> Iterator[FloatArray]:
         The sum of all others, by additions alone: the total less the entry would lose the others' digits
         where the entry is far larger than they are. Log2 m sums are held at once.
     """
-    yield from _others(values, np.zeros(values.shape[1:]))
+    yield from _others(values, np.zeros(values.shape[1:]) if always is None else always)
 
 
 def _others(values: FloatArray, outside: FloatArray) -> Iterator[FloatArray]:
@@ -64,7 +66,7 @@ def _others(values: FloatArray, outside: FloatArray) -> Iterator[FloatArray]:
 
 
 def jackknife(
-    whole: Sequence[float], left_out: Iterable[Sequence[float]], realizations: int
+    whole: Sequence[float], left_out: Iterable[Sequence[float]], realizations: int, group: int = 1
 ) -> list[Estimate]:
     """Attach standard errors by the jackknife to measures of the mean spectrum.
 
@@ -73,9 +75,12 @@ def jackknife(
     whole : sequence of float
         The measures of the mean over all sets.
     left_out : iterable of sequences of float
-        The same measures of the mean over all sets but the k-th, for each k; not touched for a single set.
+        The same measures of the mean over all sets but the k-th, or the k-th group, for each k; not touched
+        for a single set.
     realizations : int
         M, the number of sets.
+    group : int
+        m, the number of sets of a group. Sets that are in no whole group are never left out.
 
     Returns
     -------
@@ -84,15 +89,17 @@ def jackknife(
 
     Notes
     -----
-    error^2 = (M - 1)/M times the sum over k of (v_k - mean of v)^2, v_k being the measure without set k.
+    error^2 = (M - m)^2/(m M) times the sample variance of the v_k, v_k being the measure without group k. For
+    single sets this is (M - 1)/M times the sum over k of (v_k - mean of v)^2.
 
     References
     ----------
-    Efron, "The jackknife, the bootstrap and other resampling plans", SIAM, 1982.
+    Efron, "The jackknife, the bootstrap and other resampling plans", SIAM, 1982. Groups: Shao & Tu, "The
+    jackknife and bootstrap", Springer, 1995, Sec. 2.3.
     """
     if realizations < 2:
         return [(float(value), math.nan) for value in whole]
     with np.errstate(invalid="ignore"):  # an infinite value has no spread
         variance = sample_variance(np.array(list(left_out)))
-    spread = (realizations - 1) / math.sqrt(realizations) * np.sqrt(variance)
+    spread = (realizations - group) / math.sqrt(group * realizations) * np.sqrt(variance)
     return [(float(value), float(error)) for value, error in zip(whole, spread, strict=True)]

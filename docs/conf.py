@@ -1,5 +1,6 @@
 """Sphinx: the pages and the reference, from docstrings and from the command itself, as one site."""
 
+import logging
 import os
 import re
 import sys
@@ -26,6 +27,7 @@ extensions = [
     "sphinx.ext.autodoc",
     "sphinx.ext.autosummary",
     "sphinx_click",
+    "sphinx_gallery.gen_gallery",
 ]
 # The tutorial's kernel serves this build alone: that its sockets are not encrypted is no news.
 _IPYTHON = tempfile.TemporaryDirectory()
@@ -35,7 +37,22 @@ _PROFILE.mkdir()
 os.environ["IPYTHONDIR"] = _IPYTHON.name
 
 smartquotes = False  # two hyphens before an option are two hyphens
-exclude_patterns = ["extensions"]
+exclude_patterns = ["extensions", "examples", "gallery/*.ipynb", "sg_execution_times.rst"]
+
+# The examples run in every build, and one that fails ends it. What other packages log there is no warning.
+for package in ("MDAnalysis", "freud"):
+    logging.getLogger(package).setLevel(logging.ERROR)
+sphinx_gallery_conf = {
+    "examples_dirs": ["examples"],
+    "gallery_dirs": ["gallery"],
+    "abort_on_example_error": True,
+    "capture_repr": (),
+    "download_all_examples": False,
+    "min_reported_time": 3600,
+    "show_memory": False,
+    "show_signature": False,
+    "write_computation_times": False,
+}
 
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3

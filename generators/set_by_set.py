@@ -8,9 +8,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.monitor import Monitor, refuse_all_but_progress
+from gbnbench.generators.ranges import raise_refusal
 
 PARTS = 1000  # of a set, in which its progress is told
 
@@ -79,8 +79,7 @@ class SetBySet(ABC):
             Where ``refusal`` has a reason.
         """
         refuse_all_but_progress(monitor, self.name)
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+        raise_refusal(self.refusal(n, d))
         sets = []
         for k, rng in enumerate(rngs):
             told = self._told(monitor, k, len(rngs))

@@ -11,7 +11,7 @@ class _TicksOnDemand(Axis):
 
     def reset_ticks(self) -> None:
         """Forget the ticks."""
-        self.majorTicks, self.minorTicks = [], []
+        self.majorTicks, self.minorTicks = [], []  # pyright: ignore[reportAttributeAccessIssue]
 
     def _get_ticks_position(self) -> int | str:
         """Tell on which sides the ticks are, from the first of each kind."""
@@ -21,7 +21,7 @@ class _TicksOnDemand(Axis):
 
     def _get_tick(self, major: bool) -> Tick:
         """Make a tick whose grid line ends at the frame."""
-        tick: Tick = super()._get_tick(major)  # type: ignore[misc]
+        tick: Tick = super()._get_tick(major)  # type: ignore[misc]  # of XAxis or YAxis
         tick.set_clip_path(self.axes.patch)
         return tick
 

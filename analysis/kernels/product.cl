@@ -1,68 +1,37 @@
-/* Amplitudes F(fa, fb) and F(fa, -fb) from the tables of two groups, as a real product in tiles.
+/* Sums over points of the products of two groups' tables, from which the amplitudes F(fa, fb) and F(fa, -fb) follow.
  *
- * With alpha = 2 pi fa.xa and beta = 2 pi fb.xb both follow from four sums over points: cos alpha cos beta,
- * sin alpha sin beta, sin alpha cos beta and cos alpha sin beta. F(-f) is its conjugate.
+ * With alpha = 2 pi fa.xa and beta = 2 pi fb.xb these are four: cos alpha cos beta, cos alpha sin beta, sin alpha
+ * cos beta and sin alpha sin beta (power.cl). F(-f) is its conjugate.
  *
  * One work-item takes `tiles_each` tiles of ROWS frequencies of the leading group and `each` frequencies of the
- * trailing one, of those within the two `bounds` of a row tile; its lanes are points. It sums SUM_POINTS points
- * a lane in registers, for one column, or for two where there are 32 registers (PAIRED), adds up the lanes
- * (lane_sums.cl), and adds up these sums in SUM, before it goes on to the next points, so that the tables of so
- * many points stay in cache. Where COMPENSATED, the rounding of the last additions is kept beside the sums.
+ * trailing one, of those within the two `bounds` of a row tile. LANES of these make a block, whose cosines and
+ * sines alternate in two vectors. The rows' cosines and sines are single numbers, each multiplied with both
+ * vectors, or with the first one alone where that holds all columns of the last block. SUM_POINTS points are
+ * summed in registers, and these sums are added up in SUM before the next points. Where COMPENSATED, the rounding of the last additions is kept beside the sums.
  * Rows are written out by macros, since an array of accumulators would lie in memory.
- * Layout of amplitudes: [slot][row tile][column][row][4]; that of tables stands in tables.cl.
+ * Layout of the sums: [slot][row tile][block][row][cos, sin of alpha][sum, rounding][column][cos, sin of beta];
+ * that of tables stands in tables.cl.
  *
- * Where FOLDED, points are the nodes m = 0 .. M/2 of a grid, and a column has four parts (spread.cl): the
+ * Where FOLDED, points are the nodes m = 0 .. M/2 of a grid, and a block has four vectors (spread.cl): the
  * sums of the cosines and of the sines that were carried to m and to M - m, which are multiplied with cos
  * alpha, and their differences, which are multiplied with sin alpha.
  */
-#if ROWS == 2
-#define EACH_ROW(DO) DO(0) DO(1)
-#elif ROWS == 3
+#if ROWS == 3
 #define EACH_ROW(DO) DO(0) DO(1) DO(2)
 #elif ROWS == 4
 #define EACH_ROW(DO) DO(0) DO(1) DO(2) DO(3)
+#elif ROWS == 6
+#define EACH_ROW(DO) DO(0) DO(1) DO(2) DO(3) DO(4) DO(5)
 #endif
 
 #if FOLDED
 #define PARTS 4
+#define LOAD_FIRST const REALV e1 = LOADV(column, 0), o1 = LOADV(column, 2 * LANES);
+#define LOAD_SECOND const REALV e2 = LOADV(column, LANES), o2 = LOADV(column, 3 * LANES);
 #else
 #define PARTS 2
-#endif
-#define PAIRED (LANES * TURN_BITS == 512 && !FOLDED)
-
-/* The sums of row r and column c, a or b. */
-#define CLEAR_ONE(r, c) REALV cc##c##r = (REALV)0, ss##c##r = (REALV)0, sc##c##r = (REALV)0, cs##c##r = (REALV)0;
-#define MULTIPLY_ONE(r, c)                                                                       \
-    cc##c##r += ca * cb##c;                                                                      \
-    ss##c##r += sa * so##c;                                                                      \
-    sc##c##r += sa * co##c;                                                                      \
-    cs##c##r += ca * sb##c;
-#define ADD_ONE(r, c, to)                                                                        \
-    add_up(cc##c##r - ss##c##r, sc##c##r + cs##c##r, cc##c##r + ss##c##r, sc##c##r - cs##c##r,   \
-           (to) + r * 4 * KEPT, started);
-
-#if PAIRED
-#define EACH_COLUMN(DO, r) DO(r, a) DO(r, b)
-#else
-#define EACH_COLUMN(DO, r) DO(r, a)
-#endif
-#define CLEAR(r) EACH_COLUMN(CLEAR_ONE, r)
-#define MULTIPLY(r)                                                                              \
-    {                                                                                            \
-        const REALV ca = LOADV(row, 2 * LANES * r), sa = LOADV(row, 2 * LANES * r + LANES);      \
-        EACH_COLUMN(MULTIPLY_ONE, r)                                                             \
-    }
-#define ADD(r) ADD_ONE(r, a, at)
-#define ADD_SECOND(r) ADD_ONE(r, b, at + 4 * ROWS * KEPT)
-
-#if FOLDED
-#define LOAD(c, p)                                                                               \
-    const REALV cb##c = LOADV(p, 0), sb##c = LOADV(p, LANES);                                    \
-    const REALV co##c = LOADV(p, 2 * LANES), so##c = LOADV(p, 3 * LANES);
-#else
-#define LOAD(c, p)                                                                               \
-    const REALV cb##c = LOADV(p, 0), sb##c = LOADV(p, LANES);                                    \
-    const REALV co##c = cb##c, so##c = sb##c;
+#define LOAD_FIRST const REALV e1 = LOADV(column, 0), o1 = e1;
+#define LOAD_SECOND const REALV e2 = LOADV(column, LANES), o2 = e2;
 #endif
 
 #if COMPENSATED
@@ -70,82 +39,141 @@
 #else
 #define KEPT 1
 #endif
+#define ROW_SUMS (4 * LANES * KEPT) /* numbers that a row and a block have */
 
-INLINE void add_up(const REALV a, const REALV b, const REALV c, const REALV d, __global SUM *at,
-                   const uint started)
+/* The sums of row r: of its cosine (c) and sine (s) with the first and the second vector. */
+#define CLEAR(r) REALV c1##r = (REALV)0, s1##r = (REALV)0, c2##r = (REALV)0, s2##r = (REALV)0;
+#define BY_FIRST(r)                                                                              \
+    {                                                                                            \
+        const REALV c = (REALV)(row[2 * LANES * r]), s = (REALV)(row[2 * LANES * r + LANES]);    \
+        c1##r += c * e1;                                                                         \
+        s1##r += s * o1;                                                                         \
+    }
+#define BY_BOTH(r)                                                                               \
+    {                                                                                            \
+        const REALV c = (REALV)(row[2 * LANES * r]), s = (REALV)(row[2 * LANES * r + LANES]);    \
+        c1##r += c * e1;                                                                         \
+        c2##r += c * e2;                                                                         \
+        s1##r += s * o1;                                                                         \
+        s2##r += s * o2;                                                                         \
+    }
+#define ADD_FIRST(r)                                                                             \
+    add_up(c1##r, at + r * ROW_SUMS, started);                                                   \
+    add_up(s1##r, at + r * ROW_SUMS + ROW_SUMS / 2, started);
+#define ADD_SECOND(r)                                                                            \
+    add_up(c2##r, at + r * ROW_SUMS + LANES, started);                                           \
+    add_up(s2##r, at + r * ROW_SUMS + ROW_SUMS / 2 + LANES, started);
+
+/* Vectors of SUM, SUM_LANES wide: in float a vector makes two or four of double. */
+#if SUM_LANES == 1
+#define SUMS SUM
+#define LOAD_SUMS(p) ((p)[0])
+#else
+#define SUMS JOIN(SUM, SUM_LANES)
+#if SUM_LANES == 2
+#define LOAD_SUMS(p) ((SUMS)(TWO_OF(p, 0)))
+#elif SUM_LANES == 4
+#define LOAD_SUMS(p) ((SUMS)(FOUR_OF(p, 0)))
+#elif SUM_LANES == 8
+#define LOAD_SUMS(p) ((SUMS)(EIGHT_OF(p, 0)))
+#else
+#define LOAD_SUMS(p) ((SUMS)(COMPONENTS(p, 0)))
+#endif
+#endif
+#define STORE_SUMS(v, p) (*(__global SUMS *)(p) = (v)) /* sums stand at multiples of a vector */
+#define TO_SUMS JOIN(convert_, SUMS)
+
+INLINE void add_part(const SUMS value, __global SUM *at, const uint started)
 {
-    const SUMS value = FOUR_SUMS(a, b, c, d);
 #if COMPENSATED
     const SUMS none = (SUMS)0;
-    const SUMS old = started ? LOAD_SUMS(at) : none, rest = started ? LOAD_SUMS(at + 4) : none;
+    const SUMS old = started ? LOAD_SUMS(at) : none, rest = started ? LOAD_SUMS(at + 2 * LANES) : none;
     const SUMS sum = old + value;
     const SUMS part = sum - old;
+    const SUMS left = rest + ((old - (sum - part)) + (value - part));
     STORE_SUMS(sum, at);
-    STORE_SUMS(rest + ((old - (sum - part)) + (value - part)), at + 4);
+    STORE_SUMS(left, at + 2 * LANES);
 #else
-    STORE_SUMS(started ? LOAD_SUMS(at) + value : value, at);
+    const SUMS sum = started ? LOAD_SUMS(at) + value : value;
+    STORE_SUMS(sum, at);
 #endif
 }
 
-/* The columns first .. end of a row tile, at the points begin .. end of a slot, SUM_POINTS a lane at most.
- * Points of a tile stand `pitch` apart from those of the next tile. */
+INLINE void add_up(const REALV value, __global SUM *at, const uint started)
+{
+#if LANES == SUM_LANES
+    add_part(TO_SUMS(value), at, started);
+#elif LANES == 2 * SUM_LANES
+    add_part(TO_SUMS(value.lo), at, started);
+    add_part(TO_SUMS(value.hi), at + SUM_LANES, started);
+#else
+    add_part(TO_SUMS(value.lo.lo), at, started);
+    add_part(TO_SUMS(value.lo.hi), at + SUM_LANES, started);
+    add_part(TO_SUMS(value.hi.lo), at + 2 * SUM_LANES, started);
+    add_part(TO_SUMS(value.hi.hi), at + 3 * SUM_LANES, started);
+#endif
+}
+
+/* SUM_POINTS points of a block or what is left of them, LANES of which stand side by side in the rows' table. */
+#define EACH_POINT(LOADS, MULTIPLY)                                                              \
+    for (uint k = begin; k < end; k += LANES) {                                                           \
+        for (uint l = 0; l < LANES; l++) {                                                       \
+            LOADS                                                                                \
+            EACH_ROW(MULTIPLY)                                                                   \
+            row++;                                                                               \
+            column += PARTS * COLUMNS * LANES;                                                   \
+        }                                                                                        \
+        row += (2 * ROWS - 1) * LANES;                                                           \
+    }
+
+/* The columns from .. to of a row tile, from a whole block on, at `length` points of a slot. Points of a tile stand
+ * `pitch` apart from those of the next tile. */
 INLINE void multiply(__global const REAL *restrict leading, const ulong leading_size,
                      __global const REAL *restrict trailing, const ulong trailing_size, const uint pitch,
-                     const uint begin, const uint end, const uint columns, __global SUM *restrict amplitude,
-                     const uint started, const uint tiles, const uint tile, const ulong slot, const uint from,
+                     const uint length, const uint columns, __global SUM *restrict sums,
+                     const uint again, const uint tiles, const uint tile, const ulong slot, const uint from,
                      const uint to)
 {
-    __global const REAL *row_tile = leading + slot * leading_size + ((ulong)tile * pitch + begin) * (2 * ROWS);
-    __global const REAL *column_slot = trailing + slot * trailing_size + (ulong)begin * (PARTS * COLUMNS);
-    __global SUM *out = amplitude + ((ulong)slot * tiles + tile) * columns * (4 * ROWS * KEPT);
-    const uint steps = (end - begin) / LANES;
-    for (uint j = from; j < to; j += 1 + PAIRED) {
+    __global const REAL *row_tile = leading + slot * leading_size + (ulong)tile * pitch * (2 * ROWS);
+    __global const REAL *columns_of_slot = trailing + slot * trailing_size;
+    __global SUM *out = sums + ((ulong)slot * tiles + tile) * columns * (ROWS * ROW_SUMS / LANES);
+    for (uint block = from / LANES; block * LANES < to; block++) {
         __global const REAL *row = row_tile;
-        __global const REAL *column = column_slot
-            + (ulong)(j / COLUMNS) * pitch * (PARTS * COLUMNS) + j % COLUMNS * (PARTS * LANES);
-        __global SUM *at = out + (ulong)j * (4 * ROWS * KEPT);
-#if PAIRED
-        const uint two = j + 1 < to; /* the last column alone is multiplied twice */
-        __global const REAL *second = column + (two ? (ulong)pitch * PARTS : 0);
+        __global const REAL *column = columns_of_slot
+            + (ulong)(block / COLUMNS) * pitch * (PARTS * COLUMNS * LANES) + block % COLUMNS * (PARTS * LANES);
+        __global SUM *at = out + (ulong)block * (ROWS * ROW_SUMS);
+        for (uint begin = 0; begin < length; begin += SUM_POINTS) {
+            const uint end = length - begin < SUM_POINTS ? length : begin + SUM_POINTS, started = again || begin > 0;
+            EACH_ROW(CLEAR)
+#if LANES > 1
+            if (block * LANES + LANES / 2 >= to) {
+                EACH_POINT(LOAD_FIRST, BY_FIRST)
+                EACH_ROW(ADD_FIRST)
+                continue;
+            }
 #endif
-        EACH_ROW(CLEAR)
-        for (uint k = 0; k < steps; k++) {
-            LOAD(a, column)
-#if PAIRED
-            LOAD(b, second)
-            second += PARTS * LANES;
-#endif
-            EACH_ROW(MULTIPLY)
-            row += 2 * ROWS * LANES;
-            column += PARTS * COLUMNS * LANES;
-        }
-        EACH_ROW(ADD)
-#if PAIRED
-        if (two) {
+            EACH_POINT(LOAD_FIRST LOAD_SECOND, BY_BOTH)
+            EACH_ROW(ADD_FIRST)
             EACH_ROW(ADD_SECOND)
         }
-#endif
     }
 }
 
 __kernel void product(__global const REAL *restrict leading, const ulong leading_size,
                       __global const REAL *restrict trailing, const ulong trailing_size, const uint pitch,
                       const uint length, __global const uint *bounds, const uint tiles, const uint tiles_each,
-                      const uint columns, const uint each, __global SUM *restrict amplitude, const uint again)
+                      const uint columns, const uint each, __global SUM *restrict sums, const uint again)
 {
 #if COLUMNS == 1 /* one work-item after another takes the same columns, which then stay in cache */
-    const uint block = get_global_id(0), first = get_global_id(1) * each;
+    const uint item = get_global_id(0), first = get_global_id(1) * each;
 #else /* a work-group's columns lie side by side */
-    const uint block = get_global_id(1), first = get_global_id(0) * each;
+    const uint item = get_global_id(1), first = get_global_id(0) * each;
 #endif
-    const uint last = (block + 1) * tiles_each < tiles ? (block + 1) * tiles_each : tiles;
-    for (uint begin = 0; begin < length; begin += SUM_POINTS * LANES) {
-        const uint end = length - begin < SUM_POINTS * LANES ? length : begin + SUM_POINTS * LANES;
-        for (uint tile = block * tiles_each; tile < last; tile++) {
-            const uint from = first < bounds[2 * tile] ? bounds[2 * tile] : first;
-            const uint to = first + each > bounds[2 * tile + 1] ? bounds[2 * tile + 1] : first + each;
-            multiply(leading, leading_size, trailing, trailing_size, pitch, begin, end, columns, amplitude,
-                     again || begin > 0, tiles, tile, get_global_id(2), from, to);
-        }
+    const uint last = (item + 1) * tiles_each < tiles ? (item + 1) * tiles_each : tiles;
+    for (uint tile = item * tiles_each; tile < last; tile++) {
+        const uint from = first < bounds[2 * tile] ? bounds[2 * tile] : first;
+        const uint to = first + each > bounds[2 * tile + 1] ? bounds[2 * tile + 1] : first + each;
+        multiply(leading, leading_size, trailing, trailing_size, pitch, length, columns, sums, again, tiles, tile,
+                 get_global_id(2), from, to);
     }
 }

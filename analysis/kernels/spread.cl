@@ -9,7 +9,8 @@
  * Points are sorted by cell, and `starts` holds the first point of each cell. A launch takes the `length`
  * points from `begin` on; where `fresh`, the sums begin at 0. Where KEPT_SUMS, the rounding of the sums is
  * kept beside them.
- * Layout of points: [LANES frequencies][point][cos, sin][lane]; of nodes as in tables.cl.
+ * Layout of points: [LANES frequencies][point][cos, sin][lane]; of nodes: [COLUMNS frequencies][LANES nodes][frequency]
+ * [cos, sin][lane].
  */
 #define RUN SUM_POINTS
 #define NOT_YET 0xffffffffu
@@ -143,7 +144,8 @@ __kernel void spread(__global const REAL *restrict table, const ulong slot_size,
 }
 
 /* Sums and differences of the numbers at nodes m and M - m, m = 0 .. M/2, for product.cl where FOLDED.
- * One work-item takes one frequency; layout [frequency tile][LANES nodes][frequency][4][lane]. */
+ * One work-item takes one frequency; layout [COLUMNS blocks][node][block][sum, difference][LANES frequencies]
+ * [cos, sin]. */
 __kernel void fold(__global const REAL *restrict grid, const ulong grid_size,
                    __global const REAL *restrict kept, const uint nodes, const uint columns,
                    const uint length, __global REAL *restrict out, const ulong out_size)
@@ -153,12 +155,13 @@ __kernel void fold(__global const REAL *restrict grid, const ulong grid_size,
     const ulong column = get_global_id(1) * grid_size
         + ((ulong)(j / COLUMNS) * nodes * COLUMNS + j % COLUMNS * LANES) * 2;
     __global REAL *to = out + get_global_id(1) * out_size
-        + (ulong)(j / COLUMNS) * length * COLUMNS * 4 + j % COLUMNS * (4 * LANES);
+        + (ulong)(j / (COLUMNS * LANES)) * length * (4 * COLUMNS * LANES)
+        + j / LANES % COLUMNS * (4 * LANES) + 2 * (j % LANES);
     for (uint m = 0; m < length; m++) {
         const uint alone = 2 * m % nodes == 0, mirror = alone ? m : nodes - m;
         const ulong here = column + (ulong)(m / LANES) * (2 * LANES * COLUMNS) + m % LANES;
         const ulong there = column + (ulong)(mirror / LANES) * (2 * LANES * COLUMNS) + mirror % LANES;
-        const ulong at = (ulong)(m / LANES) * (4 * LANES * COLUMNS) + m % LANES;
+        const ulong at = (ulong)m * (4 * LANES * COLUMNS);
         for (uint part = 0; part < 2; part++) {
             REAL a = 0, b = 0;
             if (2 * m <= nodes) {
@@ -169,8 +172,8 @@ __kernel void fold(__global const REAL *restrict grid, const ulong grid_size,
                 b += alone ? 0 : kept[there + part * LANES];
 #endif
             }
-            to[at + part * LANES] = a + b;
-            to[at + (2 + part) * LANES] = a - b;
+            to[at + part] = a + b;
+            to[at + 2 * LANES + part] = a - b;
         }
     }
 }

@@ -6,12 +6,47 @@
  * Each frequency is then one complex product, which costs a tenth of a sine and cosine. The first group is
  * multiplied by the weights, which are 0 beyond the last point.
  *
- * Layout: [tile of frequencies][LANES points][frequency in the tile][cos, sin][lane], or where BY_POINT, as
- * spread.cl reads it, [LANES frequencies][point][cos, sin][lane]. `groups` holds for each group its first
+ * Layout of the leading table: [tile of frequencies][LANES points][frequency in the tile][cos, sin][lane], of
+ * the trailing one: [COLUMNS blocks][point][block][LANES frequencies][cos, sin], or where BY_POINT, as spread.cl
+ * reads it, [LANES frequencies][point][cos, sin][lane]. `groups` holds for each group its first
  * coordinate, its number of coordinates, leading entries, trailing entries of the half space, where its
  * multiples begin, where its codes begin, its number of frequencies, and frequencies in a tile.
  */
 #define FIELDS 8
+
+/* Vectors of points become vectors of frequencies: LANES of them are transposed in log2(LANES) perfect shuffles. */
+#if LANES > 1
+#if LANES == 2
+#define LOW(a, b) ((REALV)(a.s0, b.s0))
+#define HIGH(a, b) ((REALV)(a.s1, b.s1))
+#elif LANES == 4
+#define LOW(a, b) ((REALV)(a.s0, b.s0, a.s1, b.s1))
+#define HIGH(a, b) ((REALV)(a.s2, b.s2, a.s3, b.s3))
+#elif LANES == 8
+#define LOW(a, b) ((REALV)(a.s0, b.s0, a.s1, b.s1, a.s2, b.s2, a.s3, b.s3))
+#define HIGH(a, b) ((REALV)(a.s4, b.s4, a.s5, b.s5, a.s6, b.s6, a.s7, b.s7))
+#else
+#define LOW(a, b) ((REALV)(a.s0, b.s0, a.s1, b.s1, a.s2, b.s2, a.s3, b.s3, a.s4, b.s4, a.s5, b.s5, a.s6, b.s6, a.s7, b.s7))
+#define HIGH(a, b) ((REALV)(a.s8, b.s8, a.s9, b.s9, a.sa, b.sa, a.sb, b.sb, a.sc, b.sc, a.sd, b.sd, a.se, b.se, a.sf, b.sf))
+#endif
+INLINE void transpose(REALV *v, __global REAL *out, const uint step)
+{
+    REALV w[LANES];
+    for (uint stage = 1; stage < LANES; stage *= 2) {
+#pragma unroll
+        for (uint i = 0; i < LANES / 2; i++) {
+            w[2 * i] = LOW(v[i], v[i + LANES / 2]);
+            w[2 * i + 1] = HIGH(v[i], v[i + LANES / 2]);
+        }
+#pragma unroll
+        for (uint i = 0; i < LANES; i++)
+            v[i] = w[i];
+    }
+#pragma unroll
+    for (uint l = 0; l < LANES; l++)
+        STORE_ALIGNED(v[l], out, l * step);
+}
+#endif
 
 /* The entries of one group at LANES points from the k-th of a slot on. */
 INLINE void tabulate(__global const TURN *x, __global const REAL *weight, const uint stride, const uint dim,
@@ -60,33 +95,54 @@ INLINE void tabulate(__global const TURN *x, __global const REAL *weight, const 
 #if BY_POINT
     __global REAL *out = trailing_table + slot * trailing_size + (ulong)k * 2 * LANES;
 #else
+#if LANES > 1
+    REALV block[2 * LANES];
+#endif
     __global REAL *out = (which ? trailing_table + slot * trailing_size : leading_table + slot * leading_size)
-        + (ulong)k * 2 * width;
+        + (ulong)k * 2 * width * (which ? LANES : 1);
 #endif
     uint row = 0;
-    for (uint j = 0; j < count;) {
-        const uint u = pair[j] >> 16;
-        const REALV cu = cosine[u], su = sine[u];
-        for (; j < count && pair[j] >> 16 == u; j++) {
-            const uint v = leading + (pair[j] & 0xffff);
-            const REALV cv = cosine[v], sv = sine[v];
+    for (uint j = 0; j < count; j++) {
+        const uint u = pair[j] >> 16, v = leading + (pair[j] & 0xffff);
+        const REALV cu = cosine[u], su = sine[u], cv = cosine[v], sv = sine[v];
+        const REALV c_uv = cu * cv - su * sv, s_uv = su * cv + cu * sv;
 #if BY_POINT
-            SPREAD(cu * cv - su * sv, out + row, 2 * LANES);
-            SPREAD(su * cv + cu * sv, out + LANES + row, 2 * LANES);
+        SPREAD(c_uv, out + row, 2 * LANES);
+        SPREAD(s_uv, out + LANES + row, 2 * LANES);
+        if (++row == LANES) {
+            row = 0;
+            out += (ulong)pitch * 2 * LANES;
+        }
+#else
+#if LANES > 1
+        if (which) {
+            block[2 * row] = c_uv;
+            block[2 * row + 1] = s_uv;
             if (++row == LANES) {
+                transpose(block, out, 2 * LANES);
+                transpose(block + LANES, out + LANES, 2 * LANES);
                 row = 0;
                 out += (ulong)pitch * 2 * LANES;
             }
-#else
-            STOREV(cu * cv - su * sv, out, 2 * LANES * row);
-            STOREV(su * cv + cu * sv, out, 2 * LANES * row + LANES);
-            if (++row == width) {
-                row = 0;
-                out += (ulong)pitch * 2 * width;
-            }
-#endif
+            continue;
         }
+#endif
+        STORE_ALIGNED(c_uv, out, 2 * LANES * row);
+        STORE_ALIGNED(s_uv, out, 2 * LANES * row + LANES);
+        if (++row == width) {
+            row = 0;
+            out += (ulong)pitch * 2 * width;
+        }
+#endif
     }
+#if LANES > 1 && !BY_POINT
+    if (which && row > 0) {
+        for (uint i = 2 * row; i < 2 * LANES; i++)
+            block[i] = (REALV)0;
+        transpose(block, out, 2 * LANES);
+        transpose(block + LANES, out + LANES, 2 * LANES);
+    }
+#endif
 }
 
 __kernel void tables(__global const TURN *x, __global const REAL *weight, const uint stride, const uint dim,

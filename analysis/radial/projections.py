@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from gbnbench.analysis.radial import profile_measures
 from gbnbench.analysis.radial.radial_power import mean_over_groups, shells_of
 from gbnbench.analysis.spectrum.limits import default_fmax, default_radius
-from gbnbench.analysis.spectrum.periodogram import each_power
+from gbnbench.analysis.spectrum.power_of_each import each_power
 from gbnbench.analysis.standard_errors import mean_over_sets
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.results.radial import RadialPower

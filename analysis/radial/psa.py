@@ -4,24 +4,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.special import j0
 
-from gbnbench.analysis.radial.hankel_nodes import nodes_for, on_nodes, stride_for
+from gbnbench.analysis.radial.windowed_power import windowed_power
 from gbnbench.analysis.spatial.rdf import pair_density
 from gbnbench.analysis.standard_errors import left_out_sums, sample_variance
 from gbnbench.core.errors import RefusalError
 from gbnbench.core.sides import Sides, as_sides, shortest_side
 from gbnbench.core.torus import FloatArray, as_realizations
 
-ROWS = 256  # of the Bessel matrix made at once: the lower their frequencies, the fewer radii carry the sum
-WIDEST = 0.25  # where the window ends for all frequencies from sqrt(n)/8 on
-KEPT = 1 << 22  # numbers of a matrix that is kept from call to call, in blocks
-KEPT_BLOCKS = 16
 # Frequencies evaluated first, in units of sqrt(n): the statistics of most sets need no more.
 FIRST_RANGE = 8.0
 MOST_POINTS = 200_000  # some minutes on one core, where there is no OpenCL device
@@ -106,6 +99,29 @@ def spectral_statistics(x: ArrayLike, sides: ArrayLike | None = None) -> Spectra
     32(3), 2013.
     """
     sets = as_realizations(x)
+    return statistics_of(excess_density(sets, as_sides(sides, sets.shape[2])), sets.shape[1])
+
+
+def excess_density(sets: FloatArray, sides: Sides | None = None) -> FloatArray:
+    """Give the radial distribution functions from which ``spectral_statistics`` are computed.
+
+    Parameters
+    ----------
+    sets : (realizations, n, 2) float64
+        Checked points.
+    sides : tuple of 2 floats, optional
+        As ``as_sides`` returns them.
+
+    Returns
+    -------
+    (realizations, bins) float64
+        2 pi n (g - 1) r dr on the bins that the window covers.
+
+    Raises
+    ------
+    RefusalError
+        As ``spectral_statistics``.
+    """
     n, d = sets.shape[1:]
     if d != 2:
         raise RefusalError(f"PSA's spectral statistics are defined in the plane; got d={d}")
@@ -116,25 +132,45 @@ def spectral_statistics(x: ArrayLike, sides: ArrayLike | None = None) -> Spectra
             f"PSA's spectral statistics count n^2/10 pairs; n must be at most {MOST_POINTS}, got n={n}"
         )
     total = int(100 * math.sqrt(n))
-    lengths = as_sides(sides, d)
-    if (total // 2 + 1) * (0.5 / total) > 0.5 * shortest_side(lengths):
+    if (total // 2 + 1) * (0.5 / total) > 0.5 * shortest_side(sides):
         raise RefusalError(
             "PSA's spectral statistics count pairs to a quarter of the root of the area; half the "
-            f"shorter side is {0.5 * shortest_side(lengths):.3g} of it, and one side may be about four times "
+            f"shorter side is {0.5 * shortest_side(sides):.3g} of it, and one side may be about four times "
             "the other at most"
         )
-    density = _excess_density(sets, total, lengths)
+    width = 0.5 / total
+    bins = total // 2 + 1
+    r = np.arange(bins) * width
+    g = pair_density(sets, bins, width, sides)
+    return np.asarray((2 * math.pi * n * width) * (g - 1) * r)
+
+
+def statistics_of(excess: FloatArray, n: int) -> SpectralStatistics:
+    """PSA's statistics of sets whose radial distribution functions are known.
+
+    Parameters
+    ----------
+    excess : (realizations, bins) float64
+        As ``excess_density`` returns it.
+    n : int
+        Points of a set.
+
+    Returns
+    -------
+    SpectralStatistics
+    """
+    total, density = int(100 * math.sqrt(n)), np.transpose(excess)
     rows = min(total, math.ceil(FIRST_RANGE * total / (0.5 * math.sqrt(n))))
     while True:
-        frequency = np.arange(rows) * (0.5 * n / total)
-        power = _power(density, frequency, n, total)
+        frequency: FloatArray = np.arange(rows, dtype=np.float64) * (0.5 * n / total)
+        power = windowed_power(density, frequency, n, total)
         curves = [power.mean(axis=0), *power, *_left_out(power)]
         if rows == total or all(_suffices(curve, frequency, n) for curve in curves):
             break
         rows = total
     nyquist = np.array([_effective_nyquist(curve, frequency, n) for curve in curves])
     omega = np.array([_oscillations(curve, frequency, n) for curve in curves])
-    last = len(sets) + 1
+    last = len(excess) + 1
     return SpectralStatistics(
         effective_nyquist=float(nyquist[0]),
         oscillations=float(omega[0]),
@@ -145,54 +181,6 @@ def spectral_statistics(x: ArrayLike, sides: ArrayLike | None = None) -> Spectra
         frequency=frequency,
         power=power,
     )
-
-
-def _excess_density(sets: FloatArray, total: int, sides: Sides | None) -> FloatArray:
-    """2 pi n (g - 1) r dr on the bins that the window covers, trapezoid: (bins, realizations)."""
-    n = sets.shape[1]
-    width = 0.5 / total
-    bins = total // 2 + 1
-    r = np.arange(bins) * width
-    g = pair_density(sets, bins, width, sides)
-    return np.transpose((2 * math.pi * n * width) * (g - 1) * r)
-
-
-def _power(density: FloatArray, frequency: FloatArray, n: int, total: int) -> FloatArray:
-    """Radial power of all sets at once: (realizations, frequencies)."""
-    bins, rows = len(density), len(frequency)
-    lowest = min(rows, 1 + math.ceil(0.25 * total / math.sqrt(n)))  # frequencies of narrower windows
-    blocks = [(0, lowest, 1)]
-    for start, end in pairwise([*range(lowest, rows, ROWS), rows]):
-        blocks.append((start, end, stride_for(0.5 * math.pi * end * n / total**2)))
-    kept = sum((end - start) * nodes_for(bins, stride) for start, end, stride in blocks) <= KEPT
-    kernel = _kept_kernel if kept else _kernel
-    radii = np.arange(bins, dtype=np.float64) * (0.5 / total)
-    windowed = density * _window(radii, np.array(WIDEST))[:, None]
-    power = np.empty((density.shape[1], rows))
-    for start, end, stride in blocks:
-        weights = on_nodes(windowed, stride) if start else density
-        power[:, start:end] = np.abs(1 + kernel(n, total, len(weights), start, end, stride) @ weights).T
-    return power
-
-
-def _kernel(n: int, total: int, nodes: int, start: int, end: int, stride: int) -> FloatArray:
-    """J0(2 pi v r) at every ``stride``-th bin, times the window for the lowest v: (frequencies, nodes)."""
-    r = np.arange(nodes, dtype=np.float64) * (stride * 0.5 / total)
-    v = np.arange(start, end)[:, None] * (0.5 * n / total)
-    bessel = np.asarray(j0(2 * math.pi * v * r))
-    if start:
-        return bessel
-    reach = np.asarray(0.5 * np.clip(4 * v / math.sqrt(n), 0.2, 2 * WIDEST), dtype=np.float64)
-    return np.asarray(bessel * _window(r, reach))
-
-
-def _window(r: FloatArray, reach: FloatArray) -> FloatArray:
-    window: FloatArray = 0.43 + 0.5 * np.cos(math.pi * r / reach) + 0.08 * np.cos(2 * math.pi * r / reach)
-    return np.asarray(np.where(r > reach, 0.0, window))
-
-
-# It depends on n alone, and is most of the work for a few sets of a thousand points.
-_kept_kernel = lru_cache(maxsize=KEPT_BLOCKS)(_kernel)
 
 
 def _left_out(power: FloatArray) -> FloatArray:

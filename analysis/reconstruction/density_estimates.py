@@ -65,12 +65,20 @@ def reconstructed_density(
     Returns
     -------
     ``size`` float64
-        Points a unit of ``shape``'s volume, averaged over each pixel.
+        Points a unit of ``shape``'s volume, averaged over each pixel. Over the domain they add up to n.
 
     Raises
     ------
     InputError
         If an argument breaks its rule.
+
+    Notes
+    -----
+    A kernel is taken at the centres of pixels, with the variance of a pixel added, and points are reflected
+    once at each border. Where kernels are narrower than pixels or wider than the domain their sum misses n:
+    by 5% for 50 points on one pixel, by half for one on 1 x 30, and by 1e-4 for 50 on 40 x 60. Without
+    reflections it lacks what lies beyond the borders; a cell smaller than the parts that volumes are counted
+    in may have none. All pixels are scaled by one factor, so that the sum is n.
     """
     d = len(shape)
     if points.ndim != 2 or points.shape[1] != d or d not in FIXED or not len(points):
@@ -110,7 +118,14 @@ def reconstructed_density(
     places = np.stack(np.meshgrid(*lines, indexing="ij"), -1)
     found = kernel_sums(places.reshape(-1, d), sources, heights, variances).reshape(counts)
     tell(steps)
-    return found
+    return _adding_up(found, n, float(np.prod(shape, dtype=np.float64)))
+
+
+def _adding_up(density: FloatArray, n: int, volume: float) -> FloatArray:
+    """Scale a density so that it adds up to n."""
+    mean = density.mean()
+    # Pixels that are much longer than wide may have no kernel at their centres.
+    return density * (n / (mean * volume)) if mean > 0 else np.full(density.shape, n / volume)
 
 
 def _centres(side: int, count: int) -> FloatArray:
@@ -131,4 +146,4 @@ def _of_cells(points: FloatArray, shape: tuple[int, ...], counts: tuple[int, ...
     density = 1 / (np.maximum(np.bincount(nearest, minlength=n), 1) * volume)
     fine = density[nearest].reshape([size for count in counts for size in (count, parts)])
     averaged: FloatArray = fine.mean(axis=tuple(range(1, 2 * d, 2)))
-    return averaged
+    return _adding_up(averaged, n, volume * len(places))

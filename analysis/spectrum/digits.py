@@ -176,7 +176,7 @@ def even_division(axes: Axes) -> Division:
 
 
 @lru_cache(maxsize=256)
-def cheapest_division(d: int, fmax: Harmonics, rows: int) -> Division:
+def cheapest_division(d: int, fmax: Harmonics, rows: int, columns: int = 1) -> Division:
     """Find the division of a whole cube or box that a real matrix product evaluates at the least cost.
 
     Parameters
@@ -187,6 +187,8 @@ def cheapest_division(d: int, fmax: Harmonics, rows: int) -> Division:
         Largest harmonic on each axis.
     rows : int
         Rows of a register tile; the leading group is padded to a multiple of it.
+    columns : int
+        The same for the trailing group.
 
     Returns
     -------
@@ -201,7 +203,7 @@ def cheapest_division(d: int, fmax: Harmonics, rows: int) -> Division:
         for fine in {0, axis.largest, *(min(max(f, 0), axis.largest) for f in near)}:
             found = division(axes, at, fine)
             a, b = half_size(found.leading), half_size(found.trailing)
-            cost = 4 * (-(-a // rows) * rows) * b + TABLE_COST * (a + b)
+            cost = 4 * (-(-a // rows) * rows) * (-(-b // columns) * columns) + TABLE_COST * (a + b)
             if best is None or cost < best[0]:
                 best = cost, found
     assert best is not None  # noqa: S101 - d is at least 1

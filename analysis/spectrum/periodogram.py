@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -112,23 +111,47 @@ def periodogram(
             raise InputError("half is of a cube; list only the frequencies wanted")
         wanted = check_frequencies(frequencies, d)
         with use_device(device):
-            return _listed(points, wanted, precision, w, floor, method, lengths)
-    f, request = _cube_request(n, d, fmax, sets, lengths, half=half)
+            return listed_spectrum(points, wanted, precision, w, floor, method, lengths)
+    f, request = cube_request(n, d, fmax, sets, lengths, half=half)
     with use_device(device):
         evaluator = choose(request, precision, floor, method)
         if method is None:
             evaluator = evaluator.for_points(points, request.fmax, floor)
         power, errors = evaluator.box(points, request, w, mean=True)
         errors = errors.averaged(sets, n)
-        return _spectrum(
+        return made_spectrum(
             power, request, evaluator, errors, fmax=f, half=half, weighted=w is not None, sides=lengths
         )
 
 
-def _cube_request(
+def cube_request(
     n: int, d: int, fmax: object, realizations: int, sides: Sides | None, *, half: bool = False
 ) -> tuple[int, SpectrumRequest]:
-    """Check fmax, and make the request for its cube or, for unequal sides, for the box round its ball."""
+    """Check fmax, and make the request for its cube or, for unequal sides, for the box round its ball.
+
+    Parameters
+    ----------
+    n, d : int
+        Points of a set, and dimension.
+    fmax : object
+        What the user gave.
+    realizations : int
+        Number of sets.
+    sides : tuple of d floats or None
+        As ``as_sides`` returns them.
+    half : bool
+        Only the half with f_0 >= 0.
+
+    Returns
+    -------
+    fmax : int
+    request : SpectrumRequest
+
+    Raises
+    ------
+    InputError
+        If fmax is not a positive integer, or the powers do not fit in memory.
+    """
     if sides is None:
         f = check_fmax(fmax, d)
         kind: Frequencies = "half cube" if half else "cube"
@@ -137,80 +160,7 @@ def _cube_request(
     return f, box_request(n, d, harmonics_within(f, sides), realizations, half=half)
 
 
-def each_power(
-    x: FloatArray, fmax: int, precision: PrecisionName = "double", sides: Sides | None = None
-) -> tuple[FloatArray, Spectrum]:
-    """Power of every realization, and their mean.
-
-    Parameters
-    ----------
-    x : (realizations, n, d) float64
-        Checked points.
-    fmax : int
-        Largest harmonic on each axis; for unequal sides the largest |k|.
-    precision : {"double", "float"}
-        As in ``periodogram``.
-    sides : tuple of d floats, optional
-        As ``as_sides`` returns them.
-
-    Returns
-    -------
-    powers : (realizations,) + (2*fmax+1,)*d float64
-        A box for unequal sides, as in ``periodogram``.
-    spectrum : Spectrum
-
-    Raises
-    ------
-    InputError
-        If fmax is not a positive integer, or the powers do not fit in memory.
-    """
-    sets, n, d = x.shape
-    f, request = _cube_request(n, d, fmax, sets, sides)
-    evaluator = choose(request, precision, None).for_points(x, request.fmax, None)
-    powers, errors = evaluator.box(x, request, None, mean=False)
-    mean, averaged = powers.mean(axis=0), errors.averaged(sets, n)
-    return powers, _spectrum(mean, request, evaluator, averaged, fmax=f, sides=sides)
-
-
-def each_listed_power(
-    x: FloatArray,
-    frequencies: NDArray[np.int64],
-    precision: PrecisionName = "double",
-    sides: Sides | None = None,
-) -> tuple[FloatArray, Spectrum]:
-    """Power of every realization at listed frequencies, and their mean.
-
-    Parameters
-    ----------
-    x : (realizations, n, d) float64
-        Checked points.
-    frequencies : (m, d) int64
-        Cycles per unit length.
-    precision : {"double", "float"}
-        As in ``periodogram``.
-    sides : tuple of d floats, optional
-        As ``as_sides`` returns them.
-
-    Returns
-    -------
-    powers : (realizations, m) float64
-    spectrum : Spectrum
-    """
-    each = [_listed(one[None], frequencies, precision, None, None, None, sides) for one in x]
-    powers = np.stack([one.power for one in each])
-    errors = Errors(max(one.error_rms for one in each), max(one.error_bound for one in each))
-    errors = errors.averaged(*x.shape[:2])
-    mean = replace(
-        each[0],
-        power=powers.mean(axis=0),
-        realizations=len(x),
-        error_rms=errors.rms,
-        error_bound=errors.bound,
-    )
-    return powers, mean
-
-
-def _listed(
+def listed_spectrum(
     x: FloatArray,
     frequencies: NDArray[np.int64],
     precision: str,
@@ -219,6 +169,23 @@ def _listed(
     method: str | None,
     sides: Sides | None,
 ) -> Spectrum:
+    """Mean power of sets at listed frequencies.
+
+    Parameters
+    ----------
+    x : (realizations, n, d) float64
+        Checked points.
+    frequencies : (m, d) int64
+        Checked frequencies.
+    precision, weights, floor, method
+        As in ``periodogram``.
+    sides : tuple of d floats or None
+        As ``as_sides`` returns them.
+
+    Returns
+    -------
+    Spectrum
+    """
     sets, n, d = x.shape
     fmax = max(abs(int(frequencies.max())), abs(int(frequencies.min())))
     request = SpectrumRequest("listed", n, d, fmax, sets, len(frequencies))
@@ -226,14 +193,33 @@ def _listed(
     power, errors = evaluator.listed(x, frequencies, weights)
     errors = errors.averaged(sets, n)
     weighted = weights is not None
-    return _spectrum(
+    return made_spectrum(
         power, request, evaluator, errors, frequencies=frequencies, weighted=weighted, sides=sides
     )
 
 
-def _spectrum(
+def made_spectrum(
     power: FloatArray, request: SpectrumRequest, evaluator: Evaluator, errors: Errors, **more: Any
 ) -> Spectrum:
+    """Make the result of an evaluation.
+
+    Parameters
+    ----------
+    power : float64
+        Mean over the sets of the request.
+    request : SpectrumRequest
+        What was evaluated.
+    evaluator : Evaluator
+        Which evaluated it.
+    errors : Errors
+        Of the mean.
+    **more
+        Other fields of the spectrum, and those that differ from the request's.
+
+    Returns
+    -------
+    Spectrum
+    """
     return Spectrum(
         power=power,
         n=request.n,

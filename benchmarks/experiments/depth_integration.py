@@ -19,7 +19,7 @@ from gbnbench.analysis.integration.integrands.gaussians import Gaussians
 from gbnbench.analysis.integration.integrands.half_space import HalfSpaces
 from gbnbench.analysis.integration.integrands.korobov import Korobov
 from gbnbench.analysis.integration.integrands.protocol import Family, Integrand
-from gbnbench.analysis.spectrum.periodogram import each_power
+from gbnbench.analysis.spectrum.power_of_each import each_power
 from gbnbench.benchmarks.timing.machine import Rows
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.registry import find, generate

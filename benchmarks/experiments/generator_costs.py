@@ -17,6 +17,7 @@ from gbnbench.benchmarks.timing.machine import processor
 from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.errors import GbnbenchError
 from gbnbench.core.settings import nearest
+from gbnbench.execution.calls import Calls
 from gbnbench.execution.worker_pool import Pool
 from gbnbench.generators.listing import COSTS, MeasuredCost, cost_machine, measured_costs
 from gbnbench.generators.registry import GENERATORS
@@ -31,12 +32,13 @@ def main(names: list[str]) -> None:
         raise SystemExit(f"the others were measured on another machine, {cost_machine()}: measure all anew")
     costs = measured_costs() if names else {}
     with Pool(1) as pool:
+        calls = Calls(pool)
         for name in names or GENERATORS:
             n = served_size(name)
             if n is None:
                 continue
-            pool.submit(name, measure, name, n)
-            done = pool.next()
+            calls.submit(name, measure, name, n)
+            done = calls.next()
             if done.failure:
                 raise GbnbenchError(f"{name} could not be measured: {done.failure}")
             costs[name] = MeasuredCost(float(done.value), n)

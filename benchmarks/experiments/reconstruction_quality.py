@@ -19,8 +19,8 @@ from PIL import Image
 
 import gbnbench
 from gbnbench.analysis.reconstruction.image_quality import image_quality
+from gbnbench.api.page_style import PageStyle, page_of
 from gbnbench.api.reconstruct import density_of_points
-from gbnbench.api.stippled_page import page_of
 from gbnbench.api.stippling import Stippling
 from gbnbench.core.torus import FloatArray
 from gbnbench.io.images import read_image
@@ -94,7 +94,7 @@ def picture() -> Image.Image:
         Four parts in a row.
     """
     made = gbnbench.stipple(IMAGES[0], POINTS)
-    page = page_of({"black": made})
+    page = page_of({"black": made}, PageStyle(margin_mm=0))
     parts = [pixels(page, PANEL / page.width * 25.4)]
     for way in ("Algorithm 2", "kernels of one width", "Voronoi cells"):
         found = tones(density_by(way, made, (PANEL, PANEL)), coverage=made.coverage)

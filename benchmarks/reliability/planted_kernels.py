@@ -35,12 +35,12 @@ class Plant:
 
 
 PLANTS = {
-    "a sign in the product": Plant(
-        "product.cl", "cs##c##r += ca * sb##c;", "cs##c##r -= ca * sb##c;", "two-group product"
+    "a sign in the product": Plant("product.cl", "c2##r += c * e2;", "c2##r -= c * e2;", "two-group product"),
+    "a square subtracted": Plant(
+        "power.cl", "(cc - ss) * (cc - ss) + ", "(cc - ss) * (cc - ss) - ", "two-group product"
     ),
-    "a square subtracted": Plant("power.cl", "re * re + im * im", "re * re - im * im", "two-group product"),
     "a table's angle": Plant(
-        "tables.cl", "STOREV(su * cv + cu * sv", "STOREV(su * cv - cu * sv", "two-group product"
+        "tables.cl", "s_uv = su * cv + cu * sv", "s_uv = su * cv - cu * sv", "two-group product"
     ),
     "a sine for a cosine": Plant("selected.cl", "sines += w * s;", "sines += w * c;", "listed frequencies"),
     "a point left out": Plant(
@@ -63,7 +63,7 @@ PLANTS = {
     "a negative frequency": Plant("grid_power.cl", "f + wrap : f", "f + wrap - 1 : f", "gridded FFT"),
     "another point's place": Plant("line_spread.cl", "y, other, at)", "y, place, at)", "gridded FFT"),
     "lanes in another order": Plant(
-        "lane_sums.cl", "sum.s0, sum.s1, sum.s2", "sum.s0, sum.s2, sum.s1", "two-group product"
+        "tables.cl", "STORE_ALIGNED(v[l]", "STORE_ALIGNED(v[LANES - 1 - l]", "two-group product"
     ),
     "a kernel of pairs": Plant("discrepancy_pairs.cl", "(t - t * t)", "(t + t * t)", "discrepancy, periodic"),
     "a lane too many": Plant("pair_distances.cl", "l < end - j", "l < LANES", "pair distances"),

@@ -9,7 +9,7 @@ import numpy as np
 from gbnbench.analysis.precision import precision_of
 from gbnbench.analysis.spectrum.digits import cheapest_division
 from gbnbench.analysis.spectrum.evaluators.frequency_group import Group
-from gbnbench.analysis.spectrum.evaluators.point_slots import tile_rows
+from gbnbench.analysis.spectrum.evaluators.point_slots import tile_columns, tile_rows
 from gbnbench.analysis.spectrum.evaluators.two_group_product import TwoGroupProduct
 from gbnbench.opencl.peak_rate import fma_peak
 
@@ -26,12 +26,14 @@ def tile_share(precision: str) -> tuple[float, float]:
         Useful flops a second of one core, by CPU time; the best of each.
     """
     p = precision_of(precision)
-    divided = cheapest_division(D, F, tile_rows(p))
+    divided = cheapest_division(D, F, tile_rows(p), tile_columns(p))
     product = TwoGroupProduct(p, N, D, SETS, Group(divided.leading), Group(divided.trailing))
     x = np.random.default_rng(0).random((SETS, N, D))
     count = 0
     for _, count in product.batches(x):  # noqa: B007 - the last batch's tables are left on the device
         pass
+    if product.slots.items:  # slots that have no tables of their own are left out
+        count = min(count, product.slots.items // product.slots.splits)
     a, b = product.frequencies.a.count, product.frequencies.b.count
     flops = 8.0 * a * b * min(N, product.slots.length * product.slots.splits) * count
     best, peak = np.inf, 0.0

@@ -8,9 +8,11 @@ from pathlib import Path
 
 from numpy.typing import ArrayLike
 
-from gbnbench.api.comparison import FIGURES, Comparison, draw, load_pictures
+from gbnbench.api.comparison import Comparison, draw, draw_unfinished, load_pictures
+from gbnbench.api.report_files import FIGURES
 from gbnbench.api.source_arguments import SourceLike, as_sources
 from gbnbench.execution import progress
+from gbnbench.execution.executor_choice import use_executor
 from gbnbench.io.points import ReadingOptions
 from gbnbench.opencl import use_device
 from gbnbench.runs.sources import DEFAULT_READING, DEFAULT_SOURCES
@@ -27,6 +29,8 @@ def compare(
     out: str | Path | None = None,
     baseline: str | Path | None = None,
     jobs: int | None = None,
+    executor: str | None = None,
+    executor_config: str | Path | None = None,
     quiet: bool = False,
     device: str | None = None,
     reading: ReadingOptions = DEFAULT_READING,
@@ -57,6 +61,11 @@ def compare(
         Folder of a finished comparison against which this one is judged.
     jobs : int, optional
         Worker processes, each with one thread; by default one a core.
+    executor : str, optional
+        Who does the work: ``"local"``, ``"dask:tcp://HOST:PORT"``, ``"dask:local"``, ``"mpi"`` or
+        ``"slurm"``; by default processes on this machine.
+    executor_config : path, optional
+        A TOML file with settings of the executor.
     quiet : bool
         No progress on standard error.
     device : str, optional
@@ -103,7 +112,7 @@ def compare(
     >>> bool(comparison.table.noise_floor[1] < comparison.table.noise_floor[0])
     True
     """
-    with use_device(device):
+    with use_device(device), use_executor(executor, executor_config):
         found, skipped = as_sources(sources, n, d, realizations, reading, sides)
         with progress.choose(quiet) as shown:
             done = run_comparison(
@@ -116,6 +125,7 @@ def compare(
                 skipped=skipped,
                 progress=shown,
                 draw=partial(draw, pdf=pdf) if pictures else None,
+                grow=draw_unfinished if pictures else None,
                 meanwhile=load_pictures if pictures else None,
             )
             if pictures and pdf and not any((done.folder / FIGURES).glob("*.pdf")):

@@ -9,21 +9,22 @@ import base64
 import html
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from gbnbench.api.report_files import report_in, write_files
 from gbnbench.core.errors import InputError
 from gbnbench.runs.baseline import Change
-from gbnbench.runs.comparison_folder import read_run
+from gbnbench.runs.comparison_folder import REPORT, read_run
 from gbnbench.runs.comparison_result import Run, SourceResult
 from gbnbench.runs.comparison_tables import long_table, wide_table
-from gbnbench.studies.drawing import make_each
+from gbnbench.studies.growing_report import Unfinished
 
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
-REPORT, FIGURES = "report.html", "figures"  # in the folder
 NOTEBOOK_FIGURES = ("gallery", "loglog", "sweep")  # shown in a notebook
 
 
@@ -175,10 +176,7 @@ class Comparison:
         OSError
             If the folder cannot be written.
         """
-        path = self.folder / REPORT
-        if not path.exists():
-            draw(self.run, self.folder)
-        return path
+        return report_in(self.run, self.folder, draw)
 
     def __str__(self) -> str:
         from gbnbench.reports.comparison import terminal
@@ -220,13 +218,24 @@ def draw(run: Run, folder: Path, *, pdf: bool = False) -> None:
     from gbnbench.reports.comparison.figure_files import write_figures
     from gbnbench.reports.html.page import write_report
 
-    drawn: dict[str, bytes] = {}
-    make_each(
-        [
-            (FIGURES, lambda: write_figures(run, folder / FIGURES, drawn, with_pdf=pdf)),
-            (REPORT, lambda: write_report(run, folder / REPORT, drawn)),
-        ]
-    )
+    write_files(run, folder, partial(write_figures, with_pdf=pdf), write_report)
+
+
+def draw_unfinished(run: Run, folder: Path, unfinished: Unfinished) -> None:
+    """Write report.html of what is measured so far.
+
+    Parameters
+    ----------
+    run : Run
+        The sources that are.
+    folder : Path
+        Where report.html is made, or replaced.
+    unfinished : Unfinished
+        What is still to come.
+    """
+    from gbnbench.reports.html.page import write_report
+
+    write_report(run, folder / REPORT, unfinished=unfinished)
 
 
 def load_pictures() -> None:

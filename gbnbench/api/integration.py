@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from gbnbench.api.source_arguments import SourceLike, as_sources
 from gbnbench.core.atomic_write import write_whole
 from gbnbench.execution import progress
+from gbnbench.execution.executor_choice import use_executor
 from gbnbench.io.points import ReadingOptions
 from gbnbench.opencl import use_device
 from gbnbench.reports.comparison.figure_files import pdf, png
@@ -135,6 +136,8 @@ def integrate(
     seed: int = 0,
     out: str | Path | None = None,
     jobs: int | None = None,
+    executor: str | None = None,
+    executor_config: str | Path | None = None,
     quiet: bool = False,
     device: str | None = None,
     reading: ReadingOptions = DEFAULT_READING,
@@ -165,6 +168,11 @@ def integrate(
         refused.
     jobs : int, optional
         Worker processes, each with one thread; by default one a core.
+    executor : str, optional
+        Who does the work: ``"local"``, ``"dask:tcp://HOST:PORT"``, ``"dask:local"``, ``"mpi"`` or
+        ``"slurm"``; by default processes on this machine.
+    executor_config : path, optional
+        A TOML file with settings of the executor.
     quiet : bool
         No progress on standard error.
     device : str, optional
@@ -202,7 +210,7 @@ def integrate(
     >>> study.slopes.source.tolist(), bool(study.slopes.slope[1] < study.slopes.slope[0])
     (['random', 'jittered'], True)
     """
-    with use_device(device):
+    with use_device(device), use_executor(executor, executor_config):
         found, skipped = as_sources(sources, n, d, realizations, reading)
         with progress.choose(quiet) as shown:
             done = run_integration_study(

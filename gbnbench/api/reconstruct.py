@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import numbers
 from collections.abc import Callable
 
 import numpy as np
@@ -11,19 +10,19 @@ from numpy.typing import ArrayLike
 
 from gbnbench.analysis.reconstruction.density_estimates import ESTIMATES, Estimate, reconstructed_density
 from gbnbench.analysis.reconstruction.shaping import LEAST
+from gbnbench.api.stippling import Stippling
 from gbnbench.core.errors import InputError
 from gbnbench.core.settings import nearest
 from gbnbench.core.torus import FloatArray
 from gbnbench.opencl import use_device
 from gbnbench.studies.stippling.tones import tones
-from gbnbench.studies.stippling.units import in_pixels
+from gbnbench.studies.stippling.units import checked_shape, in_pixels
 
 SIDES = {2: 512, 3: 64}  # of a picture or a volume whose shape is not given
-MOST_PIXELS = 1 << 27
 
 
 def reconstruct(
-    points: ArrayLike,
+    points: ArrayLike | Stippling,
     amplitudes: ArrayLike | None = None,
     shape: tuple[int, ...] | None = None,
     *,
@@ -38,9 +37,10 @@ def reconstruct(
 
     Parameters
     ----------
-    points : (n, 2) or (n, 3) array_like
-        In the unit square, 0 to 1: x to the right, y up (and z along the slices of a volume), each axis
-        divided by its own count of pixels, as ``gbnbench.stipple`` gives them.
+    points : Stippling, or (n, 2) or (n, 3) array_like
+        What ``gbnbench.stipple`` returned: its points, and unless others are given its amplitudes, shape and
+        coverage. Or points by anybody, in the unit square, 0 to 1: x to the right, y up (and z along the
+        slices of a volume), each axis divided by its own count of pixels.
     amplitudes : (n,) array_like, optional
         Above 0, in any scale: how dense the points are around each. By default Algorithm 2 finds them.
     shape : tuple of int, optional
@@ -84,10 +84,16 @@ def reconstruct(
     Examples
     --------
     >>> import gbnbench
-    >>> points, amplitudes = gbnbench.stipple("camera", 500, method="gbn[gradients=10]")
-    >>> gbnbench.reconstruct(points, shape=(128, 128)).shape
-    (128, 128)
+    >>> made = gbnbench.stipple("camera", 500, method="gbn[gradients=10]")
+    >>> gbnbench.reconstruct(made).shape, gbnbench.reconstruct(made.points, shape=(128, 128)).shape
+    ((512, 512), (128, 128))
     """
+    if isinstance(points, Stippling):
+        coverage = points.coverage if coverage is None else coverage
+        shape = points.density.shape if shape is None else shape
+        if amplitudes is None and method == "shaping":
+            amplitudes = points.amplitudes
+        points = points.points
     density = density_of_points(
         points, amplitudes, shape, method=method, sigma=sigma, progress=progress, device=device
     )
@@ -126,7 +132,7 @@ def density_of_points(
     if method not in ESTIMATES:
         known = ", ".join(ESTIMATES)
         raise InputError(f"method must be one of {known}; got {method!r}{nearest(str(method), ESTIMATES)}")
-    sides = (SIDES[d],) * d if shape is None else _shape(shape, d)
+    sides = (SIDES[d],) * d if shape is None else checked_shape(shape, (d,))
     given = None if amplitudes is None else _amplitudes(amplitudes, n, method)
     if sigma is not None and not (0 < sigma < math.inf and method != "voronoi"):
         raise InputError(f"sigma must be above 0, and is of kernels; got {sigma} for method {method!r}")
@@ -142,8 +148,12 @@ def _points(points: ArrayLike) -> FloatArray:
         x = np.asarray(points, np.float64)
     except (TypeError, ValueError):
         raise InputError("points must be an array (n, 2) or (n, 3) of real numbers") from None
-    if x.ndim != 2 or x.shape[1] not in SIDES or not len(x):
-        raise InputError(f"points must be (n, 2) of a picture or (n, 3) of a volume; got shape {x.shape}")
+    if not x.size:
+        raise InputError("points holds no point: a picture needs at least one")
+    if x.ndim != 2 or x.shape[1] not in SIDES:
+        raise InputError(
+            f"points must be (n, 2) of a picture or (n, 3) of a volume; got an array of shape {x.shape}"
+        )
     outside = ~((x >= 0) & (x <= 1))
     if outside.any():
         row, column = (int(i) for i in np.argwhere(outside)[0])
@@ -154,22 +164,12 @@ def _points(points: ArrayLike) -> FloatArray:
     return x
 
 
-def _shape(shape: tuple[int, ...], d: int) -> tuple[int, ...]:
-    whole = isinstance(shape, tuple | list) and all(isinstance(side, numbers.Integral) for side in shape)
-    if not whole or len(shape) != d or min(shape) < 1 or math.prod(shape) > MOST_PIXELS:
-        axes = "(rows, columns)" if d == 2 else "(slices, rows, columns)"
-        raise InputError(
-            f"shape must be {axes} for points of d={d}, at most {MOST_PIXELS:,} pixels in all; got {shape!r}"
-        )
-    return tuple(int(side) for side in shape)
-
-
 def _amplitudes(amplitudes: ArrayLike, n: int, method: Estimate) -> FloatArray:
     a = np.asarray(amplitudes, np.float64)
     if method != "shaping":
         raise InputError(f"amplitudes go with method 'shaping'; {method!r} has no use for them")
     if a.shape != (n,):
-        raise InputError(f"amplitudes must be one number a point, ({n},); got shape {a.shape}")
+        raise InputError(f"amplitudes must be one number a point, ({n},); got an array of shape {a.shape}")
     if not (a > 0).all() or not np.isfinite(a).all():
         raise InputError("amplitudes must be finite numbers above 0")
     scaled: FloatArray = np.maximum(a / a.mean(), LEAST)

@@ -81,7 +81,9 @@ def forming(page: Page, states: Iterable[dict[str, FloatArray]], mm: float) -> I
     for state in states:
         yield replace(
             page,
-            layers=tuple(replace(layer, centres=state[layer.name] * mm) for layer in page.layers),
+            layers=tuple(
+                replace(layer, centres=state[layer.name] * mm + page.margin) for layer in page.layers
+            ),
         )
 
 

@@ -1,14 +1,14 @@
-"""Stipplings laid out on paper, and written as what a file's suffix names."""
+"""Stipplings written as what a file's suffix names, and the order of their dots."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from gbnbench.api.page_style import PageStyle, page_of
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
 from gbnbench.io.points.stippled_points import AMPLITUDE, INK, PictureHeader
@@ -16,7 +16,7 @@ from gbnbench.io.points.writer import write_atomically
 from gbnbench.reports.stippling import animation
 from gbnbench.reports.stippling.eps import eps
 from gbnbench.reports.stippling.gcode import GcodeTemplate, gcode
-from gbnbench.reports.stippling.page import DotLayer, Page
+from gbnbench.reports.stippling.page import Page
 from gbnbench.reports.stippling.pdf import pdf
 from gbnbench.reports.stippling.png import png
 from gbnbench.reports.stippling.svg import svg
@@ -25,13 +25,10 @@ from gbnbench.studies.stippling.tour import path_length, tour
 if TYPE_CHECKING:
     from gbnbench.api.stippling import Stippling
 
-WIDTH_MM = 160.0
-INKS = {
-    "black": "#000000", "cyan": "#00aeef", "magenta": "#ec008c", "yellow": "#fff200",
-}  # fmt: skip
-Dots = Literal["equal", "tone"]
+DEFAULT_STYLE = PageStyle()
 PICTURES: dict[str, Callable[[Page], bytes]] = {".svg": svg, ".pdf": pdf, ".eps": eps}
 TEXTS = (".txt", ".csv")
+AXES = "xyz"
 ANIMATIONS = animation.SUFFIXES
 SUFFIXES = (".png", *PICTURES, ".gcode", *TEXTS)
 
@@ -76,54 +73,6 @@ def in_tour_order(made: Stippling) -> tuple[Stippling, float]:
     return ordered, path_length(ordered.pixels)
 
 
-def page_of(
-    layers: Mapping[str, Stippling],
-    *,
-    width_mm: float = WIDTH_MM,
-    dots: Dots = "equal",
-    dot_mm: float | None = None,
-) -> Page:
-    """Lay stipplings on one page.
-
-    Parameters
-    ----------
-    layers : mapping of str to Stippling
-        Stipplings in two dimensions of one size, by the names of their inks (of ``INKS``, or ``#rrggbb``), in
-        the order of printing.
-    width_mm : float
-        Of the page, above 0; its height follows.
-    dots : {"equal", "tone"}
-        Dots of one size, or areas in proportion to the amplitudes.
-    dot_mm : float, optional
-        Diameter of equal dots, above 0; by default dots cover as much as the image is dark, overlaps apart.
-
-    Returns
-    -------
-    Page
-
-    Raises
-    ------
-    InputError
-        If a number is out of range, or the points are of a volume.
-    """
-    first = next(iter(layers.values()))
-    if len(first.size) != 2:
-        raise InputError("points of a volume lie on no page: write them as .txt or .csv")
-    for name, value in (("width_mm", width_mm), ("dot_mm", dot_mm)):
-        if value is not None and not (math.isfinite(value) and value > 0):
-            raise InputError(f"{name} must be above 0; got {value}")
-    mm = width_mm / first.size[0]
-    sheets = []
-    for name, made in layers.items():
-        radius = made.radius * mm if dot_mm is None else dot_mm / 2
-        shares = np.sqrt(made.amplitudes) if dots == "tone" else np.ones(len(made.pixels))
-        colour = name if name.startswith("#") else INKS.get(name, "#000000")
-        sheets.append(DotLayer(name, colour, made.pixels * mm, radius * shares))
-    counts = ", ".join(f"{len(made.pixels)} dots of {name}" for name, made in layers.items())
-    text = f"{counts}; {first.method}, seed {first.seed}, gbnbench {first.version}"
-    return Page(width_mm, first.size[1] * mm, tuple(sheets), first.name, text)
-
-
 def text_of(layers: Mapping[str, Stippling], suffix: str) -> bytes:
     """Write points with their amplitudes as rows of numbers, in the unit square, x to the right and y up.
 
@@ -144,7 +93,10 @@ def text_of(layers: Mapping[str, Stippling], suffix: str) -> bytes:
     if suffix == ".csv":
         import pandas as pd
 
-        tables = [made.to_frame() for made in layers.values()]
+        tables = [
+            pd.DataFrame({**dict(zip(AXES, made.points.T, strict=False)), AMPLITUDE: made.amplitudes})
+            for made in layers.values()
+        ]
         if len(layers) > 1:
             for name, table in zip(layers, tables, strict=True):
                 table.insert(0, INK, name)
@@ -153,7 +105,7 @@ def text_of(layers: Mapping[str, Stippling], suffix: str) -> bytes:
     lines = []
     for name, made in layers.items():
         lines.append(PictureHeader(made.size, made.coverage).text(name))
-        lines.append(f"# {' '.join('xyz'[: len(made.size)])} {AMPLITUDE}")
+        lines.append(f"# {' '.join(AXES[: len(made.size)])} {AMPLITUDE}")
         rows: FloatArray = np.column_stack([made.points, made.amplitudes])
         lines += [" ".join(map(repr, row)) for row in rows.tolist()]
     return ("\n".join(lines) + "\n").encode()
@@ -162,10 +114,8 @@ def text_of(layers: Mapping[str, Stippling], suffix: str) -> bytes:
 def write_stippling(
     path: Path,
     layers: Mapping[str, Stippling],
+    style: PageStyle = DEFAULT_STYLE,
     *,
-    width_mm: float = WIDTH_MM,
-    dots: Dots = "equal",
-    dot_mm: float | None = None,
     dpi: float = 300.0,
     template: GcodeTemplate | None = None,
 ) -> None:
@@ -177,8 +127,8 @@ def write_stippling(
         Its suffix names the format.
     layers : mapping of str to Stippling
         By the names of their inks.
-    width_mm, dots, dot_mm
-        As ``page_of`` takes them.
+    style : PageStyle
+        How they lie on the page; it does not count for text.
     dpi : float
         Pixels an inch of a PNG.
     template : GcodeTemplate, optional
@@ -196,7 +146,7 @@ def write_stippling(
     if suffix in TEXTS:
         write_atomically(path, text_of(layers, suffix))
         return
-    page = page_of(layers, width_mm=width_mm, dots=dots, dot_mm=dot_mm)
+    page = page_of(layers, style)
     if suffix == ".png":
         write_atomically(path, png(page, dpi))
     elif suffix == ".gcode":

@@ -15,7 +15,8 @@ from gbnbench.studies.stippling.units import unit_square
 if TYPE_CHECKING:
     import pandas as pd
 
-AXES = "xyz"
+SHARES = ("right_of_width", "up_of_height", "along_depth")  # names of columns
+PIXELS = ("right_pixels", "down_pixels", "along_slices")
 
 
 @dataclass(frozen=True)
@@ -52,7 +53,7 @@ class Stippling:
     >>> import gbnbench
     >>> made = gbnbench.stipple(lambda x: 1 + x[:, 1], 40, shape=(16, 24), method="rejection")
     >>> made.size, made.to_frame().columns.tolist()
-    ((24, 16), ['x', 'y', 'amplitude'])
+    ((24, 16), ['right_of_width', 'up_of_height', 'right_pixels', 'down_pixels', 'amplitude'])
     >>> points, amplitudes = made
     >>> bool(((points >= 0) & (points < 1)).all())
     True
@@ -101,8 +102,18 @@ class Stippling:
         return math.sqrt(share / math.pi) if len(self.size) == 2 else math.cbrt(share * 3 / (4 * math.pi))
 
     def to_frame(self) -> pd.DataFrame:
-        """Columns x, y (z) of ``points``, and amplitude: a row a point."""
+        """Give a row a point, in both units.
+
+        Returns
+        -------
+        pandas.DataFrame
+            ``right_of_width`` and ``up_of_height``, which are ``points``: shares of the picture's sides from
+            its lower left corner, 0 to 1; ``right_pixels`` and ``down_pixels``, which are ``pixels``: from
+            its upper left corner; of a volume ``along_depth`` and ``along_slices`` after each pair; and
+            ``amplitude``, whose mean is 1.
+        """
         import pandas as pd
 
-        table = dict(zip(AXES, self.points.T, strict=False))
-        return pd.DataFrame({**table, AMPLITUDE: self.amplitudes})
+        shares = dict(zip(SHARES, self.points.T, strict=False))
+        counted = dict(zip(PIXELS, self.pixels.T, strict=False))
+        return pd.DataFrame({**shares, **counted, AMPLITUDE: self.amplitudes})

@@ -11,9 +11,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gbnbench.api.comparison import FIGURES, REPORT
+from gbnbench.api.report_files import report_in, write_files
 from gbnbench.core.errors import InputError
-from gbnbench.studies.drawing import make_each
 from gbnbench.studies.stippling_comparison.stippling_folder import read_stippling_run
 from gbnbench.studies.stippling_comparison.stippling_results import StipplingRun, wide_table
 
@@ -131,10 +130,7 @@ class StipplingComparison:
         OSError
             If the folder cannot be written.
         """
-        path = self.folder / REPORT
-        if not path.exists():
-            draw(self.run, self.folder)
-        return path
+        return report_in(self.run, self.folder, draw)
 
     def _repr_html_(self) -> str:
         """Return the table and the gallery, for a notebook."""
@@ -164,13 +160,7 @@ def draw(run: StipplingRun, folder: Path) -> None:
     from gbnbench.reports.stippling_comparison.figure_files import write_figures
     from gbnbench.reports.stippling_comparison.page import write_report
 
-    drawn: dict[str, bytes] = {}
-    make_each(
-        [
-            (FIGURES, lambda: write_figures(run, folder / FIGURES, drawn)),
-            (REPORT, lambda: write_report(run, folder / REPORT, drawn)),
-        ]
-    )
+    write_files(run, folder, write_figures, write_report)
 
 
 def load_pictures() -> None:

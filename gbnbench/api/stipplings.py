@@ -6,9 +6,12 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
+from gbnbench.api.stippling import Stippling
 from gbnbench.api.stippling_comparison import StipplingComparison, draw, load_pictures
 from gbnbench.core.errors import InputError
+from gbnbench.core.least_values import require
 from gbnbench.execution import progress
+from gbnbench.execution.executor_choice import use_executor
 from gbnbench.generators.adaptive.density import Density
 from gbnbench.generators.adaptive.protocol import AdaptiveGenerator
 from gbnbench.io.points import ReadingOptions
@@ -36,6 +39,8 @@ def compare_stipplings(
     shape: tuple[int, ...] | None = None,
     out: str | Path | None = None,
     jobs: int | None = None,
+    executor: str | None = None,
+    executor_config: str | Path | None = None,
     quiet: bool = False,
     device: str | None = None,
     reading: ReadingOptions = DEFAULT_READING,
@@ -48,10 +53,10 @@ def compare_stipplings(
     ----------
     image : str, path, array_like, Density or callable
         As ``stipple`` takes it; two axes, not toroidal.
-    sources : str, path, array_like or AdaptiveGenerator, or a sequence or mapping of these
+    sources : str, path, array_like, Stippling or AdaptiveGenerator, or a sequence or mapping of these
         Names of ``ADAPTIVE_GENERATORS`` with settings, such as ``"gbn[sigma=0.85]"``; files and folders of
         points by anybody, in the unit square with y up or, where a number is beyond 1, in pixels with y down;
-        a list of arrays (n, 2) or (realizations, n, 2) in the unit square, such as ``Stippling.points``. A
+        what ``stipple`` returned; a list of arrays (n, 2) or (realizations, n, 2) in the unit square. A
         mapping gives labels.
     n : int, optional
         Points a set of generators, at least 1; by default as many as ``stipple`` draws.
@@ -66,6 +71,11 @@ def compare_stipplings(
         refused.
     jobs : int, optional
         Worker processes, each with one thread; by default one a core.
+    executor : str, optional
+        Who does the work: ``"local"``, ``"dask:tcp://HOST:PORT"``, ``"dask:local"``, ``"mpi"`` or
+        ``"slurm"``; by default processes on this machine.
+    executor_config : path, optional
+        A TOML file with settings of the executor.
     quiet : bool
         No progress on standard error.
     device : str, optional
@@ -116,15 +126,13 @@ def compare_stipplings(
     darkness = as_darkness(image, shape=shape, curve=ToneCurve(invert, gamma, white_cutoff))
     density = darkness.density()
     count = darkness.default_n if n is None else n
-    for name, value in (("n", count), ("realizations", realizations)):
-        if value < 1:
-            raise InputError(f"{name} must be at least 1; got {value}")
+    require(n=(count, 1), realizations=(realizations, 1))
     if density.d != 2:
         raise InputError(f"stipplings are compared on images; {darkness.name} is a volume")
     if isinstance(image, Density) and image.toroidal:
         raise InputError("stipplings are compared on bounded images; opposite borders of this density meet")
-    with use_device(device):
-        found, skipped = stippling_sources(_labelled(sources), density, count, realizations, reading)
+    with use_device(device), use_executor(executor, executor_config):
+        found, skipped, unread = stippling_sources(_labelled(sources), density, count, realizations, reading)
         with progress.choose(quiet) as shown:
             done = run_stippling_comparison(
                 found,
@@ -136,6 +144,7 @@ def compare_stipplings(
                 jobs=jobs,
                 command=command,
                 skipped=skipped,
+                unread=unread,
                 progress=shown,
                 draw=draw if pictures else None,
                 meanwhile=load_pictures if pictures else None,
@@ -148,10 +157,18 @@ def _labelled(
 ) -> list[tuple[str, StipplingSourceLike]]:
     """Pair sources with their labels, empty where none is given."""
     if isinstance(sources, Mapping):
-        return [(str(label), item) for label, item in sources.items()]
-    return [("", item) for item in ([sources] if _is_one(sources) else sources)]
+        pairs = [(str(label), item) for label, item in sources.items()]
+    else:
+        pairs = [("", item) for item in ([sources] if _is_one(sources) else sources)]
+    return [
+        _points_of(label, item) if isinstance(item, Stippling) else (label, item) for label, item in pairs
+    ]
+
+
+def _points_of(label: str, made: Stippling) -> tuple[str, StipplingSourceLike]:
+    return label or f"{made.method}, seed {made.seed}", made.points
 
 
 def _is_one(given: object) -> bool:
     """Whether this is one source, not a collection of them."""
-    return isinstance(given, (str, Path, AdaptiveGenerator)) or hasattr(given, "__array__")
+    return isinstance(given, (str, Path, AdaptiveGenerator, Stippling)) or hasattr(given, "__array__")

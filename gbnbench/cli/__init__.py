@@ -146,7 +146,7 @@ def run(arguments: Sequence[str]) -> int:
         click.echo(error.format_message())
         return BAD
     except click.ClickException as error:
-        return _fail(error.format_message() + _mistaken_file(error, arguments), error.exit_code)
+        return _fail(_sentence(error.format_message()) + _mistaken_file(error, arguments), error.exit_code)
     except (KeyboardInterrupt, click.Abort) as error:
         return _fail(f"stopped; {error}" if str(error) else "stopped", STOPPED)
     except GbnbenchError as error:
@@ -162,6 +162,11 @@ def run(arguments: Sequence[str]) -> int:
     except OSError as error:
         return _fail(f"{error.filename}: {error.strerror}" if error.filename else str(error), BAD)
     return 0
+
+
+def _sentence(message: str) -> str:
+    """End a message of click's, which older versions of it leave open."""
+    return message if message.endswith((".", "?", ")")) else f"{message}."
 
 
 def _mistaken_file(error: click.ClickException, arguments: Sequence[str]) -> str:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from gbnbench.cli import options
+from gbnbench.cli.executor_option import executor
 from gbnbench.cli.json_text import json_text, records
 from gbnbench.cli.standard_streams import wants_colour
 from gbnbench.cli.undrawn import undrawn
@@ -55,6 +56,7 @@ Examples:
 @options.realizations(16)
 @options.seed
 @options.jobs
+@executor
 @options.json
 @options.quiet
 @options.device

@@ -113,6 +113,8 @@ def _show(made: StipplingComparison, as_json: bool) -> None:
     if made.undrawn:
         undrawn(made.folder, made.undrawn)
     if made.failures:
+        for line in made.failures[1:]:
+            click.echo(f"gbnbench: failed: {line}", err=True)
         others = f"; the report of the others: {made.report()}" if made.run.sources else ""
         raise UnfinishedError(
             f"{len(made.failures)} of {len(made.failures) + len(made.run.sources)} sources failed, and the "

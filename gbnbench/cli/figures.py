@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from gbnbench.cli import options
+from gbnbench.cli.executor_option import executor
 from gbnbench.core.errors import InputError
 
 if TYPE_CHECKING:
@@ -39,6 +40,7 @@ Examples:
 @options.quick_or_full("Small counts: minutes instead of hours.", default="full")
 @options.seed
 @options.jobs
+@executor
 @options.quiet
 @options.device
 def figures(

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import click
 
 from gbnbench.cli import options
+from gbnbench.cli.executor_option import executor
 from gbnbench.cli.json_text import json_text
 from gbnbench.cli.undrawn import undrawn
 
@@ -81,6 +82,7 @@ def _settings(family: Family) -> str:
 @options.realizations(16)
 @options.seed
 @options.jobs
+@executor
 @options.json
 @options.quiet
 @options.device

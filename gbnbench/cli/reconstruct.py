@@ -111,6 +111,7 @@ def reconstruct(
     from gbnbench.cli.generate import check_folder
     from gbnbench.cli.json_text import json_text
     from gbnbench.cli.point_files import naming
+    from gbnbench.io.images.arrays import ARRAY_SUFFIX
     from gbnbench.io.images.writing import check_image, write_image
     from gbnbench.studies.stippling.tones import tones
 
@@ -120,6 +121,12 @@ def reconstruct(
     dark = None if against is None else _darkness(against, invert)
     told = size if size is not None else None if dark is None else dark.shape[::-1]
     found = _chosen(points, _stipplings(points, reading, unit, told), index)
+    if found.points.shape[1] == 3 and out.suffix.lower() != ARRAY_SUFFIX:
+        raise FormatError(
+            points,
+            f"has points of three coordinates, a volume, which is written as .npy; got {out}. If the third "
+            "column is no coordinate, such as the size of dots, name the others: --columns 1,2, or x,y",
+        )
     header = found.header
     wanted = told or (None if header is None else header.size)
     if dark is not None and wanted != dark.shape[::-1]:
@@ -163,9 +170,7 @@ def _darkness(against: str, invert: bool) -> FloatArray:
 def _stipplings(
     path: Path, reading: ReadingOptions, unit: str, size: tuple[int, ...] | None
 ) -> list[StippledPoints]:
-    from dataclasses import replace
-
-    from gbnbench.io.points.stippled_points import read_stipplings
+    from gbnbench.io.points.stippled_points import read_pixel_stipplings, read_stipplings
 
     if unit == "square":
         try:
@@ -178,16 +183,7 @@ def _stipplings(
         raise click.UsageError("--unit pixels is of pictures of --size: leave out --period and --bounds")
     if size is None:
         raise click.UsageError("--unit pixels needs the size of the picture: --size 768x512, or --against")
-    ends = tuple(float(end) for side in size for end in (0, side))
-    found = read_stipplings(path, replace(reading, bounds=ends))
-    return [replace(one, points=_turned(one.points)) for one in found]
-
-
-def _turned(points: FloatArray) -> FloatArray:
-    """Count y from the lower border."""
-    turned = points.copy()
-    turned[:, 1] = 1 - turned[:, 1]
-    return turned
+    return read_pixel_stipplings(path, reading, size)
 
 
 def _chosen(path: Path, sets: list[StippledPoints], index: int | None) -> StippledPoints:

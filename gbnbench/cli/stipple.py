@@ -18,7 +18,7 @@ Examples:
   gbnbench stipple photo.jpg -o photo.pdf --colour cmyk           a layer an ink
   gbnbench stipple photo.jpg -o photo.svg --palette '#d00,#08c,#000'
   gbnbench stipple camera -o camera.gif --progressive             dot by dot
-  gbnbench stipple moon -o moon.csv --invert                      light is dense; x, y and amplitude
+  gbnbench stipple moon -o moon.png --invert                      white dots on black
 """
 
 
@@ -36,7 +36,7 @@ Examples:
     required=True,
 )
 @click.option("--method", default="gbn", show_default=True, help="Generator, such as 'gbn[sigma=0.85]'.")
-@click.option("--invert", is_flag=True, help="Light is dense, for white ink on black.")
+@click.option("--invert", is_flag=True, help="Light is dense; dots are white on black.")
 @click.option(
     "--gamma",
     type=float,
@@ -57,6 +57,17 @@ Examples:
     help="Inks, such as '#d00,#08c,#000', or how many to find in the image; 4 with --colour palette.",
 )
 @click.option("--width-mm", type=float, default=160.0, show_default=True, help="Width of the page.")
+@click.option(
+    "--margin-mm",
+    type=float,
+    help="Blank paper on each side.  [default: half a dot, so that none hangs over the border]",
+)
+@click.option(
+    "--paper",
+    metavar="COLOUR",
+    help="Colour of the paper, as #rgb, #rrggbb or a name of CSS.  [default: white; with --invert black]",
+)
+@click.option("--ink", metavar="COLOUR", help="Colour of one ink.  [default: black; on dark paper white]")
 @click.option(
     "--dots",
     type=click.Choice(["equal", "tone"]),
@@ -95,9 +106,10 @@ Examples:
 @options.device
 def stipple(
     image: str, n: int | None, out: Path, method: str, invert: bool, gamma: float, white_cutoff: float | None,
-    toroidal: bool, colour: str | None, palette: str | None, width_mm: float,
-    dots: Literal["equal", "tone"], dot_mm: float | None, dpi: float | None, order: str, progressive: bool,
-    frames: int | None, gcode_template: Path | None, preview: bool, seed: int, quiet: bool,
+    toroidal: bool, colour: str | None, palette: str | None, width_mm: float, margin_mm: float | None,
+    paper: str | None, ink: str | None, dots: Literal["equal", "tone"], dot_mm: float | None,
+    dpi: float | None, order: str, progressive: bool, frames: int | None, gcode_template: Path | None,
+    preview: bool, seed: int, quiet: bool,
 ) -> None:  # fmt: skip
     """Draw an image by dots whose density follows its tones.
 
@@ -105,8 +117,9 @@ def stipple(
     of scikit-image's such as camera, coins or astronaut.
     """
     from gbnbench.api.drawing import draw_inks, in_progressive_order
+    from gbnbench.api.page_style import PageStyle, page_of
     from gbnbench.api.stippled_frames import FormingDots
-    from gbnbench.api.stippled_page import in_tour_order, page_of, write_stippling
+    from gbnbench.api.stippled_page import in_tour_order, write_stippling
     from gbnbench.cli import stipple_input
     from gbnbench.cli.generate import check_folder
     from gbnbench.cli.stipple_frames import checked_frames, write_animation
@@ -117,61 +130,58 @@ def stipple(
     from gbnbench.studies.stippling.darkness import ToneCurve
     from gbnbench.studies.stippling.inks import shared_out
 
-    stipple_input.check(image, out, width_mm, dots, dot_mm, gcode_template)
-    if progressive and order == "tour":
-        raise click.UsageError("--progressive is an order of the dots, and so is --order tour: leave out one")
+    given = stipple_input.PageOptions(width_mm, margin_mm, dots, dot_mm, dpi, paper, ink)
+    stipple_input.check(
+        image, out, given, inks=colour is not None or palette is not None, order=order,
+        progressive=progressive, template=gcode_template,
+    )  # fmt: skip
     check_folder(out)
     template = None if gcode_template is None else read_template(gcode_template)
     generator = adaptive_generator(method)
-    darkness = stipple_input.darkness(image, ToneCurve(invert, gamma, white_cutoff), colour, palette, seed)
+    curve = ToneCurve(invert, gamma, white_cutoff)
+    on, layer = stipple_input.colours(given, invert=invert)
+    darkness = stipple_input.darkness(image, curve, colour, palette, seed, layer)
     for remark in dict.fromkeys(remark for one in darkness.values() for remark in one.remarks):
         click.echo(f"gbnbench: {remark}", err=True)
     rows, columns = next(iter(darkness.values())).values.shape
     sheet = Page(width_mm, width_mm * rows / columns, ())
-    counts = shared_out(darkness, n if n is not None else stipple_input.default_n(darkness, width_mm, dot_mm))
+    style = PageStyle(width_mm, 0.0 if toroidal and margin_mm is None else margin_mm, dots, dot_mm, on)
+    counts = shared_out(darkness, n if n is not None else stipple_input.default_n(darkness, style))
     moving = checked_frames(out, frames, sheet, dpi, generator, counts, progressive=progressive)
     if out.suffix.lower() == ".png":
         picture_size(sheet, 300 if dpi is None else dpi)
     kept = FormingDots(moving.steps, moving.frames) if moving is not None and moving.steps else None
     wanted = {
-        ink: dark if dots == "equal" else replace(dark, values=dark.values**0.5)
-        for ink, dark in darkness.items()
+        name: dark if dots == "equal" else replace(dark, values=dark.values**0.5)
+        for name, dark in darkness.items()
     }
     with late_progress(quiet) as told:
         drawn = draw_inks(
             wanted, counts, method=generator, seed=seed, toroidal=toroidal, progress=told, seen=kept
         )
-    for ink, made in drawn.items():
-        placed = replace(made, coverage=darkness[ink].coverage)
+    lengths = {}
+    for name, made in drawn.items():
+        placed = replace(made, coverage=darkness[name].coverage)
         if progressive:
             with late_progress(quiet) as told:
                 placed = in_progressive_order(placed, told)
         elif order == "tour":
-            placed, length = in_tour_order(placed)
-            told_length = length * width_mm / made.size[0]
-            click.echo(f"tour of {ink}: {told_length / 1000:.4g} m")
-        drawn[ink] = placed
+            placed, lengths[name] = in_tour_order(placed)
+        drawn[name] = placed
     replaced = ", replacing what was there" if out.exists() else ""
-    page = page_of(drawn, width_mm=width_mm, dots=dots, dot_mm=dot_mm)
+    page = page_of(drawn, style)
+    mm = (page.width - 2 * page.margin) / columns
+    for name, length in lengths.items():
+        click.echo(f"tour of {name}: {length * mm / 1000:.4g} m")
     if moving is None:
-        write_stippling(
-            out,
-            drawn,
-            width_mm=width_mm,
-            dots=dots,
-            dot_mm=dot_mm,
-            dpi=300 if dpi is None else dpi,
-            template=template,
-        )
+        write_stippling(out, drawn, style, dpi=300 if dpi is None else dpi, template=template)
     else:
-        write_animation(out, page, moving, kept, width_mm / columns, quiet=quiet)
+        write_animation(out, page, moving, kept, mm, quiet=quiet)
     if preview:
         from gbnbench.cli.braille import braille
 
         click.echo(braille(drawn.values()))
-    said = ", ".join(f"{len(made.pixels):,} dots of {ink}" for ink, made in drawn.items())
+    said = ", ".join(f"{len(made.pixels):,} dots of {name}" for name, made in drawn.items())
     sizes = sorted({round(2 * r, 3) for layer in page.layers for r in (layer.radii.min(), layer.radii.max())})
     across = f"{sizes[0]:g}" if len(sizes) == 1 else f"{sizes[0]:g} to {sizes[-1]:g}"
-    click.echo(
-        f"wrote {out}: {said}, {across} mm across, on {sheet.width:g} x {sheet.height:.4g} mm{replaced}"
-    )
+    click.echo(f"wrote {out}: {said}, {across} mm across, on {page.width:g} x {page.height:.4g} mm{replaced}")

@@ -13,6 +13,7 @@ Dolbilin & Huson, "Periodic Delone tilings", Periodica Mathematica Hungarica 34,
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
@@ -126,7 +127,9 @@ def overhang(centre: FloatArray, radius: FloatArray, side: float | Sides = 1.0) 
     float
         Largest over all balls, negative where all lie well inside; -inf where there are none.
     """
-    beyond = np.maximum(-centre, centre - np.asarray(side)).max(axis=-1) + radius
+    sides = np.broadcast_to(np.asarray(side, dtype=np.float64), centre.shape[-1:])
+    along = [np.maximum(-centre[..., k], centre[..., k] - s) for k, s in enumerate(sides)]
+    beyond = functools.reduce(np.maximum, along) + radius
     return float(beyond.max(initial=-np.inf))
 
 
@@ -143,12 +146,12 @@ def circumcentre(a: FloatArray, b: FloatArray) -> FloatArray:
     (m, 2) float64
         Infinite or nan for flat triangles.
     """
-    aa, bb = np.sum(a * a, axis=1), np.sum(b * b, axis=1)
-    double_area = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
-    normal = np.stack([b[:, 1] * aa - a[:, 1] * bb, a[:, 0] * bb - b[:, 0] * aa], axis=1)
+    (ax, ay), (bx, by) = a.T, b.T
+    aa, bb = ax * ax + ay * ay, bx * bx + by * by
+    double_area = ax * by - ay * bx
     with np.errstate(divide="ignore", invalid="ignore"):
-        centre: FloatArray = normal / (2 * double_area)[:, None]
-    return centre
+        factor = 2 * double_area
+        return np.stack([(by * aa - ay * bb) / factor, (ax * bb - bx * aa) / factor], axis=1)
 
 
 def triangulation(tiled: FloatArray) -> Delaunay | None:

@@ -8,6 +8,7 @@ import numpy as np
 
 from gbnbench.doctor.check import Check
 from gbnbench.doctor.kernel_checks import KernelChecks, planned_checks
+from gbnbench.execution.calls import Calls
 from gbnbench.execution.worker_pool import Pool
 from gbnbench.opencl import Device, choose
 
@@ -78,9 +79,10 @@ def examine_apart(quick: bool = False) -> Examination:
     planned = planned_checks(quick, device)
     checks: list[Check] = []
     with Pool(1, {}) as pool:
+        calls = Calls(pool, tries=1)
         for function, case, precision in planned:
-            pool.submit(None, carried_out, function, case, precision)
-            done = pool.next()
+            calls.submit(None, carried_out, function, case, precision)
+            done = calls.next()
             checks.extend(done.value or [_not_tried(function, case, precision, done.failure)])
     return Examination(device, tuple(checks))
 

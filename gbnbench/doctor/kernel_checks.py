@@ -22,7 +22,7 @@ from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import AXES
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.shell_spectrum import shells
 from gbnbench.core.torus import FloatArray, displacement
-from gbnbench.doctor.adaptive_sets import adaptive_gradient, sums_of_kernels
+from gbnbench.doctor.adaptive_sets import adaptive_gradient, sums_of_kernels, voids_of_farthest_points
 from gbnbench.doctor.check import Check
 from gbnbench.doctor.numpy_references import (
     numpy_box_gradient,
@@ -54,6 +54,7 @@ QUICK_ENERGIES = ((401, 2, 1.0), (53, 3, 0.7))
 QUICK_BOXES = ((90, 2, 1.0),)
 BOXES = (*QUICK_BOXES, (1500, 2, 0.5), (120, 3, 1.0), (60, 8, 1.0))
 ADAPTIVE = ((61, 2), (71, 3))  # n, d
+VOIDS = ((67, False), (67, True))  # n, toroidal
 SWEEP, QUICK_SWEEP = 101, 41  # points of the farthest-point kernel's sweep
 SWAPS, QUICK_SWAPS = ((31, 77), (11, 300)), ((23, 37),)  # sites, samples of each
 PASSES = 1000  # of swaps; a few dozen bring so few to rest
@@ -216,6 +217,7 @@ def planned_checks(quick: bool, device: Device) -> list[tuple[KernelChecks, tupl
             work.extend((_integrands, case) for case in (QUICK_INTEGRANDS if quick else INTEGRANDS))
             work.extend((_pairs, case) for case in (QUICK_PAIRS if quick else PAIRS))
             work.append((_farthest_points, (QUICK_SWEEP if quick else SWEEP,)))
+            work.extend((voids_of_farthest_points, case) for case in VOIDS)
             work.extend((_swaps, case) for case in (QUICK_SWAPS if quick else SWAPS))
             work.extend((_discrepancies, case) for case in (QUICK_DISCREPANCIES if quick else DISCREPANCIES))
         planned.extend((function, case, precision) for function, case in work)

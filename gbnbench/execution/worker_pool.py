@@ -12,12 +12,11 @@ import sys
 import tempfile
 import threading
 import traceback
-from collections.abc import Callable, Hashable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from concurrent.futures import Executor, Future
 from pathlib import Path
-from typing import IO, Any, Self
+from typing import IO, Any
 
-from gbnbench.core.errors import GbnbenchError
 from gbnbench.core.garbage import OBJECTS
 from gbnbench.core.process_end import cause_of_end
 from gbnbench.execution.messages import receive, send
@@ -39,26 +38,11 @@ ONE_THREAD = {
 }
 
 
-@dataclass(frozen=True)
-class Finished:
-    """What became of one task.
-
-    Attributes
-    ----------
-    key : hashable
-        As given to ``submit``.
-    value : object
-        What the function returned, None after a failure.
-    failure : str
-        Empty when it succeeded, else one line, or a traceback where the cause is a bug.
-    """
-
-    key: Hashable
-    value: Any = None
-    failure: str = ""
+class LostWorkerError(Exception):
+    """A process ended before it answered; the text says of what."""
 
 
-class Pool:
+class Pool(Executor):
     """Run module-level functions in child processes, each with one thread unless told otherwise.
 
     Parameters
@@ -70,57 +54,44 @@ class Pool:
 
     Notes
     -----
-    The standard ProcessPoolExecutor loses every pending task when one child dies, without naming the one that
-    did it, and leaves its children running when its own process is killed. Here each child is attended by a
-    thread that knows its task, and a child whose standard input closes ends at once.
+    It is an executor of ``concurrent.futures``. The standard ProcessPoolExecutor loses all pending tasks when
+    one child dies, without naming the one that did it, and leaves its children running when its own process
+    is killed. Here each child is attended by a thread that knows its task, and a child whose standard input
+    closes ends at once.
     """
 
     def __init__(self, jobs: int, environment: Mapping[str, str] = ONE_THREAD) -> None:
         self._environment = {**environment}
-        self._todo: queue.SimpleQueue[tuple[Hashable, bytes] | None] = queue.SimpleQueue()
-        self._done: queue.SimpleQueue[Finished] = queue.SimpleQueue()
+        self._todo: queue.SimpleQueue[tuple[Future[Any], bytes] | None] = queue.SimpleQueue()
         self._children: set[subprocess.Popen[bytes]] = set()
         self._closing = False
         self._device = selected()  # the context of use_device is not that of the attending threads
         self._lock = threading.Lock()
-        self._pending = 0
+        self.count = jobs
         self._threads = [threading.Thread(target=self._attend, daemon=True) for _ in range(jobs)]
         for thread in self._threads:
             thread.start()
 
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *exception: object) -> None:
-        self.close()
-
-    @property
-    def pending(self) -> int:
-        """Tasks submitted and not yet handed back."""
-        return self._pending
-
-    def submit(self, key: Hashable, function: Callable[..., object], *arguments: object) -> None:
+    def submit(self, fn: Callable[..., Any], /, *args: Any) -> Future[Any]:  # type: ignore[override]
         """Queue one call of a module-level function.
 
         Parameters
         ----------
-        key : hashable
-            Handed back with what became of the call.
-        function : callable
+        fn : callable
             Found by its module and name in the child.
-        *arguments
+        *args
             They can be pickled.
+
+        Returns
+        -------
+        Future
+            Its exception is LostWorkerError.
         """
-        self._pending += 1
-        self._todo.put((key, pickle.dumps((function, arguments), protocol=5)))
+        future: Future[Any] = Future()
+        self._todo.put((future, pickle.dumps((fn, args), protocol=5)))
+        return future
 
-    def next(self) -> Finished:
-        """Wait for any task to finish; call it once for each task submitted."""
-        finished = self._done.get()
-        self._pending -= 1
-        return finished
-
-    def close(self) -> None:
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = True) -> None:  # noqa: ARG002
         """End every child at once, whatever it is doing."""
         with self._lock:
             self._closing = True
@@ -131,25 +102,36 @@ class Pool:
         for thread in self._threads:
             thread.join()
 
+    def trouble(self) -> str:
+        """Say nothing: a child that died is started anew."""
+        return ""
+
+    def avoid(self, worker: str) -> bool:  # noqa: ARG002 - all children are alike
+        """Say that no other child is better."""
+        return False
+
     def _attend(self) -> None:
         child: subprocess.Popen[bytes] | None = None
         with _scratch() as complaints:
             while (task := self._todo.get()) is not None:
-                key, call = task
+                future, call = task
                 try:
                     child = child or self._start(complaints)
                 except OSError as error:
-                    self._done.put(Finished(key, failure=f"no process can be started for it: {error}"))
+                    future.set_exception(LostWorkerError(f"no process can be started for it: {error}"))
                     continue
                 if child is None:
                     break
                 try:
                     send(child.stdin, call)
                     succeeded, value = pickle.loads(receive(child.stdout))  # noqa: S301 - our own child
-                    self._done.put(Finished(key, value) if succeeded else Finished(key, failure=value))
+                    if succeeded:
+                        future.set_result(value)
+                    else:
+                        future.set_exception(LostWorkerError(value))
                 except (EOFError, OSError):
                     self._end(child)
-                    self._done.put(Finished(key, failure=_post_mortem(child.returncode, complaints)))
+                    future.set_exception(LostWorkerError(_post_mortem(child.returncode, complaints)))
                     child = None
             if child is not None:
                 self._end(child)
@@ -221,9 +203,5 @@ def _answer(call: bytes) -> tuple[bool, Any]:
     try:
         function, arguments = pickle.loads(call)  # noqa: S301 - our own parent
         return True, function(*arguments)
-    except GbnbenchError as error:
-        return False, str(error)
-    except MemoryError:
-        return False, "not enough memory"
     except Exception:
         return False, "unexpected error\n" + traceback.format_exc()

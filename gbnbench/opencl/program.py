@@ -108,6 +108,38 @@ class Launch:
         self.owner.enqueue(self.kernel, self.global_size, self.local_size)
 
 
+class RepeatedLaunch:
+    """A launch that may be the only one of its kind, or one of many, for one thread.
+
+    To set the numbers among the arguments once and for all takes as long as five launches, so that only the
+    second call does it.
+
+    Parameters
+    ----------
+    program : Program
+        The program.
+    name, global_size, local_size, *args
+        As in ``Program.prepared``.
+    """
+
+    def __init__(
+        self, program: Program, name: str, global_size: Sequence[int], local_size: Sequence[int], *args: Any
+    ) -> None:
+        self._program, self._of, self._args = program, (name, global_size, local_size), args
+        self._prepared: Launch | None = None
+        self._called = False
+
+    def __call__(self, *arguments: Any) -> None:
+        """Enqueue the kernel with these buffers and numbers as its first arguments."""
+        if not self._called:
+            self._called = True
+            self._program.run(*self._of, *arguments, *self._args[len(arguments) :])
+            return
+        if self._prepared is None:
+            self._prepared = self._program.prepared(*self._of, *self._args)
+        self._prepared(*arguments)
+
+
 def _types(args: Sequence[Any]) -> list[Any]:
     """Types of numbers, None for buffers: a number of no known type is tried as a buffer first, for 8 us."""
     return [

@@ -10,8 +10,8 @@ import numpy as np
 from scipy.special import stdtrit
 
 from gbnbench.core.errors import GbnbenchError, InputError
+from gbnbench.execution.calls import Finished
 from gbnbench.execution.progress import Progress
-from gbnbench.execution.worker_pool import Finished
 from gbnbench.opencl import choose
 from gbnbench.regression.cases import Case, Expectation, Spread, Values
 from gbnbench.regression.measurement import observe

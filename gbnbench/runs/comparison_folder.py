@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from gbnbench.analysis.outcomes import Arrays
 from gbnbench.core import atomic_write
 from gbnbench.core.errors import FormatError, InputError
 from gbnbench.core.torus import FloatArray
@@ -20,7 +21,11 @@ from gbnbench.io import data_files
 from gbnbench.runs import source_files
 from gbnbench.runs.comparison_result import Run, SourceResult
 from gbnbench.runs.comparison_tables import long_table, wide_table
+from gbnbench.runs.file_sets import checksum
 from gbnbench.runs.resumable_folder import FORMAT, MANIFEST, SETTINGS, ResumableFolder
+from gbnbench.runs.task_keys import PIECE, realization_key
+
+REPORT = "report.html"  # in the folder
 
 
 @dataclass(frozen=True)
@@ -48,31 +53,39 @@ class ComparisonFolder(ResumableFolder):
     Notes
     -----
     A task whose key is a source's, such as ``gbn_n64_d2``, results in a SourceResult; one whose key is that
-    of a realization, such as ``gbn_n64_d2/000003``, in a Realization.
+    of a realization, such as ``gbn_n64_d2/000003``, in a Realization; one whose key is that of a piece, such
+    as ``gbn_n64_d2/measured-000016``, in arrays.
     """
 
     kind = "run"
 
-    def read(self, key: str) -> SourceResult | Realization | None:
+    def read(self, key: str) -> SourceResult | Realization | Arrays | None:
         """Return what is kept under a task's key; None where it has still to be made."""
         source, _, number = key.partition("/")
+        if number.startswith(PIECE):
+            try:
+                return data_files.read_or_explain(self._part(key), data_files.read_npz)
+            except FormatError:  # absent, or spoilt after it was written: measured again
+                return None
         return self.read_realization(source, int(number)) if number else self.read_source(source)
 
-    def write(self, key: str, result: SourceResult | Realization) -> None:
+    def write(self, key: str, result: SourceResult | Realization | Arrays) -> None:
         """Keep the result of a task.
 
         Parameters
         ----------
         key : str
             The task's.
-        result : SourceResult or Realization
+        result : SourceResult, Realization or mapping of arrays
             What it made.
         """
-        if isinstance(result, Realization):
+        if isinstance(result, SourceResult):
+            self.write_source(result)
+        elif isinstance(result, Realization):
             source, _, number = key.partition("/")
             self.write_realization(source, int(number), result)
         else:
-            self.write_source(result)
+            atomic_write.write_whole(self._part(key), data_files.to_npz(**result))
 
     def write_realization(self, source: str, k: int, realization: Realization) -> None:
         """Keep a realization.
@@ -133,28 +146,14 @@ class ComparisonFolder(ResumableFolder):
         """Declare it whole: checksums of the data, and the manifest as the very last file."""
         self.drop("parts")
         data = sorted((self.path / "sources").rglob("*.*"))
-        sums = {p.relative_to(self.path).as_posix(): _sha256(p) for p in data if p.is_file()}
+        sums = {p.relative_to(self.path).as_posix(): checksum(p) for p in data if p.is_file()}
         super().finish({**manifest, "sha256": sums})
 
     def _realization(self, source: str, k: int) -> Path:
-        return self.path / "parts" / f"{realization_key(source, k)}.npz"
+        return self._part(realization_key(source, k))
 
-
-def realization_key(source: str, k: int) -> str:
-    """Name the task that makes a realization.
-
-    Parameters
-    ----------
-    source : str
-        The key of its source.
-    k : int
-        Its number.
-
-    Returns
-    -------
-    str
-    """
-    return f"{source}/{k:06d}"
+    def _part(self, key: str) -> Path:
+        return self.path / "parts" / f"{key}.npz"
 
 
 def default_folder(identity: Mapping[str, Any], command: str = "") -> Path:
@@ -214,11 +213,6 @@ def read_run(folder: str | Path) -> Run:
     for name, expected in sums.items():
         if not (path / name).is_file():
             raise FormatError(path / name, "is missing from the run")
-        if _sha256(path / name) != expected:
+        if checksum(path / name) != expected:
             raise FormatError(path / name, "was changed after the run was written")
     return Run(manifest, tuple(source_files.decode(path / "sources" / key) for key in keys), verdicts)
-
-
-def _sha256(path: Path) -> str:
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()

@@ -59,8 +59,11 @@ class Run:
         In the order of the request.
     verdicts : mapping
         (source key, measure) -> "better" or "worse" than the baseline; empty without one.
+    series : mapping
+        source key -> (its label in its own run, number of that run) where runs are joined; else empty.
     """
 
     manifest: Mapping[str, Any]
     sources: tuple[SourceResult, ...]
     verdicts: Mapping[tuple[str, str], str] = field(default_factory=dict)
+    series: Mapping[str, tuple[str, int]] = field(default_factory=dict)

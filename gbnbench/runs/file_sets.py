@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -60,20 +61,12 @@ def read_groups(path: Path, reading: ReadingOptions) -> list[FileSets]:
     FormatError
         If files of one n and d tell of different boxes.
     """
-    files = [path]
-    if path.is_dir():
-        files = sorted(
-            (f for f in path.iterdir() if f.is_file() and in_folders(f)),
-            key=lambda f: [(part.isdigit(), int(part) if part.isdigit() else 0, part)
-                           for part in re.split(r"(\d+)", f.name)],
-        )  # fmt: skip
-        if not files:
-            raise InputError(f"{path} holds no point sets; files are known by {', '.join(FOLDER_SUFFIXES)}")
+    files = files_of(path)
     groups: dict[tuple[int, int], list[FloatArray]] = {}
     digests: dict[tuple[int, int], list[str]] = {}
     boxes: dict[tuple[int, int], tuple[tuple[float, ...] | None, bool | None]] = {}
     for file in files:
-        digest = _sha256(file)
+        digest = checksum(file)
         found = read_sets(file, reading)
         for x in found.sets:
             shape = (x.shape[0], x.shape[1])
@@ -81,13 +74,59 @@ def read_groups(path: Path, reading: ReadingOptions) -> list[FileSets]:
             digests.setdefault(shape, []).append(digest)
             if boxes.setdefault(shape, (found.sides, found.toroidal)) != (found.sides, found.toroidal):
                 raise FormatError(file, f"its box is not that of the files before: {_box(*boxes[shape])}")
-    said = reading.record()
-    more = json.dumps(said) if said else ""
     return [
-        FileSets(np.stack(sets), hashlib.sha256(("".join(digests[shape]) + more).encode()).hexdigest(),
-                 *boxes[shape])
+        FileSets(np.stack(sets), joint_checksum(digests[shape], reading), *boxes[shape])
         for shape, sets in groups.items()
-    ]  # fmt: skip
+    ]
+
+
+def files_of(path: Path) -> list[Path]:
+    """List the files that hold the sets of a path.
+
+    Parameters
+    ----------
+    path : Path
+        A file, which need not exist, or a folder.
+
+    Returns
+    -------
+    list of Path
+        Of a folder, every file with the suffix of a format, in natural order of their names.
+
+    Raises
+    ------
+    InputError
+        If a folder holds no point sets.
+    """
+    if not path.is_dir():
+        return [path]
+    files = sorted(
+        (f for f in path.iterdir() if f.is_file() and in_folders(f)),
+        key=lambda f: [(part.isdigit(), int(part) if part.isdigit() else 0, part)
+                       for part in re.split(r"(\d+)", f.name)],
+    )  # fmt: skip
+    if not files:
+        raise InputError(f"{path} holds no point sets; files are known by {', '.join(FOLDER_SUFFIXES)}")
+    return files
+
+
+def joint_checksum(digests: Sequence[str], reading: ReadingOptions) -> str:
+    """Sum up what sets were read from, and how.
+
+    Parameters
+    ----------
+    digests : sequence of str
+        Checksums of the files, one a set.
+    reading : ReadingOptions
+        How they were read.
+
+    Returns
+    -------
+    str
+        SHA-256.
+    """
+    said = reading.record()
+    return hashlib.sha256(("".join(digests) + (json.dumps(said) if said else "")).encode()).hexdigest()
 
 
 def _box(sides: tuple[float, ...] | None, toroidal: bool | None) -> str:
@@ -96,6 +135,7 @@ def _box(sides: tuple[float, ...] | None, toroidal: bool | None) -> str:
     return f"{size}, no torus" if toroidal is False else size
 
 
-def _sha256(path: Path) -> str:
+def checksum(path: Path) -> str:
+    """SHA-256 of the content of a file."""
     with path.open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from gbnbench.core.errors import GbnbenchError, UnfinishedError
+from gbnbench.execution.calls import Finished
+from gbnbench.execution.executor_choice import chosen_executor
 from gbnbench.execution.progress import Progress
-from gbnbench.execution.worker_pool import Finished, Pool
-from gbnbench.runs.device_proof import prove_device_if_any
+from gbnbench.runs.device_proof import prove_device_if_any, proven_calls
 from gbnbench.runs.result_store import ResultStore
 from gbnbench.runs.task import Task
 
@@ -43,7 +45,7 @@ class TaskRun:
     def __init__(self, tasks: Sequence[Task], store: ResultStore | None = None) -> None:
         self._store = store
         self._tasks = {task.key: task for task in tasks}
-        self._required = {key for task in tasks for key in task.requires}
+        self._required = {key for task in tasks for key in task.needs}
         self._results: dict[str, Any] = {}
         self.failures: dict[str, str] = {}
         self.missing: list[Task] = []
@@ -53,10 +55,10 @@ class TaskRun:
                 self._find(task, seen)
         self.reused = len(tasks) - len(self.missing)
         lacking = {task.key for task in self.missing}
-        self._awaits = {task.key: {key for key in task.requires if key in lacking} for task in self.missing}
+        self._awaits = {task.key: {key for key in task.needs if key in lacking} for task in self.missing}
         self._users: dict[str, list[str]] = {key: [] for key in seen}
         for task in self.missing:
-            for key in task.requires:
+            for key in task.needs:
                 self._users[key].append(task.key)
 
     @property
@@ -78,7 +80,8 @@ class TaskRun:
         Parameters
         ----------
         jobs : int or None
-            Most worker processes, each with one thread; None does the work in this process.
+            Most worker processes of the executor ``local``, each with one thread; None does the work in this
+            process.
         progress : Progress
             Counts a step a task.
         doing : str
@@ -105,23 +108,36 @@ class TaskRun:
             progress.start(len(self._tasks), self.reused, doing)
             for task in self.missing:
                 if not self._awaits[task.key]:
-                    yield self._settle(_call(task, self._arguments(task)), progress)
+                    yield self._done_here(task, progress)
             return
-        with Pool(max(1, min(jobs, len(self.missing)))) as pool:
-            if prove_device:
+        with proven_calls(jobs, len(self.missing), prove_device) as pool:
+            if chosen_executor().remote:
+                progress.start(len(self._tasks), self.reused, doing)
+                if meanwhile is not None:
+                    meanwhile()
+            elif prove_device:
                 prove_device_if_any(pool, progress, len(self._tasks), self.reused, meanwhile)
             progress.start(len(self._tasks), self.reused, doing)  # the time of the check is not counted
-            for task in self.missing:
-                if not self._awaits[task.key]:
+            ready = deque(task for task in self.missing if not self._awaits[task.key])
+            while ready or pool.pending:
+                if not ready:
+                    settled = self._settle(pool.next(), progress)
+                    while pool.left_out:
+                        progress.say(f"left out: {pool.left_out.pop()}")
+                elif (task := ready.popleft()).here:
+                    settled = self._done_here(task, progress)
+                else:
                     pool.submit(task.key, task.function, *self._arguments(task))
-            while pool.pending:
-                done = pool.next()
-                settled = self._settle(done, progress)
-                for key in self._users[str(done.key)]:
-                    if not self._awaits[key]:
-                        task = self._tasks[key]
-                        pool.submit(key, task.function, *self._arguments(task))
+                    continue
+                ready.extend(self._released(str(settled.key)))
                 yield settled
+
+    def _done_here(self, task: Task, progress: Progress) -> Finished:
+        return self._settle(_call(task, self._arguments(task)), progress)
+
+    def _released(self, key: str) -> list[Task]:
+        """List the tasks that waited for this one and for no other."""
+        return [self._tasks[user] for user in self._users[key] if not self._awaits[user]]
 
     def _find(self, task: Task, seen: set[str]) -> None:
         """Look for a task's result, and where it is missing for what the task requires."""
@@ -132,15 +148,15 @@ class TaskRun:
         if result is not None:
             self._results[task.key] = result
             return
-        for key in task.requires:
+        for key in task.needs:
             self._find(self._tasks[key], seen)
         self.missing.append(task)
 
     def _arguments(self, task: Task) -> tuple[Any, ...]:
-        return (*task.arguments, self._inputs(task)) if task.requires else task.arguments
+        return (*task.arguments, self._known(task.requires)) if task.requires else task.arguments
 
-    def _inputs(self, task: Task) -> list[Any]:
-        return [self._results[key] for key in task.requires]
+    def _known(self, keys: Sequence[str]) -> list[Any]:
+        return [self._results[key] for key in keys]
 
     def _settle(self, done: Finished, progress: Progress) -> Finished:
         """Keep a result, tell the progress, and let go of what nobody needs any more."""
@@ -149,13 +165,14 @@ class TaskRun:
             self.failures[task.key] = done.failure
             progress.advance(f"failed: {task.label}")
             return done
-        result = task.assemble(done.value, self._inputs(task)) if task.assemble else done.value
+        inputs = self._known(task.collects or task.requires) if task.assemble else []
+        result = task.assemble(done.value, inputs) if task.assemble else done.value
         if self._store:
             self._store.write(task.key, result)
         self._results[task.key] = result
         for key in self._users[task.key]:
             self._awaits[key].discard(task.key)
-        for key in task.requires:
+        for key in task.needs:
             self._users[key].remove(task.key)
             if not self._users[key]:
                 del self._results[key]
@@ -209,10 +226,14 @@ def run_tasks(
         progress.say(f"resuming {store.path}: {run.reused} of {len(tasks)} pieces are there")
     labels = {task.key: task.label for task in run.missing}
     failures = []
-    for done in run.complete(jobs, progress, doing=doing, meanwhile=meanwhile):
-        if done.failure:
-            failures.append(f"{labels[str(done.key)]}: {done.failure}")
-            progress.say(failures[-1])
+    try:
+        for done in run.complete(jobs, progress, doing=doing, meanwhile=meanwhile):
+            if done.failure:
+                failures.append(f"{labels[str(done.key)]}: {done.failure}")
+                progress.say(failures[-1])
+    except UnfinishedError as error:
+        kept = f"what is finished is kept in {store.path}, and the same command goes on"
+        raise UnfinishedError(f"{error}; {kept}") from error
     if failures:
         raise UnfinishedError(
             f"{len(failures)} of {len(run.missing)} pieces failed (what is finished is kept in {store.path}; "

@@ -110,7 +110,7 @@ def _difference(stored: Mapping[str, Any], wanted: Mapping[str, Any]) -> str:
         if old == new:
             continue
         if not (name == "sources" and isinstance(old, list) and isinstance(new, list)):
-            return f"{name} is {old!r} there, {new!r} here"
+            return _value_difference(name, "", old, new)
         labels = [[f"{s.get('label')} n={s.get('n')} d={s.get('d')}" for s in side] for side in (old, new)]
         if labels[0] != labels[1]:
             return f"sources are {', '.join(labels[0])} there, {', '.join(labels[1])} here"
@@ -118,5 +118,28 @@ def _difference(stored: Mapping[str, Any], wanted: Mapping[str, Any]) -> str:
             # the sum of files is of how they are read too, which says more
             for field in {"reading": None, **a, **b}:
                 if a.get(field) != b.get(field):
-                    return f"{field} of {b['label']} is {a.get(field)!r} there, {b.get(field)!r} here"
+                    return _value_difference(field, f" of {b['label']}", a.get(field), b.get(field))
     return "unknown"
+
+
+def _value_difference(name: str, of: str, old: Any, new: Any) -> str:
+    """Say how a value differs, for one with parts how the first part that differs does."""
+    if isinstance(old, Mapping) or isinstance(new, Mapping):
+        parts = [side if isinstance(side, Mapping) else {} for side in (old, new)]
+        for part in dict.fromkeys([*parts[1], *parts[0]]):
+            if parts[0].get(part) != parts[1].get(part):
+                return _value_difference(
+                    part, of or f" of the {name}", parts[0].get(part), parts[1].get(part)
+                )
+    if name == "sha256":
+        return f"the content{of} differs"
+    return f"{name}{of} is {_in_words(old)} there, {_in_words(new)} here"
+
+
+def _in_words(value: Any) -> str:
+    """Write a JSON value as a sentence takes it."""
+    if isinstance(value, list):
+        return ",".join(map(_in_words, value)) or "empty"
+    if isinstance(value, bool) or value is None:
+        return {True: "on", False: "off", None: "not given"}[value]
+    return str(value).removesuffix(".0") if isinstance(value, float) else str(value)

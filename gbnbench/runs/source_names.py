@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Iterable
+from collections import Counter
+from collections.abc import Callable, Hashable, Iterable, Sequence
+from dataclasses import replace
 from pathlib import Path
+from typing import Any, ClassVar, Protocol, TypeVar
 
 from gbnbench.core.errors import InputError
+from gbnbench.core.readable_text import without_bytes
 from gbnbench.generators.protocol import Generator
 from gbnbench.generators.registry import find, generator_names, kind_named
 
@@ -77,6 +81,58 @@ def double_meanings(names: Iterable[object]) -> list[str]:
         else:
             told.append(f"{name} is the generator; the {what} of that name is ./{name}")
     return told
+
+
+class Labelled(Protocol):
+    """A source with a label, and a key that is safe for a file: a frozen dataclass."""
+
+    __dataclass_fields__: ClassVar[dict[str, Any]]
+
+    @property
+    def key(self) -> str:
+        """Unique among sources."""
+        ...
+
+    @property
+    def label(self) -> str:
+        """What the user reads."""
+        ...
+
+
+S = TypeVar("S", bound=Labelled)
+
+
+def told_apart(
+    sources: Sequence[S],
+    group: Callable[[S], Hashable] = lambda _: None,
+    ending: Callable[[S], str] = lambda _: "",
+) -> tuple[S, ...]:
+    """Count repeated labels, and give every source a key of its own.
+
+    Parameters
+    ----------
+    sources : sequence of dataclass
+        With a ``key`` and a ``label``.
+    group : callable, optional
+        Labels are counted among sources for which this is the same; by default among all.
+    ending : callable, optional
+        What the key of a source ends in.
+
+    Returns
+    -------
+    tuple of dataclass
+        In the same order.
+    """
+    seen: Counter[tuple[Hashable, str]] = Counter()
+    keys: set[str] = set()
+    result = []
+    for source in sources:
+        label = without_bytes(source.label)
+        seen[group(source), label] += 1
+        times = seen[group(source), label]
+        text = label if times == 1 else f"{label} ({times})"
+        result.append(replace(source, key=unique_key(text, keys, ending(source)), label=text))
+    return tuple(result)
 
 
 def unique_key(label: str, taken: set[str], ending: str = "") -> str:

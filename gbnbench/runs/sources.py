@@ -6,7 +6,7 @@ import dataclasses
 import hashlib
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gbnbench.core.errors import InputError, RefusalError
-from gbnbench.core.readable_text import without_bytes
+from gbnbench.core.least_values import require
 from gbnbench.core.settings import specification
 from gbnbench.core.sides import as_sides
 from gbnbench.core.torus import FloatArray, as_realizations
@@ -26,7 +26,7 @@ from gbnbench.generators.third_parties.faults import refusal_of
 from gbnbench.io.points import ReadingOptions
 from gbnbench.runs.file_sets import read_groups
 from gbnbench.runs.named_groups import expanded
-from gbnbench.runs.source_names import generator_named, unique_key
+from gbnbench.runs.source_names import generator_named, told_apart
 
 DEFAULT_READING = ReadingOptions()
 DEFAULT_SOURCES = ("random", "jittered", "sobol", "lloyd", "fpo", "gbn")
@@ -162,9 +162,7 @@ def resolve(
     RefusalError
         If nothing remains.
     """
-    for argument, values in (("n", n), ("d", d), ("realizations", (realizations,))):
-        if bad := [v for v in values if v < 1]:
-            raise InputError(f"{argument} must be at least 1; got {bad[0]}")
+    require(n=(min(n, default=1), 1), d=(min(d, default=1), 1), realizations=(realizations, 1))
     sources: list[Source] = []
     names, told = expanded(names)
     skipped = list(told)
@@ -195,7 +193,10 @@ def resolve(
                 skipped.append(f"{text} at n={size}, d={dimension}: {why}")
     if not sources:
         raise RefusalError("; ".join(skipped) if skipped else "no source given: name one")
-    return _distinct(sources), tuple(skipped)
+    apart = told_apart(
+        sources, lambda source: (source.n, source.d), lambda source: f"_n{source.n}_d{source.d}"
+    )
+    return apart, tuple(skipped)
 
 
 def _title(path: Path) -> str:
@@ -211,18 +212,3 @@ def _read(path: Path, title: str, reading: ReadingOptions) -> list[Source]:
                toroidal=found.toroidal)
         for found in read_groups(path, reading)
     ]  # fmt: skip
-
-
-def _distinct(sources: list[Source]) -> tuple[Source, ...]:
-    """Count repeated labels of one n and d, and give every source a key of its own."""
-    seen: Counter[tuple[str, int, int]] = Counter()
-    keys: set[str] = set()
-    result = []
-    for source in sources:
-        label = without_bytes(source.label)
-        seen[label, source.n, source.d] += 1
-        times = seen[label, source.n, source.d]
-        text = label if times == 1 else f"{label} ({times})"
-        key = unique_key(text, keys, f"_n{source.n}_d{source.d}")
-        result.append(replace(source, key=key, label=text))
-    return tuple(result)

@@ -24,10 +24,16 @@ class Task:
     requires : tuple of str
         Keys of the tasks that come first. The list of their results is one more argument of the function.
     assemble : callable, optional
-        Makes the result that is kept from what the function returned and the list of the results required. It
-        runs in this process, so that large arrays do not travel back from a worker.
+        Makes the result that is kept from what the function returned and the list of the results collected,
+        or of those required where none are. It runs in this process, so that large arrays do not travel back
+        from a worker.
     done : str
         What the progress says when the task is finished; the label where it is empty.
+    collects : tuple of str
+        Keys of tasks that those required have required before them, whose results ``assemble`` needs and the
+        function does not.
+    here : bool
+        Carry it out in this process: it takes little time, of much that is here already.
     """
 
     key: str
@@ -37,3 +43,10 @@ class Task:
     requires: tuple[str, ...] = ()
     assemble: Callable[[Any, list[Any]], Any] | None = None
     done: str = ""
+    collects: tuple[str, ...] = ()
+    here: bool = False
+
+    @property
+    def needs(self) -> tuple[str, ...]:
+        """Keys of all tasks whose results must be there."""
+        return (*self.requires, *self.collects)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -13,17 +14,19 @@ import numpy as np
 
 from gbnbench import __version__
 from gbnbench.core.errors import InputError
+from gbnbench.core.least_values import require
 from gbnbench.execution.progress import Progress
-from gbnbench.opencl import choose
 from gbnbench.runs import comparison_folder
 from gbnbench.runs.baseline import Change, judge
 from gbnbench.runs.comparison_result import Run
+from gbnbench.runs.device_proof import needed_device
 from gbnbench.runs.provenance import versions
 from gbnbench.runs.resumable import run_tasks
 from gbnbench.runs.resumable_folder import explain_interruption
 from gbnbench.runs.sources import Source
 from gbnbench.studies.comparison_tasks import comparison_tasks
 from gbnbench.studies.drawing import failure_of
+from gbnbench.studies.growing_report import GrowingReport, Unfinished
 
 
 @dataclass(frozen=True)
@@ -74,6 +77,7 @@ def run_comparison(
     skipped: Sequence[str] = (),
     progress: Progress | None = None,
     draw: Callable[[Run, Path], None] | None = None,
+    grow: Callable[[Run, Path, Unfinished], None] | None = None,
     meanwhile: Callable[[], None] | None = None,
 ) -> ComparisonOutcome:
     """Make and measure every source, in a run folder that the same call can resume.
@@ -99,6 +103,8 @@ def run_comparison(
     draw : callable, optional
         ``draw(run, folder)`` makes the pictures and the report before the run is declared whole. Where it
         fails, the results are kept, and the same call tries it again.
+    grow : callable, optional
+        ``grow(run, folder, unfinished)`` writes the report of what is measured so far; called now and then.
     meanwhile : callable, optional
         What to do while the first worker starts, such as imports for the pictures.
 
@@ -118,14 +124,12 @@ def run_comparison(
     """
     began = time.monotonic()
     progress = progress or Progress()
-    if jobs is not None and jobs < 1:
-        raise InputError(f"jobs must be at least 1; got {jobs}")
-    if seed < 0:
-        raise InputError(f"seed must not be negative; got {seed}")
+    require(jobs=(1 if jobs is None else jobs, 1), seed=(seed, 0))
     earlier = None if baseline is None else comparison_folder.read_run(baseline)
     if earlier is not None:
         _require_common(sources, earlier, baseline)
-    device = choose().describe()
+    jobs = jobs or os.cpu_count() or 1
+    device = needed_device(jobs)
     settings: dict[str, Any] = {
         "gbnbench": __version__,
         "seed": seed,
@@ -133,7 +137,6 @@ def run_comparison(
         "sources": [source.identity() for source in sources],
     }
     store = comparison_folder.ComparisonFolder(folder or comparison_folder.default_folder(settings), settings)
-    jobs = jobs or os.cpu_count() or 1
     tasks = comparison_tasks(sources, seed, jobs)
     with store.lock(), explain_interruption(store.path):
         if store.whole:
@@ -144,15 +147,17 @@ def run_comparison(
                     run, store.path, changes, notes, len(tasks), len(tasks), time.monotonic() - began
                 )
         store.begin()
-        work = run_tasks(tasks, store, jobs, progress, "making sets", meanwhile)
+        if draw is None:  # a page of what was there when such a run was stopped
+            (store.path / comparison_folder.REPORT).unlink(missing_ok=True)
+        known = {"command": command, "version": __version__, "seed": seed, "device": device}
+        labels = {source.key: source.label for source in sources}
+        with nullcontext(store) if grow is None else GrowingReport(store, labels, known, grow) as results:
+            work = run_tasks(tasks, results, jobs, progress, "making sets", meanwhile)
         run = Run({}, tuple(work.results[source.key] for source in sources))
         changes, notes = ((), ()) if earlier is None else judge(run, earlier)
         manifest = {
-            "command": command,
-            "version": settings["gbnbench"],
+            **known,
             "settings": settings,
-            "seed": seed,
-            "device": device,
             "versions": versions(),
             "created": time.strftime("%Y-%m-%dT%H:%M:%S%z"),
             "timings": {

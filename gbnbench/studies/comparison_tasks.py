@@ -1,21 +1,27 @@
-"""The work of a comparison as tasks: draw each realization, then measure all sets of a source together."""
+"""The work of a comparison as tasks: draw realizations, measure pieces of them, put the pieces together."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from gbnbench.analysis.measures import AnalysisArrays, analyse_to_arrays
+from gbnbench.analysis.measures import AnalysisArrays, merged_analysis
+from gbnbench.analysis.measuring_plan import MeasuringPlan
+from gbnbench.analysis.piece_measures import measure_piece
+from gbnbench.core.sides import as_sides
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import Generator, checked_draw, realization_rng
 from gbnbench.generators.third_parties.faults import faults_in_words
 from gbnbench.io.points.point_sets import NO_TORUS
-from gbnbench.runs.comparison_folder import Realization, realization_key
+from gbnbench.runs.comparison_folder import Realization
 from gbnbench.runs.comparison_result import SourceResult
 from gbnbench.runs.task import Task
+from gbnbench.runs.task_keys import piece_key, realization_key
 from gbnbench.studies.timed_draw import mean_cost, timed_draw
 
 if TYPE_CHECKING:  # a worker loads the generators that it draws from, not all of them
@@ -37,7 +43,8 @@ def comparison_tasks(sources: Sequence[Source], seed: int, jobs: int) -> list[Ta
     Returns
     -------
     list of Task
-        For each source one a realization, unless its sets are given, and one that measures it.
+        For each source one a realization, unless its sets are given; one a piece of them that is measured;
+        and one that puts these together. The last two are one where there is one piece.
     """
     tasks = []
     for source in sources:
@@ -54,17 +61,48 @@ def comparison_tasks(sources: Sequence[Source], seed: int, jobs: int) -> list[Ta
             )
             for k in range(source.realizations if source.generator is not None else 0)
         ]
-        measure = Task(
-            source.key,
-            f"{row}, measuring it",
-            analyse_to_arrays if source.generator is None else analyse_realizations,
-            (source.sets, None, source.sides) if source.generator is None else (),
-            tuple(draw.key for draw in draws),
-            partial(source_result, source),
-            f"measured {done}",
-        )
-        tasks += [*draws, measure]
+        tasks += [*draws, *_measuring(source, tuple(draw.key for draw in draws), row, done)]
     return tasks
+
+
+def _measuring(source: Source, draws: tuple[str, ...], row: str, done: str) -> list[Task]:
+    """List the tasks that measure a source whose sets are given or drawn."""
+    plan = MeasuringPlan(source.n, source.d, source.realizations, sides=as_sides(source.sides, source.d))
+    whole = partial(source_result, source)
+    measures = []
+    for first, count in plan.pieces:
+        sets = () if source.sets is None else (source.sets[first : first + count],)
+        measures.append(
+            Task(
+                piece_key(source.key, first),
+                f"{row}, measuring {count} of {source.realizations} sets from number {first} on",
+                measure_sets if sets else measure_realizations,
+                (plan, first, *sets),
+                draws[first : first + count],
+                done=f"measured {first + count} sets of {done}",
+            )
+        )
+    if len(measures) == 1:
+        (only,) = measures
+        function = analyse_sets if source.sets is not None else analyse_realizations
+        label = f"{row}, measuring it"
+        return [
+            replace(
+                only, key=source.key, label=label, function=function, assemble=whole, done=f"measured {done}"
+            )
+        ]
+    merger = Task(
+        source.key,
+        f"{row}, putting its pieces together",
+        merged_analysis,
+        (plan,),
+        requires=tuple(task.key for task in measures),
+        collects=draws,
+        assemble=whole,
+        done=f"measured {done}",
+        here=True,
+    )
+    return [*measures, merger]
 
 
 def draw_realization(
@@ -97,9 +135,28 @@ def draw_realization(
     return timed_draw((generator, n, d), draw, redraw)
 
 
-def analyse_realizations(realizations: Sequence[Realization]) -> AnalysisArrays:
-    """Measure the realizations of one source in a worker."""
-    return analyse_to_arrays(_points(realizations))
+def measure_realizations(
+    plan: MeasuringPlan, first: int, realizations: Sequence[Realization]
+) -> dict[str, NDArray[Any]]:
+    """Measure a piece of the sets drawn, in a worker; as ``measure_piece``."""
+    return measure_piece(_points(realizations), plan, first)
+
+
+def measure_sets(plan: MeasuringPlan, first: int, sets: FloatArray) -> dict[str, NDArray[Any]]:
+    """Measure a piece of the sets given, in a worker; as ``measure_piece``."""
+    return measure_piece(sets, plan, first)
+
+
+def analyse_realizations(
+    plan: MeasuringPlan, first: int, realizations: Sequence[Realization]
+) -> AnalysisArrays:
+    """Measure all sets drawn for a source, which are one piece, in a worker."""
+    return merged_analysis(plan, [measure_realizations(plan, first, realizations)])
+
+
+def analyse_sets(plan: MeasuringPlan, first: int, sets: FloatArray) -> AnalysisArrays:
+    """Measure all sets given for a source, which are one piece, in a worker."""
+    return merged_analysis(plan, [measure_sets(plan, first, sets)])
 
 
 def source_result(
@@ -114,7 +171,7 @@ def source_result(
     arrays : AnalysisArrays
         What was measured.
     realizations : sequence of Realization
-        The sets drawn; empty where the source brings its own.
+        The sets drawn; not looked at where the source brings its own.
 
     Returns
     -------
@@ -122,6 +179,7 @@ def source_result(
     """
     told = (f"the file {NO_TORUS}",) if source.toroidal is False else ()
     analysis = arrays.analysis()
+    drawn = realizations if source.sets is None else ()
     return SourceResult(
         **{**vars(analysis), "warnings": (*told, *analysis.warnings)},
         key=source.key,
@@ -129,8 +187,8 @@ def source_result(
         n=source.n,
         d=source.d,
         realizations=source.realizations,
-        points=_points(realizations) if source.sets is None else source.sets,
-        cpu_seconds=mean_cost([one.cpu_seconds for one in realizations], [one.first for one in realizations]),
+        points=_points(drawn) if source.sets is None else source.sets,
+        cpu_seconds=mean_cost([one.cpu_seconds for one in drawn], [one.first for one in drawn]),
     )
 
 

@@ -7,10 +7,10 @@ from typing import ClassVar
 
 import numpy as np
 
-from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import MOST_PIXELS, Density
 from gbnbench.generators.adaptive.protocol import Told
+from gbnbench.generators.ranges import raise_refusal
 
 
 class AdaptiveMethod(ABC):
@@ -66,8 +66,7 @@ class AdaptiveMethod(ABC):
         self, density: Density, n: int, rng: np.random.Generator, told: Told | None = None
     ) -> FloatArray:
         """Draw one set, as ``AdaptiveGenerator.__call__``; RefusalError with the reason why not."""
-        if reason := self.refusal(density, n):
-            raise RefusalError(reason)
+        raise_refusal(self.refusal(density, n))
         return self.one_set(density, n, rng, unheard if told is None else told)
 
 

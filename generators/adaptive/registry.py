@@ -14,6 +14,7 @@ from gbnbench.generators.adaptive.charges.electrostatic import ElectrostaticHalf
 from gbnbench.generators.adaptive.density import Density
 from gbnbench.generators.adaptive.dithering.error_diffusion import FloydSteinberg
 from gbnbench.generators.adaptive.dithering.mask import VoidAndClusterDither
+from gbnbench.generators.adaptive.farthest_point.generator import WeightedFarthestPoint
 from gbnbench.generators.adaptive.gbn.generator import AdaptiveGaussianBlueNoise
 from gbnbench.generators.adaptive.kernel_density.kdm import AdaptiveKernelDensity
 from gbnbench.generators.adaptive.power_cells.bnot import WeightedOptimalTransport
@@ -30,6 +31,7 @@ ADAPTIVE_GENERATORS: dict[str, type[AdaptiveGenerator]] = {
     "bnot": WeightedOptimalTransport,
     "electrostatic": ElectrostaticHalftoning,
     "kdm": AdaptiveKernelDensity,
+    "fpo": WeightedFarthestPoint,
     "rejection": Rejection,
     "floydsteinberg": FloydSteinberg,
     "voidcluster": VoidAndClusterDither,

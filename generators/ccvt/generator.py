@@ -8,11 +8,11 @@ from typing import ClassVar
 
 import numpy as np
 
-from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.ccvt.assignment import sample_lattice, share_out, short_basis, split
 from gbnbench.generators.ccvt.swaps import Swaps, placed
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.ranges import check_least, outside_plane, raise_refusal
 
 SPLITS = 2  # times that each sample is split into four
 MOST = 2**25  # samples in all: some 2 GB while they are swapped
@@ -88,8 +88,7 @@ class CapacityConstrained:
 
     def __post_init__(self) -> None:
         for name in ("samples", "passes"):
-            if getattr(self, name) < 1:
-                raise InputError(f"{name} must be >= 1; got {getattr(self, name)}")
+            check_least(name, getattr(self, name), 1)
 
     def refusal(self, n: int, d: int) -> str | None:
         """Say why not: d is other than 2, or there would be too many samples.
@@ -104,8 +103,8 @@ class CapacityConstrained:
         str or None
             The reason; None where the set can be made.
         """
-        if d != 2:
-            return f"ccvt shares out samples of the plane; got d={d}, use d=2"
+        if reason := outside_plane(d, "ccvt shares out samples of the plane"):
+            return reason
         if n * self.samples > MOST:
             return (
                 f"ccvt swaps at most {MOST:,} samples; got n={n} of {self.samples} each, "
@@ -115,8 +114,7 @@ class CapacityConstrained:
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, 2) float64; RefusalError where ``refusal`` has a reason."""
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+        raise_refusal(self.refusal(n, d))
         sites, capacity = rng.random((n, d)), self.samples
         for _ in range(SPLITS):
             capacity //= 4 if capacity % 4 == 0 else 1

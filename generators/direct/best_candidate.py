@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.direct.toroidal_tree import toroidal_tree
 from gbnbench.generators.lattices.regular_grid import grid_corners
 from gbnbench.generators.protocol import Family
-from gbnbench.generators.ranges import check_range, too_many
+from gbnbench.generators.ranges import check_range, raise_refusal, too_many
 
 PLAIN = 64  # points drawn from all their candidates, before cells pay
 CELLS_A_POINT = 64
@@ -91,8 +91,7 @@ class BestCandidate:
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+        raise_refusal(self.refusal(n, d))
         x = np.empty((n, d))
         x[0] = rng.random(d)
         points = Nearest(x)
@@ -144,9 +143,8 @@ class Nearest:
             found = np.asarray(self._tree.query(y)[0])
         late = self.x[self._in_tree : self.count]
         if len(late):
-            gap = y[:, None] - late
-            gap -= np.rint(gap)
-            found = np.minimum(found, np.sqrt(np.einsum("kia,kia->ki", gap, gap).min(axis=1)))
+            square = _squared_gaps(y.T[:, :, None], late.T[:, None])
+            found = np.minimum(found, np.sqrt(square.min(axis=1)))
         return np.asarray(found)
 
 
@@ -169,8 +167,8 @@ class Bounds:
         self.last = float(self.high.max())
         self.watched_aim = math.inf
         reach = min(math.ceil(float(self.high.max()) * self.side) + 1, (self.side - 1) // 2)
-        self.stencil = grid_corners(2 * reach + 1, d).astype(np.int64) - reach
-        self.strides = self.side ** np.arange(d - 1, -1, -1)
+        self.stencil = np.arange(-reach, reach + 1)
+        self.across = np.eye(d, dtype=np.int64) * (len(self.stencil) - 1) + 1  # shapes of the axes of a block
 
     def best(self, count: int, rng: np.random.Generator) -> FloatArray:
         """Draw the best of so many uniform candidates.
@@ -196,7 +194,7 @@ class Bounds:
         while count and farthest <= above:
             cells = self.watched if aim >= self.watched_aim else np.arange(len(self.high))
             bound = self.high[cells]
-            here = cells[(bound > aim) & (bound <= above)]
+            here = cells[bound > aim if above == math.inf else (bound > aim) & (bound <= above)]
             inside = int(rng.binomial(count, len(here) / left)) if len(here) < left else count
             if inside:
                 candidates = self._draw(here, inside, rng)
@@ -217,14 +215,27 @@ class Bounds:
         point : (d,) float64
             The point.
         """
-        cells = (np.floor(point * self.side).astype(np.int64) + self.stencil) % self.side
-        gap = (cells + 0.5) / self.side - point
-        gap -= np.rint(gap)
-        flat = cells @ self.strides
-        self.high[flat] = np.minimum(self.high[flat], np.sqrt(np.einsum("ka,ka->k", gap, gap)) + self.half)
+        flat: NDArray[np.int64] = np.zeros(1, np.int64)
+        middles = []
+        for place, shape in zip(point, self.across, strict=True):
+            cells = (int(place * self.side) + self.stencil) % self.side
+            middles.append(((cells + 0.5) / self.side).reshape(shape))
+            flat = flat * self.side + cells.reshape(shape)
+        square = _squared_gaps(middles, point)
+        self.high[flat] = np.minimum(self.high[flat], np.sqrt(square) + self.half)
 
     def _draw(self, cells: NDArray[np.intp], count: int, rng: np.random.Generator) -> FloatArray:
         """Draw uniform points of some cells."""
         d = self.corners.shape[1]
         chosen = self.corners[cells[rng.integers(len(cells), size=count)]]
         return np.asarray(np.minimum((chosen + rng.random((count, d))) / self.side, 1 - 2.0**-53))
+
+
+def _squared_gaps(a: Iterable[FloatArray], b: Iterable[FloatArray]) -> FloatArray:
+    """Squared distances on the torus of places whose coordinates come one axis after the other."""
+    total: FloatArray = np.zeros(())
+    for of_a, of_b in zip(a, b, strict=True):
+        gap = of_a - of_b
+        gap -= np.rint(gap)
+        total = total + gap * gap
+    return total

@@ -12,7 +12,7 @@ from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.direct.poisson_disk import ball_volume, saturated_radius
 from gbnbench.generators.protocol import Family
-from gbnbench.generators.ranges import check_range, too_many
+from gbnbench.generators.ranges import check_range, raise_refusal, too_many, too_many_axes
 
 # First radius over that of a saturated set, d = 1 to 6: with 30 candidates it gives .98 n, as was measured.
 START = (0.92, 0.95, 0.93, 0.905, 0.9, 0.893)
@@ -86,8 +86,8 @@ class Bridson:
         str or None
             The reason, with the nearest numbers that can; None where they can.
         """
-        if d > MOST_DIMENSIONS:
-            return f"d must be at most {MOST_DIMENSIONS} for Bridson's method; got d={d}"
+        if reason := too_many_axes(d, MOST_DIMENSIONS, "for Bridson's method"):
+            return reason
         near = 6.0**d * ball_volume(d) * (saturated_radius(1, d) / 2) ** d  # points within three radii
         tried = MOST_DISTANCES / (self.candidates * d)
         most = int(min(MOST_POINTS, max(math.sqrt(tried), tried / near)))
@@ -95,8 +95,7 @@ class Bridson:
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+        raise_refusal(self.refusal(n, d))
         radius = START[min(d, len(START)) - 1] * saturated_radius(n, d)
         least = LEAST_RADIUS * radius
         for _ in range(RESTARTS):

@@ -8,11 +8,10 @@ from typing import ClassVar
 
 import numpy as np
 
-from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import HERMITE, FloatArray, densest_spacing
 from gbnbench.generators.direct.poisson_disk import throw_darts
 from gbnbench.generators.protocol import Family
-from gbnbench.generators.ranges import check_range, too_many
+from gbnbench.generators.ranges import check_above, check_range, raise_refusal, too_many, too_many_axes
 
 SHRINK = 0.99  # the radius, when no dart finds room
 CELL_DIMENSIONS = 6  # beyond, discs hold few cells and nearly all darts are thrown
@@ -69,10 +68,7 @@ class DartThrowing:
     attempts: int = 100
 
     def __post_init__(self) -> None:
-        if not 0 < self.radius <= 1:
-            raise InputError(
-                f"radius must be above 0 and at most 1, in densest spacings; got {self.radius:g}"
-            )
+        check_above("radius", self.radius, 0, 1, "densest spacings")
         check_range("attempts", self.attempts, 1, 10**6)
 
     def refusal(self, n: int, d: int) -> str | None:
@@ -88,15 +84,14 @@ class DartThrowing:
         str or None
             The reason, with the nearest numbers that can; None where they can.
         """
-        if d > len(HERMITE):
-            return f"d must be at most {len(HERMITE)} for a radius relative to the densest lattice; got d={d}"
+        if reason := too_many_axes(d, len(HERMITE), "for a radius relative to the densest lattice"):
+            return reason
         most = n if d <= CELL_DIMENSIONS else int(MOST_POINTS * math.sqrt(100 / self.attempts))
         return too_many(n, most, f"for dart throwing with {self.attempts} darts a point in d={d}")
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+        raise_refusal(self.refusal(n, d))
         radius = self.radius * densest_spacing(n, d)
         x: FloatArray = np.empty((0, d))
         while len(x) < n:  # ends: any n points fit at some radius, and it halves in 69 rounds

@@ -7,9 +7,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.ranges import raise_refusal, too_many_axes
 
 MOST_DIMENSIONS = 3000  # permutations of their primes' digits take a gigabyte, and grow as d**2
 
@@ -57,14 +57,11 @@ class Halton:
         str or None
             The reason; None for d <= 3000.
         """
-        if d <= MOST_DIMENSIONS:
-            return None
-        return f"d must be at most {MOST_DIMENSIONS} for Halton points and their permutations; got d={d}"
+        return too_many_axes(d, MOST_DIMENSIONS, "for Halton points and their permutations")
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+        raise_refusal(self.refusal(n, d))
         from scipy.stats import qmc  # half a second to load, and the registry imports every generator
 
         return np.ascontiguousarray(wrap(qmc.Halton(d, scramble=True, seed=rng).random(n)))

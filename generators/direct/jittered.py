@@ -7,10 +7,10 @@ from typing import ClassVar
 
 import numpy as np
 
-from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.lattices.regular_grid import grid_corners, grid_refusal
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.ranges import raise_refusal
 from gbnbench.generators.strata import placed_in_strata
 
 
@@ -56,7 +56,6 @@ class Jittered:
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+        raise_refusal(self.refusal(n, d))
         m = round(n ** (1.0 / d))
         return placed_in_strata(grid_corners(m, d), rng.random((n, d)), m)

@@ -16,7 +16,7 @@ from gbnbench.generators.direct.poisson_disk import (
     throw_darts,
 )
 from gbnbench.generators.protocol import Family
-from gbnbench.generators.ranges import too_many
+from gbnbench.generators.ranges import raise_refusal, too_many, too_many_axes
 
 MOST_DIMENSIONS = 4
 MOST_POINTS_4D = 2048
@@ -73,15 +73,14 @@ class MaximalPoisson:
         str or None
             The reason, with the nearest numbers that can; None where they can.
         """
-        if d > MOST_DIMENSIONS:
-            return f"d must be at most {MOST_DIMENSIONS} for a maximal Poisson-disk set; got d={d}"
+        if reason := too_many_axes(d, MOST_DIMENSIONS, "for a maximal Poisson-disk set"):
+            return reason
         most = MOST_POINTS_4D if d == MOST_DIMENSIONS else n
         return too_many(n, most, "for a maximal Poisson-disk set in 4D")
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+        raise_refusal(self.refusal(n, d))
         if n == 1:
             return rng.random((1, d))
         for _ in range(DRAWS):

@@ -10,12 +10,11 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray, displacement
 from gbnbench.generators.direct.poisson_disk import ball_volume
 from gbnbench.generators.direct.toroidal_tree import toroidal_tree
 from gbnbench.generators.protocol import Family
-from gbnbench.generators.ranges import check_range, too_many
+from gbnbench.generators.ranges import check_above, check_range, raise_refusal, too_many
 
 MOST_PAIRS = 10_000_000  # of points within reach of each other: a minute and 3 GB
 FEWEST = 3  # a progressive order is sought down to as many points
@@ -90,10 +89,7 @@ class SampleElimination:
 
     def __post_init__(self) -> None:
         for name, above in (("inputs", 1), ("alpha", 0), ("gamma", 0)):
-            if not above < getattr(self, name) <= 1000:
-                raise InputError(
-                    f"{name} must be above {above} and at most 1000; got {getattr(self, name):g}"
-                )
+            check_above(name, getattr(self, name), above, 1000)
         check_range("beta", self.beta, 0, 1)
 
     def refusal(self, n: int, d: int) -> str | None:
@@ -114,8 +110,7 @@ class SampleElimination:
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+        raise_refusal(self.refusal(n, d))
         start = rng.random((math.ceil(self.inputs * n), d))
         kept, _ = self.eliminate(start, n)
         x: FloatArray = start[kept]

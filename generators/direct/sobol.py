@@ -10,10 +10,9 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import Family
-from gbnbench.generators.ranges import too_many
+from gbnbench.generators.ranges import raise_refusal, too_many, too_many_axes
 
 MOST_DIMENSIONS = 21201  # of Joe & Kuo's direction numbers in scipy
 MOST_BITS = 30  # digits of the unscrambled points
@@ -155,14 +154,12 @@ class Sobol:
         str or None
             The reason, with the nearest numbers that can; None where they can.
         """
-        if d > MOST_DIMENSIONS:
-            return f"d must be at most {MOST_DIMENSIONS} for Sobol points; got d={d}"
-        return too_many(n, 2**MOST_BITS, "for Sobol points")
+        what = "for Sobol points"
+        return too_many_axes(d, MOST_DIMENSIONS, what) or too_many(n, 2**MOST_BITS, what)
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+        raise_refusal(self.refusal(n, d))
         bits = (n - 1).bit_length()
         prefix = unscrambled(bits, d)[:n]
         x = np.empty((n, d))

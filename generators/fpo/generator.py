@@ -12,6 +12,7 @@ from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray, check_points, densest_spacing
 from gbnbench.generators.fpo.relocation import Sweeps, minimum_distance
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.ranges import check_least, check_range, outside_plane
 from gbnbench.generators.set_by_set import SetBySet, Told
 
 WINDOW = 5  # sweeps over which the gain is judged
@@ -91,33 +92,27 @@ class FarthestPoint(SetBySet):
     strategy: Literal["global", "local"] = "global"
 
     def __post_init__(self) -> None:
-        if not 0 <= self.target <= 1:
-            raise InputError(f"target must lie in [0, 1], in densest spacings; got {self.target}")
-        if not self.gain >= 0:
-            raise InputError(f"gain must be at least 0, in densest spacings; got {self.gain}")
-        if self.sweeps < 1:
-            raise InputError(f"sweeps must be at least 1; got {self.sweeps}")
-        if self.starts < 1:
-            raise InputError(f"starts must be at least 1; got {self.starts}")
+        check_range("target", self.target, 0, 1, "densest spacings")
+        check_least("gain", self.gain, 0, "densest spacings")
+        check_least("sweeps", self.sweeps, 1)
+        check_least("starts", self.starts, 1)
 
-    def refusal(self, n: int, d: int) -> str | None:
-        """Say why not: d is other than 2, or n < 1.
+    def refusal(self, n: int, d: int) -> str | None:  # noqa: ARG002 (the protocol's arguments)
+        """Say why not: d is other than 2.
 
         Parameters
         ----------
-        n, d : int
-            Points and dimension.
+        n : int
+            Points; any number will do.
+        d : int
+            Dimension.
 
         Returns
         -------
         str or None
-            The reason, with the nearest numbers that can; None where they can.
+            The reason; None for d = 2.
         """
-        if d != 2:
-            return f"fpo works on 2D Delaunay triangulations; got d={d}, use d=2"
-        if n < 1:
-            return f"fpo needs n of at least 1; got n={n}"
-        return None
+        return outside_plane(d, "fpo works on 2D Delaunay triangulations")
 
     def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
         """Draw one realization from a uniform random start, as ``SetBySet.one_set`` says."""

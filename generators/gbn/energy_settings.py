@@ -23,6 +23,7 @@ from gbnbench.generators.gbn.step_sizes import (
     stable_step,
     step_size,
 )
+from gbnbench.generators.ranges import check_range
 
 LEAST_CUTOFF = 0.5  # sigmas
 LARGEST = 1e6  # of a cutoff or an edge
@@ -54,11 +55,9 @@ class EnergySettings:
     power: float = 0.5
 
     def __post_init__(self) -> None:
-        if not (math.isfinite(self.sigma) and 0.3 <= self.sigma <= 3):
-            raise InputError(f"sigma must be between 0.3 and 3 spacings; got {self.sigma}")
+        check_range("sigma", self.sigma, 0.3, 3, "spacings")
         for name in ("cutoff", "edge", "projection_edge"):
-            if not 0 <= getattr(self, name) <= LARGEST:
-                raise InputError(f"{name} must be 0 or more, up to {LARGEST:g}; got {getattr(self, name)}")
+            check_range(name, getattr(self, name), 0, LARGEST)
         if self.projection_edge and self.projections == "none":
             raise InputError(
                 f"projection_edge={self.projection_edge:g} goes with projections, such as projections=1; "

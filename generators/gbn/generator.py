@@ -9,7 +9,7 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.errors import InputError
 from gbnbench.core.memory import too_large
 from gbnbench.core.settings import specification
 from gbnbench.core.torus import FloatArray, wrap
@@ -24,6 +24,7 @@ from gbnbench.generators.gbn.polish import empty_band
 from gbnbench.generators.gbn.step_sizes import authors_step
 from gbnbench.generators.monitor import Monitor
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.ranges import check_least, check_range, raise_refusal
 
 PAPER_ITERATIONS = 10_000  # what the paper recommends
 MOST_STEPS = 10_000_000  # ten times the publication's longest run
@@ -109,11 +110,9 @@ class GaussianBlueNoise:
 
     def __post_init__(self) -> None:
         for name in ("gradients", "iterations"):
-            if not 0 <= getattr(self, name) <= MOST_STEPS:
-                raise InputError(f"{name} must be 0 or more, up to {MOST_STEPS}; got {getattr(self, name)}")
+            check_range(name, getattr(self, name), 0, MOST_STEPS)
         for name in ("excess", "polish"):
-            if not (math.isfinite(getattr(self, name)) and getattr(self, name) >= 0):
-                raise InputError(f"{name} must be 0 or more; got {getattr(self, name)}")
+            check_least(name, getattr(self, name), 0)
         if self.method == "nesterov" and self.iterations:
             raise InputError(
                 f"iterations count the steps of method=descent, gradients those of nesterov; got both "
@@ -177,8 +176,7 @@ class GaussianBlueNoise:
         RefusalError
             Where ``refusal`` has a reason, or polish cannot empty its band.
         """
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+        raise_refusal(self.refusal(n, d))
         starts = np.stack([rng.random((n, d)) for rng in rngs])
         if n == 1:
             return starts

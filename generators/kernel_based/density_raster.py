@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Iterator
 
@@ -111,9 +110,8 @@ class DensityRaster:
         order = np.argsort(flat, kind="stable")
         held = np.bincount(flat, minlength=cells**self.d)
         rank = np.arange(len(x)) - np.repeat(np.cumsum(held) - held, held)
-        colours = cell[order] % 2
-        for rank_of_group in range(int(held.max())):
-            for colour in itertools.product((0, 1), repeat=self.d):
-                group = order[(rank == rank_of_group) & np.all(colours == colour, axis=1)]
-                if group.size:
-                    yield group
+        colour = (cell[order] % 2) @ (1 << np.arange(self.d)[::-1])
+        group = (rank << self.d) + colour
+        by_group = np.argsort(group, kind="stable")
+        ends = np.flatnonzero(np.diff(group[by_group])) + 1
+        yield from np.split(order[by_group], ends)

@@ -8,10 +8,10 @@ from typing import ClassVar
 
 import numpy as np
 
-from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.gbn.ewald import EwaldEnergy
 from gbnbench.generators.protocol import MOST_ITERATIONS, Family
+from gbnbench.generators.ranges import check_above, check_range, too_many
 from gbnbench.generators.set_by_set import SetBySet, Told
 
 FORCE = {2: 2 * math.pi, 3: 4 * math.pi}  # of transforms 1 / k**2, over forces 1 / r and 1 / r**2
@@ -69,12 +69,9 @@ class Electrostatic(SetBySet):
     shaking: float = 1.0
 
     def __post_init__(self) -> None:
-        if not 0 <= self.iterations <= MOST_ITERATIONS:
-            raise InputError(f"iterations must be 0 to {MOST_ITERATIONS}; got {self.iterations}")
-        if not 0 < self.tau <= 0.3:
-            raise InputError(f"tau must be above 0 and at most 0.3 squared spacings; got {self.tau}")
-        if not 0 <= self.shaking <= STRONGEST:
-            raise InputError(f"shaking must be 0 to {STRONGEST:g}; got {self.shaking}")
+        check_range("iterations", self.iterations, 0, MOST_ITERATIONS)
+        check_above("tau", self.tau, 0, 0.3, "squared spacings")
+        check_range("shaking", self.shaking, 0, STRONGEST)
 
     def refusal(self, n: int, d: int) -> str | None:
         """Say why the charges are not moved.
@@ -91,9 +88,7 @@ class Electrostatic(SetBySet):
         """
         if d not in FORCE:
             return f"d must be 2 or 3 for forces 1/r and 1/r**2; got d={d}, nearest is {2 if d < 2 else 3}"
-        if n > MOST:
-            return f"n must be at most {MOST}, minutes of sums; got n={n}, nearest is {MOST}"
-        return None
+        return too_many(n, MOST, "for the sums to take no more than minutes")
 
     def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
         """Draw one realization, as ``SetBySet.one_set`` says."""

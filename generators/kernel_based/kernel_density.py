@@ -9,10 +9,10 @@ from typing import ClassVar
 
 import numpy as np
 
-from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.kernel_based.density_raster import DensityRaster
 from gbnbench.generators.protocol import MOST_ITERATIONS, Family
+from gbnbench.generators.ranges import check_range, too_many, too_many_axes
 from gbnbench.generators.set_by_set import SetBySet, Told
 
 # The author's program at its density of 0.43 a pixel, where a spacing is 4.06 pixels, in spacings.
@@ -54,7 +54,7 @@ class KernelDensityModel(SetBySet):
     in d = 1 and 3 are ours, the same in spacings. Where the author takes as many points as the density
     makes, exactly n are had: the coarsest level stops at ceil(n / 2**d), or fills the emptiest pixels if too
     few were accepted, and surplus points of a split are dropped at random. Points whose kernels do not
-    overlap are moved together, which is the same as one after another. 1.6 CPU seconds at n = 1,024 in 2D.
+    overlap are moved together, which is the same as one after another. One CPU second at n = 1,024 in 2D.
 
     References
     ----------
@@ -77,12 +77,9 @@ class KernelDensityModel(SetBySet):
     levels: int = 2
 
     def __post_init__(self) -> None:
-        if not 1 <= self.iterations <= MOST_ITERATIONS:
-            raise InputError(f"iterations must be 1 to {MOST_ITERATIONS}; got {self.iterations}")
-        if not 0 <= self.temperature <= HOTTEST:
-            raise InputError(f"temperature must be 0 to {HOTTEST:g}; got {self.temperature}")
-        if not 1 <= self.levels <= 12:
-            raise InputError(f"levels must be 1 to 12; got {self.levels}")
+        check_range("iterations", self.iterations, 1, MOST_ITERATIONS)
+        check_range("temperature", self.temperature, 0, HOTTEST)
+        check_range("levels", self.levels, 1, 12)
 
     def refusal(self, n: int, d: int) -> str | None:
         """Say why the model is not sampled.
@@ -97,11 +94,9 @@ class KernelDensityModel(SetBySet):
         str or None
             The reason; None for d <= 3 and n that take minutes at most.
         """
-        if d > 3:
-            return f"d must be 1, 2 or 3 for a raster of densities; got d={d}, nearest is 3"
-        if n > MOST:
-            return f"n must be at most {MOST} for steps point by point; got n={n}, nearest is {MOST}"
-        return None
+        return too_many_axes(d, 3, "for a raster of densities") or too_many(
+            n, MOST, "for steps point by point"
+        )
 
     def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
         """Draw one realization, as ``SetBySet.one_set`` says."""

@@ -8,9 +8,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.protocol import MOST_ITERATIONS, Family
+from gbnbench.generators.ranges import check_range, too_many, too_many_axes
 from gbnbench.generators.set_by_set import SetBySet, Told
 
 STIFFNESS = 0.04  # squared spacings a squared time step: sound travels a fifth of a spacing in a step
@@ -74,12 +74,9 @@ class ParticleHydrodynamics(SetBySet):
     support: float = 2.0
 
     def __post_init__(self) -> None:
-        if not 0 <= self.rest <= 1:
-            raise InputError(f"rest must be 0 to 1 mean densities; got {self.rest}")
-        if not 0 <= self.iterations <= MOST_ITERATIONS:
-            raise InputError(f"iterations must be 0 to {MOST_ITERATIONS}; got {self.iterations}")
-        if not 1.5 <= self.support <= 6:
-            raise InputError(f"support must be 1.5 to 6 spacings; got {self.support}")
+        check_range("rest", self.rest, 0, 1, "mean densities")
+        check_range("iterations", self.iterations, 0, MOST_ITERATIONS)
+        check_range("support", self.support, 1.5, 6, "spacings")
 
     def refusal(self, n: int, d: int) -> str | None:
         """Say why there is no such fluid.
@@ -94,11 +91,9 @@ class ParticleHydrodynamics(SetBySet):
         str or None
             The reason; None for d <= 3 and n that take minutes at most.
         """
-        if d > 3:
-            return f"d must be 1, 2 or 3 for the kernels of the fluid; got d={d}, nearest is 3"
-        if n > MOST:
-            return f"n must be at most {MOST}, minutes of steps; got n={n}, nearest is {MOST}"
-        return None
+        return too_many_axes(d, 3, "for the kernels of the fluid") or too_many(
+            n, MOST, "for the steps to take no more than minutes"
+        )
 
     def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
         """Draw one realization, as ``SetBySet.one_set`` says."""

@@ -7,12 +7,12 @@ from typing import ClassVar
 
 import numpy as np
 
-from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.kernel_based.progressive_order import progressive_order
 from gbnbench.generators.monitor import Monitor
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.ranges import check_range, too_many
 from gbnbench.generators.set_by_set import SetBySet, Told
 
 MOST = 20_000
@@ -64,8 +64,7 @@ class ProgressiveGaussianBlueNoise(SetBySet):
     prefix_sigma: float = 1.0
 
     def __post_init__(self) -> None:
-        if not 0.2 <= self.prefix_sigma <= 2:
-            raise InputError(f"prefix_sigma must be 0.2 to 2 spacings; got {self.prefix_sigma}")
+        check_range("prefix_sigma", self.prefix_sigma, 0.2, 2, "spacings")
         self._unordered()  # refuses settings that are wrong
 
     def refusal(self, n: int, d: int) -> str | None:
@@ -81,10 +80,7 @@ class ProgressiveGaussianBlueNoise(SetBySet):
         str or None
             The reason.
         """
-        reason = self._unordered().refusal(n, d)
-        if reason is None and n > MOST:
-            return f"n must be at most {MOST} to be ordered, in n**2; got n={n}, nearest is {MOST}"
-        return reason
+        return self._unordered().refusal(n, d) or too_many(n, MOST, "to be ordered, in n**2")
 
     def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
         """Draw one realization, as ``SetBySet.one_set`` says."""

@@ -8,10 +8,10 @@ from typing import ClassVar
 
 import numpy as np
 
-from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.kernel_based.steady_inverse import steady_inverse
 from gbnbench.generators.protocol import MOST_ITERATIONS, Family
+from gbnbench.generators.ranges import check_above, check_range, too_many, too_many_axes
 from gbnbench.generators.set_by_set import SetBySet, Told
 
 CANDIDATES = 4  # uniform points from which one is chosen
@@ -68,12 +68,9 @@ class SpectralSampling(SetBySet):
     step: float = 0.5
 
     def __post_init__(self) -> None:
-        if not 0 <= self.iterations <= MOST_ITERATIONS:
-            raise InputError(f"iterations must be 0 to {MOST_ITERATIONS}; got {self.iterations}")
-        if not 0.5 <= self.sigma <= 1.5:
-            raise InputError(f"sigma must be 0.5 to 1.5 spacings; got {self.sigma}")
-        if not 0 < self.step <= 2:
-            raise InputError(f"step must be above 0 and at most 2 squared spacings; got {self.step}")
+        check_range("iterations", self.iterations, 0, MOST_ITERATIONS)
+        check_range("sigma", self.sigma, 0.5, 1.5, "spacings")
+        check_above("step", self.step, 0, 2, "squared spacings")
 
     def refusal(self, n: int, d: int) -> str | None:
         """Say why the kernels' matrix cannot be had.
@@ -88,11 +85,9 @@ class SpectralSampling(SetBySet):
         str or None
             The reason; None for d <= 3 and n whose matrix is inverted in minutes.
         """
-        if d > 3:
-            return f"d must be 1, 2 or 3 for spectral sampling; got d={d}, nearest is 3"
-        if n > MOST:
-            return f"n must be at most {MOST}, whose n**2 kernels are inverted; got n={n}, nearest is {MOST}"
-        return None
+        return too_many_axes(d, 3, "for spectral sampling") or too_many(
+            n, MOST, "for spectral sampling, which inverts n**2 kernels"
+        )
 
     def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
         """Draw one realization, as ``SetBySet.one_set`` says."""

@@ -7,10 +7,11 @@ from typing import ClassVar
 
 import numpy as np
 
-from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.kernel_based.raster_energy import RasterEnergy, pixel_centres
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.ranges import check_above, check_range, raise_refusal, too_many_axes
 
 MOST_PIXELS = 2**20
 NARROWEST = 0.1  # pixels: at the next pixel a Gaussian is then 2e-22 of its height, and all are alike
@@ -78,10 +79,8 @@ class VoidAndCluster:
             raise InputError(f"share must be 1/2**20 or more, a pixel of all, and below 1; got {self.share}")
         if self.pixels < 0:
             raise InputError(f"pixels must be 0, for as many as share says, or more; got {self.pixels}")
-        if not NARROWEST <= self.sigma <= 20:
-            raise InputError(f"sigma must be {NARROWEST} to 20 pixels; got {self.sigma}")
-        if not 0 < self.initial <= 0.5:
-            raise InputError(f"initial must be above 0 and at most 0.5; got {self.initial}")
+        check_range("sigma", self.sigma, NARROWEST, 20, "pixels")
+        check_above("initial", self.initial, 0, 0.5)
 
     def side(self, n: int, d: int) -> int:
         """Pixels on a side of the raster.
@@ -110,8 +109,8 @@ class VoidAndCluster:
         str or None
             The reason, with the nearest number that fits.
         """
-        if d > 3:
-            return f"d must be 1, 2 or 3 for void-and-cluster; got d={d}, nearest is 3"
+        if reason := too_many_axes(d, 3, "for void-and-cluster"):
+            return reason
         side = self.side(n, d)
         if side**d > MOST_PIXELS:
             most = int(MOST_PIXELS ** (1 / d) + 1e-9)
@@ -128,8 +127,7 @@ class VoidAndCluster:
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+        raise_refusal(self.refusal(n, d))
         side = self.side(n, d)
         pattern = initial_binary_pattern(side, d, self.sigma, self.initial, rng)
         for _ in range(pattern.count - n):

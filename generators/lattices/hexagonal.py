@@ -9,9 +9,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.ranges import outside_plane, raise_refusal, too_many
 
 MOST_STRAIN = 0.02  # 1024, 4096 and half of all n near 1,000 fit, nearly all beyond 5,000
 MOST_POINTS = 1_000_000  # there are more than n lattices to choose from
@@ -95,10 +95,10 @@ class Hexagonal:
         str or None
             The reason, with the nearest numbers that can; None where they can.
         """
-        if d != 2:
-            return f"d must be 2 for the hexagonal lattice; got d={d}"
-        if n > MOST_POINTS:
-            return f"n must be at most 10**6 for a hexagonal lattice; got n={n}, nearest is {MOST_POINTS}"
+        if reason := outside_plane(d, "d must be 2 for the hexagonal lattice"):
+            return reason
+        if reason := too_many(n, MOST_POINTS, "for a hexagonal lattice"):
+            return reason
         strain = best_lattice(n)[3]
         if strain <= MOST_STRAIN:
             return None
@@ -114,8 +114,7 @@ class Hexagonal:
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+        raise_refusal(self.refusal(n, d))
         a, b, s, _ = best_lattice(n)
         j, i = np.divmod(np.arange(n), a)
         x = np.stack([i / a + (j * s % n) / n, j / b], axis=1)

@@ -7,9 +7,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.ranges import raise_refusal
 
 
 def grid_side(n: int, d: int) -> int | None:
@@ -126,8 +126,7 @@ class Grid:
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+        raise_refusal(self.refusal(n, d))
         m = round(n ** (1.0 / d))
         offset = rng.random(d) if self.shift else np.full(d, 0.5)
         return wrap((grid_corners(m, d) + offset) / m)

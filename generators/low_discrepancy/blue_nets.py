@@ -15,7 +15,7 @@ from gbnbench.generators.low_discrepancy.dyadic_net import (
     random_net,
 )
 from gbnbench.generators.protocol import Family
-from gbnbench.generators.ranges import check_range
+from gbnbench.generators.ranges import check_range, outside_plane
 from gbnbench.generators.set_by_set import SetBySet, Told
 from gbnbench.generators.strata import placed_in_strata
 
@@ -87,8 +87,8 @@ class BlueNets(SetBySet):
         str or None
             The reason, with the nearest numbers that can; None where they can.
         """
-        if d != 2:
-            return f"bluenets are nets in the plane; got d={d}, use d=2"
+        if reason := outside_plane(d, "bluenets are nets in the plane"):
+            return reason
         low = 2 ** min(n.bit_length() - 1, MOST_BITS)
         if n == low:
             return None

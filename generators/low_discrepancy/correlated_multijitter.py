@@ -8,9 +8,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.ranges import check_above, outside_plane, raise_refusal
 from gbnbench.generators.strata import placed_in_strata
 
 
@@ -59,8 +59,7 @@ class CorrelatedMultiJitter:
     aspect: float = 1.0
 
     def __post_init__(self) -> None:
-        if not self.aspect > 0:
-            raise InputError(f"aspect must be above 0; got {self.aspect:g}")
+        check_above("aspect", self.aspect, 0)
 
     def refusal(self, n: int, d: int) -> str | None:  # noqa: ARG002 (the protocol's arguments)
         """Say why not: d is other than 2.
@@ -77,12 +76,11 @@ class CorrelatedMultiJitter:
         str or None
             The reason; None for d = 2.
         """
-        return None if d == 2 else f"cmj is a method of the plane; got d={d}, use d=2"
+        return outside_plane(d, "cmj is a method of the plane")
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, 2) float64; RefusalError where ``refusal`` has a reason."""
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+        raise_refusal(self.refusal(n, d))
         columns = max(1, int(min(math.sqrt(n * self.aspect), n)))
         rows = -(-n // columns)
         s = np.arange(n)

@@ -9,10 +9,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import Family
-from gbnbench.generators.ranges import too_many
+from gbnbench.generators.ranges import raise_refusal, too_many, too_many_axes
 
 MOST_DIMENSIONS = 100  # beyond, the ratio is so near 1 that axes follow one another
 MOST_POINTS = 2**32
@@ -100,16 +99,13 @@ class Kronecker:
         str or None
             The reason; None for d <= 100 and n <= 2**32.
         """
-        if d > MOST_DIMENSIONS:
-            return (
-                f"d must be at most {MOST_DIMENSIONS} for the R_d sequence, whose axes grow alike; got d={d}"
-            )
-        return too_many(n, MOST_POINTS, "for the R_d sequence")
+        return too_many_axes(d, MOST_DIMENSIONS, "for the R_d sequence, whose axes grow alike") or too_many(
+            n, MOST_POINTS, "for the R_d sequence"
+        )
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+        raise_refusal(self.refusal(n, d))
         i = np.arange(1, n + 1, dtype=np.uint64)[:, None]
         alpha, rest = np.array(steps(d), dtype=np.uint64).T
         start = rng.random(d) if self.shift else np.full(d, 0.5)

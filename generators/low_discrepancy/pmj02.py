@@ -8,10 +8,9 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import Family
-from gbnbench.generators.ranges import too_many
+from gbnbench.generators.ranges import outside_plane, raise_refusal, too_many
 
 BITS = 53  # of a coordinate
 MOST_BITS = 24  # log2 of the most points
@@ -136,14 +135,11 @@ class ProgressiveMultiJitter:
         str or None
             The reason, with the nearest numbers that can; None where they can.
         """
-        if d != 2:
-            return f"pmj02 is a sequence in the plane; got d={d}, use d=2"
-        return too_many(n, 2**MOST_BITS, "for pmj02")
+        return outside_plane(d, "pmj02 is a sequence in the plane") or too_many(n, 2**MOST_BITS, "for pmj02")
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, 2) float64; RefusalError where ``refusal`` has a reason."""
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+        raise_refusal(self.refusal(n, d))
         net = rng.integers(0, 2**BITS, size=(2, 1))
         for m in range((n - 1).bit_length()):
             net = doubled(net, m, rng)

@@ -9,10 +9,9 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.protocol import Family
-from gbnbench.generators.ranges import too_many
+from gbnbench.generators.ranges import raise_refusal, too_many, too_many_axes
 
 Criterion = Literal["p2", "distance"]
 MOST_POINTS = 2**20  # products of two residues are exact in int64, and the search takes seconds
@@ -182,14 +181,13 @@ class Rank1Lattice:
         str or None
             The reason, with the nearest numbers that can; None where they can.
         """
-        if d > MOST_DIMENSIONS:
-            return f"d must be at most {MOST_DIMENSIONS} for the search of rank-1 lattices; got d={d}"
-        return too_many(n, MOST_POINTS, "for a search of lattices")
+        return too_many_axes(d, MOST_DIMENSIONS, "for the search of rank-1 lattices") or too_many(
+            n, MOST_POINTS, "for a search of lattices"
+        )
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
         """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+        raise_refusal(self.refusal(n, d))
         z = korobov_vectors(np.array([best_generator(n, d, self.criterion)]), n, d)
         x = np.arange(n, dtype=np.int64)[:, None] * z % n / n
         return wrap(x + rng.random(d)) if self.shift else wrap(x)

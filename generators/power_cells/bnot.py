@@ -7,12 +7,12 @@ from typing import ClassVar
 
 import numpy as np
 
-from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.power_cells.diagram import PowerDiagram, power_diagram
 from gbnbench.generators.power_cells.equal_areas import equal_areas
 from gbnbench.generators.power_cells.regularity import break_regions, irregularity
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.ranges import check_least, outside_plane
 from gbnbench.generators.set_by_set import SetBySet, Told
 
 AREAS = 1e-3  # relative error of each area while the points move: less changes nothing that can be measured
@@ -88,8 +88,7 @@ class OptimalTransport(SetBySet):
 
     def __post_init__(self) -> None:
         for name in ("gradient", "alternations", "breaks", "regularity"):
-            if not getattr(self, name) >= 0:
-                raise InputError(f"{name} must be >= 0; got {getattr(self, name)}")
+            check_least(name, getattr(self, name), 0)
 
     def refusal(self, n: int, d: int) -> str | None:  # noqa: ARG002 (the protocol's arguments)
         """Say why not: d is other than 2.
@@ -106,7 +105,7 @@ class OptimalTransport(SetBySet):
         str or None
             The reason; None for d = 2.
         """
-        return None if d == 2 else f"bnot cuts the plane into power cells; got d={d}, use d=2"
+        return outside_plane(d, "bnot cuts the plane into power cells")
 
     def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
         """Draw one realization, as ``SetBySet.one_set`` says."""

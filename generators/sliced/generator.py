@@ -8,10 +8,10 @@ from typing import ClassVar
 
 import numpy as np
 
-from gbnbench.core.errors import InputError
 from gbnbench.core.memory import too_large
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.ranges import check_least, too_many_axes
 from gbnbench.generators.set_by_set import SetBySet, Told
 from gbnbench.generators.sliced.ball_to_cube import ball_to_cube
 
@@ -72,10 +72,8 @@ class Sliced(SetBySet):
     directions: int = 32
 
     def __post_init__(self) -> None:
-        if self.iterations < 0:
-            raise InputError(f"iterations must be 0 or more; got {self.iterations}")
-        if self.directions < 1:
-            raise InputError(f"directions must be 1 or more; got {self.directions}")
+        check_least("iterations", self.iterations, 0)
+        check_least("directions", self.directions, 1)
 
     def refusal(self, n: int, d: int) -> str | None:
         """Say why n points in d dimensions cannot be made.
@@ -94,8 +92,8 @@ class Sliced(SetBySet):
             return (
                 f"d must be 2 or more: on a line there is one direction and one set; got d={d}, nearest is 2"
             )
-        if d > LARGEST_DIMENSION:
-            return f"d must be at most {LARGEST_DIMENSION} for sliced transport; got d={d}"
+        if reason := too_many_axes(d, LARGEST_DIMENSION, "for sliced transport"):
+            return reason
         if reason := too_large(STEP_BYTES * float(n) * self.directions):
             return f"steps of n={n} points along directions={self.directions} {reason}; take fewer of either"
         projections = float(n) * self.directions * max(self.iterations, 1)

@@ -8,11 +8,11 @@ from typing import ClassVar
 
 import numpy as np
 
-from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gauss_newton.modes import bound_coordinates
 from gbnbench.generators.gauss_newton.product_cost import too_long
 from gbnbench.generators.monitor import Monitor
+from gbnbench.generators.ranges import check_range
 
 
 def check_edge(edge: float | None) -> None:
@@ -23,8 +23,8 @@ def check_edge(edge: float | None) -> None:
     InputError
         If it is given and not within 1e-9 and 1e9, where its square is a number yet.
     """
-    if edge is not None and not 1e-9 <= edge <= 1e9:
-        raise InputError(f"edge must be 1e-9 to 1e9, in nu; got {edge}")
+    if edge is not None:
+        check_range("edge", edge, 1e-9, 1e9)
 
 
 class BandGenerator(ABC):

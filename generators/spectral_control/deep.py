@@ -17,6 +17,7 @@ from gbnbench.generators.gauss_newton.solver import solve_for_amplitudes
 from gbnbench.generators.gbn.generator import GaussianBlueNoise
 from gbnbench.generators.monitor import Monitor
 from gbnbench.generators.protocol import MOST_ITERATIONS, Family
+from gbnbench.generators.ranges import check_above, check_range, raise_refusal
 from gbnbench.generators.spectral_control.band import BandGenerator, check_edge
 from gbnbench.generators.spectral_control.target_profiles import Exponential, Table, TargetSetting, as_target
 
@@ -72,11 +73,10 @@ class Deep(BandGenerator):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "target", as_target(self.target))
-        if self.c is not None and not (math.isfinite(self.c) and self.c > 0):
-            raise InputError(f"c must be positive and finite; got {self.c}")
+        if self.c is not None:
+            check_above("c", self.c, 0)
         check_edge(self.edge)
-        if not 0 <= self.gradients <= MOST_ITERATIONS:
-            raise InputError(f"gradients must be 0 to {MOST_ITERATIONS}; got {self.gradients}")
+        check_range("gradients", self.gradients, 0, MOST_ITERATIONS)
         table = self._table()
         if table is not None and self.edge is not None and self.edge > table.edge:
             raise InputError(f"edge must be at most the last nu of the target, {table.edge}; got {self.edge}")
@@ -141,8 +141,7 @@ class Deep(BandGenerator):
         RefusalError
             Where ``refusal`` has a reason, or no start of a set converged.
         """
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+        raise_refusal(self.refusal(n, d))
         ahead, counted = len(rngs) * USUAL, 0
 
         def started(done: int, total: int, doing: str) -> None:

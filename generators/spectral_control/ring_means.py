@@ -10,13 +10,13 @@ from typing import Literal
 
 import numpy as np
 
-from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.memory import too_large
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.gauss_newton.modes import ball_count, largest_square
 from gbnbench.generators.gauss_newton.product_cost import wave_sum_operations
 from gbnbench.generators.gauss_newton.targets import TargetPower
 from gbnbench.generators.monitor import Monitor, refuse_all_but_progress
+from gbnbench.generators.ranges import check_above, check_least, raise_refusal
 from gbnbench.generators.spectral_control.correlation_descent import (
     LEVELS,
     CorrelationDescent,
@@ -66,12 +66,11 @@ class RingMeans(ABC):
     method: Literal["power", "correlation"] = "power"
 
     def __post_init__(self) -> None:
-        if self.highest is not None and not (math.isfinite(self.highest) and self.highest > 0):
-            raise InputError(f"highest must be positive and finite, in nu; got {self.highest}")
-        if self.core is not None and not (math.isfinite(self.core) and self.core >= 0):
-            raise InputError(f"core must be 0 or more and finite, in spacings; got {self.core}")
-        if self.iterations < 0:
-            raise InputError(f"iterations must be 0 or more; got {self.iterations}")
+        if self.highest is not None:
+            check_above("highest", self.highest, 0)
+        if self.core is not None:
+            check_least("core", self.core, 0, "spacings")
+        check_least("iterations", self.iterations, 0)
 
     @abstractmethod
     def profile(self, d: int) -> TargetPower:
@@ -154,8 +153,7 @@ class RingMeans(ABC):
             Where ``refusal`` has a reason.
         """
         refuse_all_but_progress(monitor, type(self).__name__)
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+        raise_refusal(self.refusal(n, d))
         target, highest = self.profile(d), self.highest_nu(d)
         if self.method == "correlation":
             return self._by_correlation(CorrelationDescent(n, target, highest), rngs, monitor)

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import ClassVar
 
-from gbnbench.core.errors import InputError
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.ranges import check_above, check_range
 from gbnbench.generators.spectral_control.band import check_edge
 from gbnbench.generators.spectral_control.named_profiles import MOST_POWER, PeakProfile, of_the_plane
 from gbnbench.generators.spectral_control.ring_means import RingMeans
@@ -69,10 +68,10 @@ class SinglePeak(RingMeans):
     def __post_init__(self) -> None:
         super().__post_init__()
         check_edge(self.edge)
-        if self.power is not None and not 0 <= self.power <= MOST_POWER:
-            raise InputError(f"power must be 0 to {MOST_POWER:g}; got {self.power}")
-        if self.width is not None and not (math.isfinite(self.width) and self.width > 0):
-            raise InputError(f"width must be positive and finite, in nu; got {self.width}")
+        if self.power is not None:
+            check_range("power", self.power, 0, MOST_POWER)
+        if self.width is not None:
+            check_above("width", self.width, 0)
 
     def profile(self, d: int) -> PeakProfile:
         """Target power as a function of nu in d dimensions."""

@@ -8,6 +8,7 @@ from typing import ClassVar
 
 from gbnbench.core.errors import InputError
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.ranges import check_above
 from gbnbench.generators.spectral_control.band import check_edge
 from gbnbench.generators.spectral_control.named_profiles import MOST_POWER, StairProfile, of_the_plane
 from gbnbench.generators.spectral_control.ring_means import RingMeans
@@ -72,8 +73,7 @@ class Staircase(RingMeans):
         check_edge(self.edge)
         if self.end is not None and not math.isfinite(self.end):
             raise InputError(f"end must be finite, in nu; got {self.end}")
-        if not 0 < self.level <= MOST_POWER:
-            raise InputError(f"level must be above 0 and at most {MOST_POWER:g}; got {self.level}")
+        check_above("level", self.level, 0, MOST_POWER)
         plane = self.profile(2)
         if not plane.end > plane.edge:
             raise InputError(f"end must be above the edge, {plane.edge:.4g}; got {plane.end:.4g}")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar, Literal
@@ -18,6 +17,7 @@ from gbnbench.generators.gbn.optimiser import Nesterov
 from gbnbench.generators.gbn.step_sizes import step_size
 from gbnbench.generators.monitor import Monitor, refuse_all_but_progress
 from gbnbench.generators.protocol import MOST_ITERATIONS, Family
+from gbnbench.generators.ranges import check_above, check_least, check_range, raise_refusal
 from gbnbench.generators.spectral_control.band import BandGenerator, check_edge
 from gbnbench.generators.spectral_control.core_descent import descend_to_core, least_distance, widest_core
 from gbnbench.generators.spectral_control.empty_band import band_power, last_step
@@ -98,12 +98,9 @@ class Stealthy(BandGenerator):
     def __post_init__(self) -> None:
         check_edge(self.edge)
         for name in ("gradients", "most"):
-            if not 0 <= (getattr(self, name) or 0) <= MOST_ITERATIONS:
-                raise InputError(f"{name} must be 0 to {MOST_ITERATIONS}; got {getattr(self, name)}")
-        if not (math.isfinite(self.power) and self.power > 0):
-            raise InputError(f"power must be positive; got {self.power}")
-        if not (math.isfinite(self.core) and self.core >= 0):
-            raise InputError(f"core must be 0 or more and finite, in spacings; got {self.core}")
+            check_range(name, getattr(self, name) or 0, 0, MOST_ITERATIONS)
+        check_above("power", self.power, 0)
+        check_least("core", self.core, 0, "spacings")
         if self.core and self.method != "newton":
             raise InputError(f"a core needs method=newton; got {self.method}")
 
@@ -174,8 +171,7 @@ class Stealthy(BandGenerator):
             Where ``refusal`` has a reason, or the band was not reached.
         """
         refuse_all_but_progress(monitor, self.name)
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+        raise_refusal(self.refusal(n, d))
         return np.stack(
             [self._one(n, d, rng, SetProgress(monitor, k, len(rngs))) for k, rng in enumerate(rngs)]
         )

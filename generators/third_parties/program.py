@@ -13,9 +13,9 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import Family
+from gbnbench.generators.ranges import raise_refusal
 from gbnbench.generators.third_parties.program_run import run_program
 from gbnbench.generators.third_parties.size_rule import SizeRule, size_refusal
 
@@ -137,8 +137,7 @@ class ExternalProgram:
         GbnbenchError
             If the program fails, takes too long, or writes anything but n points of the torus.
         """
-        if reason := self.refusal(n, d):
-            raise RefusalError(reason)
+        raise_refusal(self.refusal(n, d))
         values = {"n": n, "d": d, "seed": int(rng.integers(SEEDS)), **dataclasses.asdict(self)}
         text = {
             name: str(value).lower() if isinstance(value, bool) else str(value)

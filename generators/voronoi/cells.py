@@ -150,6 +150,7 @@ def _intervals(x: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
 
 def _by_triangles(x: FloatArray, margin: float) -> Cells | None:
     """Cut cells in 2D into a triangle for each side, which joins the circumcentres beside a Delaunay edge."""
+    n = len(x)
     tiled, _ = with_images(x, margin)
     mesh = triangulation(tiled)
     if mesh is None:
@@ -158,14 +159,28 @@ def _by_triangles(x: FloatArray, margin: float) -> Cells | None:
     # A flat triangle on the tiling's rim has no centre, and bounds no cell.
     centre = corner[:, 0] + circumcentre(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
     # Triangles run counterclockwise, so each edge a -> b is met once with its triangle on the left.
-    a, right = np.roll(mesh.simplices, -1, axis=1), mesh.neighbors
-    left = np.broadcast_to(np.arange(len(right))[:, None], right.shape)
-    own = a < len(x)
-    site, right, left = a[own], right[own], left[own]
-    if (right < 0).any() or len(np.unique(site)) < len(x):
+    own = np.flatnonzero(mesh.simplices[:, [1, 2, 0]] < n)
+    left, opposite = np.divmod(own, 3)
+    site, right = mesh.simplices[left, (opposite + 1) % 3].astype(np.intp), mesh.neighbors[left, opposite]
+    if (right < 0).any() or not np.bincount(site, minlength=n).all():
         return None
-    rays = np.stack([centre[right], centre[left]], axis=1) - x[site][:, None]
-    return _moments(x, site.astype(np.intp), rays)
+    # The coordinates apart, as arrays of their own: sums over an axis of two are many times slower. The
+    # area of a triangle is signed, so that a side whose Delaunay edge does not cross it counts right too.
+    place = np.ascontiguousarray(x.T)
+    px, py = (centre[right, k] - place[k, site] for k in range(2))
+    qx, qy = (centre[left, k] - place[k, site] for k in range(2))
+    area = (px * qy - py * qx) / 2
+    tx, ty = px + qx, py + qy
+    volume = np.asarray(np.bincount(site, area, n), dtype=np.float64)
+    if not (volume > 0).all():
+        raise InputError(COINCIDENT)
+    first = np.stack([np.bincount(site, area * total, n) for total in (tx, ty)], axis=1) / 3
+    radius = qx * qx + qy * qy
+    squares = px * px + py * py + radius + tx * tx + ty * ty
+    second: FloatArray = np.bincount(site, area * squares, n) / 12
+    # Each vertex is the centre of a triangle on the left of a side, met from one of its points.
+    reach = overhang(centre[left], np.sqrt(radius))
+    return Cells(volume, first / volume[:, None], second, reach)
 
 
 def _by_faces(x: FloatArray, margin: float) -> Cells | None:
@@ -204,13 +219,10 @@ def _moments(x: FloatArray, site: NDArray[np.intp], rays: FloatArray) -> Cells:
     site : (m,) intp
         Index of the point at the apex of each simplex.
     rays : (m, d, d) float64
-        Other corners of each simplex, from its apex. In 2D they run counterclockwise, so that a side whose
-        Delaunay edge does not cross it counts right too.
+        Other corners of each simplex, from its apex, in any order: convex cells hold their point.
     """
     n, d = x.shape
-    volume: FloatArray = np.linalg.det(rays) / math.factorial(d)
-    if d != 2:  # convex cells hold their point, and faces come in either sense
-        volume = np.abs(volume)
+    volume: FloatArray = np.abs(np.linalg.det(rays)) / math.factorial(d)
     total = rays.sum(axis=1)
     squares = np.sum(rays * rays, axis=(1, 2)) + np.sum(total * total, axis=1)
     cell = np.asarray(np.bincount(site, volume, n), dtype=np.float64)

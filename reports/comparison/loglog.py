@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -15,8 +16,9 @@ from gbnbench.reports.log_ticks import PowersOfTen
 from gbnbench.reports.source_groups import Group, members
 from gbnbench.runs.comparison_result import Run, SourceResult
 
-# Where power is exactly 0, double precision leaves some 1e-30 and float 1e-13; deep sets reach 1e-26.
+FEW = 40  # with fewer shells than this each one gets a dot
 NEAR = 0.25  # of 4 pi^2, within which a fitted c is Gaussian blue noise's
+# Where power is exactly 0, double precision leaves some 1e-30 and float 1e-13; deep sets reach 1e-26.
 ZERO = {"double": 1e-27, "float": 1e-12}
 
 
@@ -50,12 +52,9 @@ def figure(run: Run, group: Group | None = None) -> Figure:
     """
     sources = members(run, group)
     strokes = style.strokes(run)
-    gone = [_zero(source) for source in sources]
+    gone = [zero_to_rounding(source) for source in sources]
     powers = [np.where(zero, np.nan, s.radial.power) for s, zero in zip(sources, gone, strict=True)]
-    finite = np.concatenate([p[np.isfinite(p)] for p in powers] or [np.empty(0)])
-    bottom = float(finite.min()) / 3 if finite.size else 1e-3
-    bottom = min(bottom, 0.05)
-    top = max(8.0, float(finite.max()) * 2 if finite.size else 8.0)
+    bottom, top = power_limits(powers)
 
     caption = "Mean power over each exact shell |f|, no smoothing; the grey line at 1 is white noise. "
     if any(zero.any() for zero in gone):
@@ -78,7 +77,7 @@ def figure(run: Run, group: Group | None = None) -> Figure:
     handles = []
     for source, power, zero in zip(sources, powers, gone, strict=True):
         nu, stroke = source.radial.nu, strokes[source.key]
-        few = len(nu) < 40
+        few = len(nu) < FEW
         (line,) = ax.plot(
             nu,
             power,
@@ -89,7 +88,7 @@ def figure(run: Run, group: Group | None = None) -> Figure:
             linewidth=1.0,
             zorder=2 + 1 / (1 + _roughness(power)),
         )
-        alone = np.isfinite(power) & ~_neighboured(power)
+        alone = without_neighbours(power)
         if not few and alone.any():
             ax.plot(nu[alone], power[alone], "o", markersize=2.2, color=stroke.colour)
         if zero.any():
@@ -136,20 +135,38 @@ def figure(run: Run, group: Group | None = None) -> Figure:
     return sheet.figure
 
 
-def _zero(source: SourceResult) -> NDArray[np.bool_]:
+def zero_to_rounding(source: SourceResult) -> NDArray[np.bool_]:
     """Mark shells whose power is zero to rounding, and for a lattice also those just above."""
     limit = ZERO.get(source.spectrum.precision, ZERO["double"])
     zero = source.radial.power <= limit
     return source.radial.power <= 1000 * limit if 2 * zero.sum() > len(zero) else zero
 
 
-def _neighboured(power: FloatArray) -> NDArray[np.bool_]:
-    """Mark the shells that have a drawn neighbour, so that a line reaches them."""
+def power_limits(powers: Sequence[FloatArray]) -> tuple[float, float]:
+    """Return the ends of the axis of power that all sources share.
+
+    Parameters
+    ----------
+    powers : sequence of (shells,) float64
+        Power of each source, nan where none is drawn.
+
+    Returns
+    -------
+    (float, float)
+    """
+    finite = np.concatenate([p[np.isfinite(p)] for p in powers] or [np.empty(0)])
+    if not finite.size:
+        return 1e-3, 8.0
+    return min(float(finite.min()) / 3, 0.05), max(8.0, float(finite.max()) * 2)
+
+
+def without_neighbours(power: FloatArray) -> NDArray[np.bool_]:
+    """Mark the shells that no line reaches, because neither shell beside them is drawn."""
     drawn = np.isfinite(power)
     reached = np.zeros(len(power), dtype=bool)
     reached[1:] |= drawn[:-1]
     reached[:-1] |= drawn[1:]
-    return reached
+    return drawn & ~reached
 
 
 def _roughness(power: FloatArray) -> float:

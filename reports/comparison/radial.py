@@ -60,7 +60,7 @@ def power_panel(ax: Axes, source: SourceResult, stroke: style.Stroke, top: float
         markersize=2.6,
         rasterized=len(nu) > 4000,
     )
-    ax.set_xlim(0, _reach(source))
+    ax.set_xlim(0, reach(source))
     ax.set_ylim(0, top)
     ax.xaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10], prune="upper"))
     finite = power[np.isfinite(power)]
@@ -78,7 +78,7 @@ def power_panel(ax: Axes, source: SourceResult, stroke: style.Stroke, top: float
         )
 
 
-def _reach(source: SourceResult) -> float:
+def reach(source: SourceResult) -> float:
     """End of the axis of nu: past the last shell and the last ring, which may lie beyond a part of it."""
     nu = [*source.radial.nu[-1:], *source.anisotropy["nu"][-1:]]
     return 1.02 * float(max(nu)) if nu else 1.0
@@ -113,7 +113,7 @@ def anisotropy_panel(
         marker="o" if len(nu) < FEW else "",
         markersize=2.2,
     )
-    ax.set_xlim(0, _reach(source))
+    ax.set_xlim(0, reach(source))
     ax.set_ylim(*limits)
     # A mark at the top would touch the 0 of the radial power above.
     ax.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10], prune="upper"))

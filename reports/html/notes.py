@@ -9,6 +9,7 @@ from typing import Any
 
 from gbnbench.reports.comparison import table
 from gbnbench.runs.comparison_result import Run
+from gbnbench.runs.joined_runs import JoinedRuns
 
 
 @dataclass(frozen=True)
@@ -40,6 +41,15 @@ def undefined_values(run: Run) -> list[UndefinedValue]:
                 label = table.row_label(row.source, run)
                 found.setdefault((column.title, cell.reason or "no reason was recorded"), []).append(label)
     return [UndefinedValue(measure, reason, labels) for (measure, reason), labels in found.items()]
+
+
+def joined_provenance(joined: JoinedRuns) -> dict[str, str]:
+    """Return what made joined runs, each name followed by that of its run."""
+    return {
+        f"{name}, {title}": text
+        for title, run in zip(joined.names, joined.runs, strict=True)
+        for name, text in provenance(run.manifest).items()
+    }
 
 
 def provenance(manifest: Mapping[str, Any]) -> dict[str, str]:

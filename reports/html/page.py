@@ -1,40 +1,42 @@
-"""Page ``report.html`` of a run: one self-contained file that opens offline, prints and needs no scripts."""
+"""Page ``report.html`` of a run: one file that opens offline, prints and is whole without scripts."""
 
 from __future__ import annotations
 
 import json
-import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
-
-from matplotlib.figure import Figure
 
 from gbnbench.core.atomic_write import write_whole
 from gbnbench.reports import captions, style
-from gbnbench.reports.comparison import gallery, loglog, points, rdf, spectrum, sweep, table
-from gbnbench.reports.comparison.figure_files import stem
-from gbnbench.reports.comparison.left_out import left_out
+from gbnbench.reports.comparison import sweep, table
 from gbnbench.reports.html import notes
 from gbnbench.reports.html.environment import template_environment
-from gbnbench.reports.html.pictures import Picture, colour_bar, figure_picture, gallery_panel
-from gbnbench.reports.source_groups import Group, groups, members
-from gbnbench.runs.comparison_result import Run, SourceResult
+from gbnbench.reports.html.pictures import colour_bar
+from gbnbench.reports.html.sections import anchor, figure_or_drawn, group_sections
+from gbnbench.reports.source_groups import Group, groups
+from gbnbench.runs.comparison_result import Run
+from gbnbench.runs.joined_runs import JoinedRuns
+from gbnbench.studies import growing_report
+from gbnbench.studies.growing_report import Unfinished
 
-ALTERNATIVE_TEXTS = {  # of the pictures in each row of the gallery
-    "points": "Points, first realization of {name}",
-    "spectrum": "Power spectrum of {name}, log10, zero frequency in the middle",
-    "radial power": "Radial power of {name} against nu",
-    "anisotropy\n(dB)": "Anisotropy of {name} in decibels against nu",
-    "zone plate": "Zone plate of {name}",
-    "valence": "Voronoi cells of {name} coloured by number of Delaunay neighbours",
-    "valence\n(%)": "Share of points of {name} with each number of Delaunay neighbours, percent",
-}
-GROUP_SECTIONS = (("table", "Measures"), ("gallery", "Side by side"), ("loglog", "Log-log"))
+RUN_SECTIONS = (("runs", "Runs"),)  # where several are joined
+GROUP_SECTIONS = (
+    ("table", "Measures"),
+    ("gallery", "Side by side"),
+    ("loglog", "Log-log"),
+    ("radial", "Radial"),
+)
 
 
-def write_report(run: Run, path: str | Path, drawn: Mapping[str, bytes] | None = None) -> None:
+def write_report(
+    run: Run,
+    path: str | Path,
+    drawn: Mapping[str, bytes] | None = None,
+    *,
+    unfinished: Unfinished | None = None,
+    joined: JoinedRuns | None = None,
+) -> None:
     """Write the page of a run, whole or not at all.
 
     Parameters
@@ -45,12 +47,21 @@ def write_report(run: Run, path: str | Path, drawn: Mapping[str, bytes] | None =
         Usually ``report.html`` in the run folder; an older page there is replaced.
     drawn : mapping of bytes, optional
         PNGs that ``write_figures`` made of the same run, by the stems of their files: not drawn again.
+    unfinished : Unfinished, optional
+        What is still to come; the page then says so and reads itself again from time to time.
+    joined : JoinedRuns, optional
+        The runs of which ``run`` was joined.
     """
-    write_whole(Path(path), page(run, drawn or {}).encode("utf-8"))
+    write_whole(Path(path), page(run, drawn or {}, unfinished, joined).encode("utf-8"))
 
 
 @style.styled
-def page(run: Run, drawn: Mapping[str, bytes] = MappingProxyType({})) -> str:
+def page(
+    run: Run,
+    drawn: Mapping[str, bytes] = MappingProxyType({}),
+    unfinished: Unfinished | None = None,
+    joined: JoinedRuns | None = None,
+) -> str:
     """Return the page as text; every label, path and setting in it is escaped.
 
     Parameters
@@ -59,6 +70,10 @@ def page(run: Run, drawn: Mapping[str, bytes] = MappingProxyType({})) -> str:
         The comparison.
     drawn : mapping of bytes
         PNGs by the stems of their files, which are not drawn again.
+    unfinished : Unfinished, optional
+        What is still to come.
+    joined : JoinedRuns, optional
+        The runs of which ``run`` was joined.
 
     Returns
     -------
@@ -69,15 +84,19 @@ def page(run: Run, drawn: Mapping[str, bytes] = MappingProxyType({})) -> str:
     swept = sweep.several(run)
     template = template_environment(table.COLUMNS).get_template("report.html")
     text = template.render(
-        title=_title(run),
+        title=_title(run) if joined is None else f"gbnbench: {', '.join(joined.names)}",
+        joined=joined,
         version=run.manifest.get("version", ""),
+        unfinished=unfinished,
+        reload_seconds=growing_report.RELOAD,
+        reloads=(growing_report.START, growing_report.END),
         settings=captions.settings(run),
-        links=_links(every, swept),
+        links=_links(every, swept, joined is not None),
         warnings=[(table.row_label(s, run), warning) for s in run.sources for warning in s.warnings],
         skipped=[_sentence(source) for source in run.manifest.get("skipped") or []],
-        groups=[_group(run, group, drawn, several=len(every) > 1) for group in every],
+        groups=[group_sections(run, group, drawn, len(every) > 1, joined) for group in every],
         compared=bool(run.verdicts),
-        sweep=_figure(
+        sweep=figure_or_drawn(
             drawn,
             "sweep",
             lambda: sweep.figure(run),
@@ -86,7 +105,7 @@ def page(run: Run, drawn: Mapping[str, bytes] = MappingProxyType({})) -> str:
         if swept
         else None,
         undefined_values=notes.undefined_values(run),
-        provenance=notes.provenance(run.manifest),
+        provenance=notes.provenance(run.manifest) if joined is None else notes.joined_provenance(joined),
         manifest=json.dumps(run.manifest, indent=2, ensure_ascii=False, default=str),
         colour_bar=colour_bar(),
     )
@@ -99,87 +118,16 @@ def _title(run: Run) -> str:
     return f"gbnbench: {few}" + (f" and {len(labels) - 4} more" if len(labels) > 4 else "")
 
 
-def _anchor(group: Group) -> str:
-    return f"n{group[0]}-d{group[1]}"
-
-
-def _links(every: Sequence[Group], swept: bool) -> list[tuple[str, str]]:
+def _links(every: Sequence[Group], swept: bool, joined: bool) -> list[tuple[str, str]]:
     """Anchor and title of each section."""
     links = []
     for n, d in every:
         mark = f" n={n}, d={d}" if len(every) > 1 else ""
-        links += [(f"{name}-{_anchor((n, d))}", title + mark) for name, title in GROUP_SECTIONS]
+        sections = (*RUN_SECTIONS, *GROUP_SECTIONS) if joined else GROUP_SECTIONS
+        links += [(f"{name}-{anchor((n, d))}", title + mark) for name, title in sections]
     links += [("sweep", "Against n")] if swept else []
     return [*links, ("undefined", "Undefined"), ("definitions", "Definitions"), ("made", "What made it")]
 
 
 def _sentence(item: object) -> str:
     return ", ".join(f"{k}: {v}" for k, v in item.items()) if isinstance(item, Mapping) else str(item)
-
-
-def _figure(drawn: Mapping[str, bytes], name: str, draw: Callable[[], Figure], alt: str) -> Picture:
-    """Take a figure's PNG, or draw it where it is not there."""
-    return Picture(alt, drawn[name]) if name in drawn else figure_picture(draw(), alt)
-
-
-def _group(run: Run, group: Group, drawn: Mapping[str, bytes], several: bool) -> dict[str, Any]:
-    """Content of the sections of one (n, d)."""
-    sources = members(run, group)
-    overlay = _figure(
-        drawn,
-        stem(run, "loglog", group),
-        lambda: loglog.figure(run, group),
-        "Log-log overlay of the radial power of all sources",
-    )
-    pairs = None
-    if any(source.rdf is not None for source in sources):
-        pairs = _figure(
-            drawn,
-            stem(run, "rdf", group),
-            lambda: rdf.figure(run, group),
-            "Radial distribution functions of all sources",
-        )
-    return {
-        "anchor": _anchor(group),
-        "mark": f", n = {group[0]}, d = {group[1]}" if several else "",
-        "single": any(source.realizations == 1 for source in sources),
-        "rows": _rows(run, group),
-        "gallery": _gallery(run, sources),
-        "loglog": overlay,
-        "rdf": pairs,
-    }
-
-
-def _rows(run: Run, group: Group) -> list[dict[str, Any]]:
-    strokes = style.strokes(run)
-    return [
-        {
-            "label": table.row_label(row.source, run),
-            "stroke": strokes[row.source.key],
-            "cells": [row.cells[column.name] for column in table.COLUMNS],
-        }
-        for row in table.rows(run, group)
-    ]
-
-
-def _gallery(run: Run, sources: Sequence[SourceResult]) -> dict[str, Any]:
-    strokes = style.strokes(run)
-    lowest = float(spectrum.norm(sources).vmin or spectrum.LOWEST)
-    rows = [
-        (
-            name,
-            [
-                gallery_panel(name, ratio, draw, source, ALTERNATIVE_TEXTS[name].format(name=source.label))
-                for source in sources
-            ],
-        )
-        for name, ratio, draw in gallery.rows(run, sources)
-    ]
-    remarks = [*map(points.note, sources), *map(spectrum.note, sources), left_out(sources)]
-    return {
-        "heads": [(source.label, strokes[source.key]) for source in sources],
-        "rows": rows,
-        "notes": " ".join(dict.fromkeys(filter(None, remarks))),
-        "decades": f"{-math.log10(lowest):.0f}",
-        "plane": any(source.d == 2 for source in sources),
-    }

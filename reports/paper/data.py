@@ -220,10 +220,10 @@ def _stipplings(
     darkness = as_darkness(request.image)
     density = as_density(averaged(darkness.density().values, request.most_pixels))
     given = [("", source) for source in request.sources]
-    sources, skipped = stippling_sources(given, density, request.n, 1, DEFAULT_READING)
+    sources, skipped, unread = stippling_sources(given, density, request.n, 1, DEFAULT_READING)
     return run_stippling_comparison(
         sources, density, darkness.name, request.n, folder, seed=seed, jobs=jobs, command="gbnbench figures",
-        skipped=skipped, progress=progress,
+        skipped=skipped, unread=unread, progress=progress,
     ).run  # fmt: skip
 
 

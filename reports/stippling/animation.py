@@ -88,7 +88,7 @@ def mp4(frames: Frames) -> bytes:
     Parameters
     ----------
     frames : iterator of (rows, columns) or (rows, columns, 3) uint8
-        The pictures, at least one; white is added where a side is odd.
+        The pictures, at least one; where a side is odd, its last pixels are there twice.
 
     Returns
     -------
@@ -117,4 +117,4 @@ def _even(frame: NDArray[np.uint8]) -> NDArray[np.uint8]:
     """Red, green and blue, with even sides, which the codec wants."""
     coloured = np.broadcast_to(frame.reshape(*frame.shape[:2], -1), (*frame.shape[:2], 3))
     beyond = [(0, side % 2) for side in frame.shape[:2]]
-    return np.pad(coloured, [*beyond, (0, 0)], constant_values=255)
+    return np.pad(coloured, [*beyond, (0, 0)], mode="edge")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from gbnbench.core.readable_text import in_one_line
-from gbnbench.reports.stippling.page import DotLayer, Page
+from gbnbench.reports.stippling.page import DotLayer, Page, rgb_of
 from gbnbench.reports.stippling.pdf import POINTS_A_MM
 from gbnbench.reports.stippling.svg import short
 
@@ -49,7 +49,19 @@ def eps(page: Page) -> bytes:
         scale=POINTS_A_MM,
         down=short(-page.height),
     )
-    return f"{head}{''.join(map(_layer, page.layers))}grestore\nshowpage\n%%EOF\n".encode("ascii")
+    return f"{head}{_paper(page)}{''.join(map(_layer, page.layers))}grestore\nshowpage\n%%EOF\n".encode(
+        "ascii"
+    )
+
+
+def _paper(page: Page) -> str:
+    if page.white:
+        return ""
+    red, green, blue = rgb_of(page.paper)
+    return (
+        f"{red:.4f} {green:.4f} {blue:.4f} setrgbcolor\n"
+        f"0 0 {short(page.width)} {short(page.height)} rectfill\n"
+    )
 
 
 def _layer(layer: DotLayer) -> str:

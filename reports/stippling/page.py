@@ -9,6 +9,7 @@ from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
 
 MOST_MM = 10_000.0  # of a side
+WHITE = "#ffffff"
 DIGITS = 4  # decimals of a millimetre: a tenth of a micrometre
 
 
@@ -36,8 +37,7 @@ class DotLayer:
     @property
     def rgb(self) -> tuple[float, float, float]:
         """Red, green and blue from 0 to 1."""
-        shares = (int(self.colour[k : k + 2], 16) / 255 for k in (1, 3, 5))
-        return cast("tuple[float, float, float]", tuple(shares))
+        return rgb_of(self.colour)
 
 
 @dataclass(frozen=True)
@@ -52,6 +52,11 @@ class Page:
         In the order of printing.
     title, text : str
         What is drawn, and how it was made, for the formats that can hold it.
+    paper : str
+        Its colour, ``#rrggbb``. Inks on white paper multiply, as prints do; on any other they cover it, as
+        white ink covers black paper.
+    margin : float
+        Millimetres on each side of the picture.
 
     Raises
     ------
@@ -64,6 +69,8 @@ class Page:
     layers: tuple[DotLayer, ...]
     title: str = ""
     text: str = ""
+    paper: str = WHITE
+    margin: float = 0.0
 
     def __post_init__(self) -> None:
         if not (self.width > 0 and self.height > 0):
@@ -72,3 +79,14 @@ class Page:
             raise InputError(
                 f"a page is at most {MOST_MM:g} mm wide and high; got {self.width:g} x {self.height:g} mm"
             )
+
+    @property
+    def white(self) -> bool:
+        """Whether the paper is white."""
+        return self.paper == WHITE
+
+
+def rgb_of(colour: str) -> tuple[float, float, float]:
+    """Red, green and blue from 0 to 1 of ``#rrggbb``."""
+    shares = (int(colour[k : k + 2], 16) / 255 for k in (1, 3, 5))
+    return cast("tuple[float, float, float]", tuple(shares))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import zlib
 
 from gbnbench.core.readable_text import in_one_line
-from gbnbench.reports.stippling.page import DotLayer, Page
+from gbnbench.reports.stippling.page import DotLayer, Page, rgb_of
 from gbnbench.reports.stippling.svg import short
 
 POINTS_A_MM = 72 / 25.4
@@ -29,7 +29,7 @@ def pdf(page: Page) -> bytes:
     """
     layers = range(len(page.layers))
     width, height = page.width * POINTS_A_MM, page.height * POINTS_A_MM
-    begin = f"{POINTS_A_MM:.8f} 0 0 {-POINTS_A_MM:.8f} 0 {height:.5f} cm\n/Multiply gs\n"
+    begin = f"{POINTS_A_MM:.8f} 0 0 {-POINTS_A_MM:.8f} 0 {height:.5f} cm\n{_paper(page)}"
     drawn = begin + "".join(_layer(k, layer) for k, layer in enumerate(page.layers))
     groups = " ".join(f"{8 + k} 0 R" for k in layers)
     named = " ".join(f"/L{k} {8 + k} 0 R" for k in layers)
@@ -59,6 +59,14 @@ def pdf(page: Page) -> bytes:
         f"trailer\n<< /Size {size} /Root 1 0 R /Info 7 0 R >>\nstartxref\n{len(out)}\n%%EOF\n"
     )
     return bytes(out + tail.encode("ascii"))
+
+
+def _paper(page: Page) -> str:
+    """Let inks multiply on white paper, and fill the page with the colour of any other."""
+    if page.white:
+        return "/Multiply gs\n"
+    red, green, blue = rgb_of(page.paper)
+    return f"{red:.4f} {green:.4f} {blue:.4f} rg\n0 0 {short(page.width)} {short(page.height)} re f\n"
 
 
 def _layer(k: int, layer: DotLayer) -> str:

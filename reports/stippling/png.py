@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.core.errors import InputError
-from gbnbench.reports.stippling.page import DotLayer, Page
+from gbnbench.reports.stippling.page import DotLayer, Page, rgb_of
 
 MM_AN_INCH = 25.4
 MOST_PIXELS = 89_478_485  # so that the picture can be read again
@@ -29,7 +29,7 @@ def png(page: Page, dpi: float = 300.0) -> bytes:
     Returns
     -------
     bytes
-        Grey where all inks are black, else red, green and blue; the resolution is in the file.
+        Grey where inks and paper are, else red, green and blue; the resolution is in the file.
 
     Raises
     ------
@@ -57,7 +57,7 @@ def pixels(page: Page, dpi: float) -> NDArray[np.uint8]:
     Returns
     -------
     (rows, columns) or (rows, columns, 3) uint8
-        White paper is 255.
+        White paper is 255. Inks multiply on it; they cover any other.
 
     Raises
     ------
@@ -65,13 +65,15 @@ def pixels(page: Page, dpi: float) -> NDArray[np.uint8]:
         If there are too many pixels.
     """
     columns, rows = picture_size(page, dpi)
-    black = all(layer.colour == "#000000" for layer in page.layers)
-    light = np.ones((rows, columns, 1 if black else 3), np.float32)
-    for layer in page.layers:
+    colours = [rgb_of(page.paper), *(layer.rgb for layer in page.layers)]
+    grey = all(len(set(rgb)) == 1 for rgb in colours)
+    paper, *inks = (np.array(rgb[: 1 if grey else 3], np.float32) for rgb in colours)
+    light = np.broadcast_to(paper, (rows, columns, len(paper))).copy()
+    for layer, ink in zip(page.layers, inks, strict=True):
         covered = _covered(page, layer, rows, columns)[..., None]
-        light *= 1 - covered * (1 - np.array(layer.rgb[: light.shape[2]], np.float32))
+        light += covered * (light * ink if page.white else ink) - covered * light
     drawn = np.rint(255 * light).astype(np.uint8)
-    return drawn[..., 0] if black else drawn
+    return drawn[..., 0] if grey else drawn
 
 
 def picture_size(page: Page, dpi: float) -> tuple[int, int]:

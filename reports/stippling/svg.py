@@ -10,14 +10,19 @@ from gbnbench.reports.stippling.page import DIGITS, DotLayer, Page
 HEAD = """\
 <?xml version="1.0" encoding="UTF-8"?>
 <svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape"
-     version="1.1" width="{width}mm" height="{height}mm" viewBox="0 0 {width} {height}">
+     xmlns:sodipodi="http://sodipodi.sourceforge.net/DTD/sodipodi-0.dtd"
+     version="1.1" width="{width}mm" height="{height}mm" viewBox="0 0 {width} {height}"{shown}>
 <title>{title}</title>
 <desc>{text}</desc>
 """
+PAPER = """\
+<sodipodi:namedview pagecolor="{colour}" inkscape:pageopacity="1"/>
+"""
 LAYER = """\
 <g inkscape:groupmode="layer" id="layer{number}" inkscape:label={name} fill="{colour}" \
-stroke="none" style="mix-blend-mode:multiply">
+stroke="none"{blend}>
 """
+MULTIPLY = ' style="mix-blend-mode:multiply"'
 
 
 def svg(page: Page) -> bytes:
@@ -31,13 +36,17 @@ def svg(page: Page) -> bytes:
     Returns
     -------
     bytes
-        UTF-8. One unit of the picture is a millimetre; no background is drawn, which a plotter would draw.
+        UTF-8. One unit of the picture is a millimetre. No background is drawn, which a plotter would draw:
+        paper that is not white is told to browsers as a style and to Inkscape as the colour of the page.
     """
     head = HEAD.format(
-        width=short(page.width), height=short(page.height), title=_text(page.title), text=_text(page.text)
-    )
-    layers = [_layer(number, layer) for number, layer in enumerate(page.layers, 1)]
-    return f"{head}{''.join(layers)}</svg>\n".encode()
+        width=short(page.width), height=short(page.height), title=_text(page.title), text=_text(page.text),
+        shown="" if page.white else f' style="background:{page.paper}"',
+    )  # fmt: skip
+    paper = "" if page.white else PAPER.format(colour=page.paper)
+    blend = MULTIPLY if page.white else ""
+    layers = [_layer(number, layer, blend) for number, layer in enumerate(page.layers, 1)]
+    return f"{head}{paper}{''.join(layers)}</svg>\n".encode()
 
 
 def short(value: float) -> str:
@@ -52,8 +61,9 @@ def short(value: float) -> str:
     return "0" if text == "-0" else text
 
 
-def _layer(number: int, layer: DotLayer) -> str:
-    begin = LAYER.format(number=number, name=quoteattr(_text(layer.name)), colour=layer.colour)
+def _layer(number: int, layer: DotLayer, blend: str) -> str:
+    name = quoteattr(in_one_line(layer.name))
+    begin = LAYER.format(number=number, name=name, colour=layer.colour, blend=blend)
     dots = "".join(
         f'<circle cx="{short(x)}" cy="{short(y)}" r="{short(r)}"/>\n'
         for (x, y), r in zip(layer.centres.tolist(), layer.radii.tolist(), strict=True)

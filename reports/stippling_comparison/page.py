@@ -80,7 +80,7 @@ def page(run: StipplingRun, drawn: Mapping[str, bytes] = MappingProxyType({})) -
         ],
         heads=[(row_label(source, run), style.numbered_stroke(k)) for k, source in enumerate(run.sources)],
         gallery=_gallery(run),
-        scale=f"{gallery.difference_scale(run):.2g}",
+        scale=gallery.difference_scale(run),
         powers=panels.POWER,
         spectra=Picture("Spectra of all sources, and their variance against CPU seconds", spectra),
         stipplings=Picture("First set of every source, large", stipplings),
@@ -98,7 +98,7 @@ def _title(run: StipplingRun) -> str:
 
 def _gallery(run: StipplingRun) -> list[tuple[str, Picture | None, list[Picture]]]:
     """Rows: title, the picture of the image, those of the sources."""
-    most = gallery.difference_scale(run)
+    scale = gallery.difference_scale(run)
     patch = run.patch
     kept = [name for name in ROWS if patch is not None or name not in ("close", "spectrum there")]
     found: list[tuple[str, Picture | None, list[Picture]]] = []
@@ -113,7 +113,7 @@ def _gallery(run: StipplingRun) -> list[tuple[str, Picture | None, list[Picture]
         pictures = [
             _picture(
                 run, ROWS[name].format(name=source.label),
-                lambda ax, s=source, n=name: gallery.panel(ax, n, s, run, most, PANEL), square=square,
+                lambda ax, s=source, n=name: gallery.panel(ax, n, s, run, scale, PANEL), square=square,
             )
             for source in run.sources
         ]  # fmt: skip

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import LogNorm
+from matplotlib.colors import LogNorm, Normalize
 from matplotlib.patches import Rectangle
 
 from gbnbench.core.torus import FloatArray
@@ -100,7 +100,7 @@ def found_back(ax: Axes, source: StipplingResult, density: FloatArray) -> None:
     ink(ax, found * (float((found * density).sum()) / square if square > 0 else 0.0), float(density.max()))
 
 
-def difference(ax: Axes, source: StipplingResult, most: float) -> None:
+def difference(ax: Axes, source: StipplingResult, scale: Normalize) -> None:
     """Draw where there are too many points (red) and too few (blue), blurred by 16 pixels.
 
     Parameters
@@ -109,13 +109,11 @@ def difference(ax: Axes, source: StipplingResult, most: float) -> None:
         Axes to draw in.
     source : StipplingResult
         Source to draw.
-    most : float
-        End of the colour scale, over the mean density.
+    scale : Normalize
+        Of the colours, over the mean density.
     """
     rows, columns = source.blurred.shape
-    ax.imshow(
-        source.blurred, cmap=DIFFERENCE, vmin=-most, vmax=most, origin="upper", extent=(0, columns, rows, 0)
-    )
+    ax.imshow(source.blurred, cmap=DIFFERENCE, norm=scale, origin="upper", extent=(0, columns, rows, 0))
     layout.frame(ax)
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 from skimage import data
@@ -108,14 +110,14 @@ def test_progress_is_told():
         ),
         ({"points": [[np.nan, 0.5]]}, "is nan"),
         ({"points": np.ones((3, 4))}, r"points must be \(n, 2\) of a picture or \(n, 3\) of a volume"),
-        ({"points": np.ones((0, 2))}, r"got shape \(0, 2\)"),
+        ({"points": np.ones((0, 2))}, "points holds no point"),
         ({"points": "dots.txt"}, "array"),
-        ({"shape": (8, 8, 8)}, r"shape must be \(rows, columns\) for points of d=2"),
+        ({"shape": (8, 8, 8)}, r"shape must be \(rows, columns\), whole numbers"),
         ({"shape": (0, 8)}, "shape must be"),
         ({"shape": (2.5, 8)}, "shape must be"),
         ({"shape": (1 << 20, 1 << 20)}, "at most 134,217,728 pixels"),
         ({"method": "vornoi"}, "did you mean 'voronoi'"),
-        ({"amplitudes": [1.0]}, r"one number a point, \(340,\); got shape \(1,\)"),
+        ({"amplitudes": [1.0]}, r"one number a point, \(340,\); got an array of shape \(1,\)"),
         ({"amplitudes": np.zeros(340)}, "finite numbers above 0"),
         ({"amplitudes": np.ones(340), "method": "kernel"}, "'kernel' has no use for them"),
         ({"coverage": 1.5}, "coverage must be above 0 and at most 1"),
@@ -126,3 +128,51 @@ def test_progress_is_told():
 def test_what_cannot_be_meant_is_refused(arguments, says):
     with pytest.raises(InputError, match=says):
         gbnbench.reconstruct(**{"points": corner_points(), "shape": (8, 8), **arguments})
+
+
+def test_a_stippling_is_taken_with_all_that_it_knows():
+    ramp = np.linspace(0, 0.9, 30)[:, None] * np.ones(20)
+    made = gbnbench.stipple(ramp, 200, method="gbn[gradients=10]")
+    expected = gbnbench.reconstruct(made.points, made.amplitudes, made.density.shape, coverage=made.coverage)
+    assert np.array_equal(gbnbench.reconstruct(made), expected)
+    alone = gbnbench.reconstruct(made, shape=(15, 10), method="kernel", coverage=0.3)
+    assert np.array_equal(
+        alone, gbnbench.reconstruct(made.points, shape=(15, 10), method="kernel", coverage=0.3)
+    )
+    given = np.ones(200)
+    assert np.array_equal(
+        gbnbench.reconstruct(made, given),
+        gbnbench.reconstruct(made.points, given, made.density.shape, coverage=made.coverage),
+    )
+
+
+@pytest.mark.parametrize(
+    ("shape", "says"),
+    [
+        ((0, 5), "got 0 x 5"),
+        ((-3, 5), "got -3 x 5"),
+        ((2.5, 5), "got 2.5 x 5"),
+        ((5,), "got 5"),
+        ((), "got no sides"),
+        (7, "got 7"),
+        ("7x8", "got 7x8"),
+        ((5, 5, 5), "got 5 x 5 x 5"),
+        ((1 << 20, 1 << 20), "at most 134,217,728 pixels in all; got 1,099,511,627,776"),
+    ],
+)
+def test_a_bad_shape_is_told_in_words(shape, says):
+    with pytest.raises(InputError, match=re.escape("shape must be (rows, columns), ")) as told:
+        gbnbench.reconstruct(np.full((4, 2), 0.5), shape=shape)
+    assert str(told.value).endswith(says)
+    if shape != (5, 5, 5):
+        with pytest.raises(InputError, match="shape must be") as told:
+            gbnbench.stipple(lambda x: x[:, 0], 5, shape=shape)
+        assert str(told.value).endswith(says)
+
+
+def test_no_points_are_told_in_words():
+    for none in ([], np.empty((0, 2)), np.empty((3, 0))):
+        with pytest.raises(InputError, match="points holds no point: a picture needs at least one"):
+            gbnbench.reconstruct(none)
+        with pytest.raises(InputError, match="array holds no points: a source has at least one"):
+            gbnbench.compare_stipplings(np.eye(20), [np.asarray(none)], quiet=True)

@@ -120,7 +120,10 @@ def test_what_made_it_is_told():
     assert (made.method, made.seed, made.name) == ("gbn[sigma=0.85,gradients=5]", 7, "the array")
     assert made.version == gbnbench.__version__
     assert made.device
-    assert made.to_frame().columns.tolist() == ["x", "y", "amplitude"]
+    frame = made.to_frame()
+    assert np.array_equal(frame[["right_of_width", "up_of_height"]], made.points)
+    assert np.array_equal(frame[["right_pixels", "down_pixels"]], made.pixels)
+    assert np.array_equal(frame.amplitude, made.amplitudes)
 
 
 def test_progress_is_told():
@@ -140,8 +143,8 @@ def test_progress_is_told():
         (corner(), {"n": 0}, "n must be an integer >= 1; got 0"),
         (corner(), {"n": 2.5}, "n must be an integer >= 1; got 2.5"),
         (corner(), {"method": "gnb"}, "did you mean 'gbn'?"),
-        (corner(), {"shape": (3, 3)}, "shape goes with a function"),
-        (lambda x: x[:, 0], {}, "shape goes with a function"),
+        (corner(), {"shape": (3, 3)}, "shape is of a function of positions: leave it out"),
+        (lambda x: x[:, 0], {}, "a function of positions needs shape"),
         (np.ones((5, 6, 7)), {"invert": True}, "invert, gamma and white_cutoff are of an image's tones"),
         (np.full((5, 6, 7), -1.0), {}, "a density is nowhere below 0"),
         (np.array([[0, 300]]), {}, "unsigned whole numbers"),

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from gbnbench.analysis.measure_definitions import BY_NAME
+from gbnbench.cli import run
 from gbnbench.io.points import load, save
 from gbnbench.runs.comparison_folder import read_run
 from gbnbench.runs.sources import resolve
@@ -102,25 +103,31 @@ def test_what_is_worse_than_the_baseline_exits_with_1(whole: Whole) -> None:
 
 
 @pytest.mark.slow
-def test_bad_use_is_one_line_and_exit_2(tmp_path: Path) -> None:
-    (tmp_path / "thesis").mkdir()
-    (tmp_path / "thesis" / "thesis.tex").write_text("x")
+def test_bad_use_is_one_line_and_exit_2(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (here / "thesis").mkdir()
+    (here / "thesis" / "thesis.tex").write_text("x")
+    done = command("compare", "randm", cwd=here)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith("gbnbench: error: ")
+    assert done.stderr.count("\n") == 1
+    assert "did you mean random or" in done.stderr
     for arguments, words in (
-        (["compare", "randm"], "did you mean random or"),
         (["compare", "jittered", "-n", "50"], "nearest is 49"),
         (["compare", "random", "-n", "64,x"], "whole numbers parted by commas"),
         (["compare", "random", "--out", "thesis"], "not empty and is not a run"),
         (["compare", "random", "--baseline", "thesis"], "not a run of gbnbench"),
         (["generate", "random", "-o", "x.docx"], "x.docx"),
         (["report", "nowhere"], "not a run of gbnbench"),
+        (["report", "here", "there"], "give -o FILE"),
+        (["report", "nowhere", "nowhere", "-o", "page.html"], "nowhere is given twice"),
     ):
-        done = command(*arguments, cwd=tmp_path)
-        assert done.returncode == 2, arguments
-        assert done.stdout == ""
-        assert done.stderr.startswith("gbnbench: error: ")
-        assert done.stderr.count("\n") == 1
-        assert words in done.stderr
-    assert sorted(p.name for p in tmp_path.rglob("*")) == ["thesis", "thesis.tex"]
+        assert run(arguments) == 2, arguments
+        said = capsys.readouterr()
+        assert said.out == ""
+        assert said.err.startswith("gbnbench: error: ")
+        assert said.err.count("\n") == 1
+        assert words in said.err
+    assert sorted(p.name for p in here.rglob("*")) == ["thesis", "thesis.tex"]
 
 
 @pytest.mark.slow
@@ -171,6 +178,26 @@ def test_report_remakes_the_pictures(whole: Whole) -> None:
     done = command("report", whole.out, cwd=whole.folder)
     assert done.returncode == 0, done.stderr
     assert [path.read_bytes() for path in made] == before
+
+
+@pytest.mark.slow
+def test_report_sets_runs_side_by_side(whole: Whole) -> None:
+    done = command("report", whole.out, "before", "-o", "both.html", cwd=whole.folder)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout == "report: both.html\n"
+    assert f"gbnbench: before: random (n=64, d=2): only in {whole.out.name}" in done.stderr
+    page = (whole.folder / "both.html").read_text(encoding="utf-8")
+    assert f"mine · {whole.out.name}" in page
+    assert "mine · before" in page
+    assert "▲ better" in page  # the clumped sets are worse, and the page's first run has them
+
+
+@pytest.mark.slow
+def test_the_page_of_the_default_sources_is_small(tmp_path: Path) -> None:
+    """Sets add next to nothing to a page: spectra of a single one are the noisiest and pack worst."""
+    done = command("compare", "--realizations", 1, "--quiet", "-o", "run", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "run" / "report.html").stat().st_size <= 4e6
 
 
 def test_version_and_a_closed_pipe(tmp_path: Path) -> None:

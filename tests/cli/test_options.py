@@ -25,11 +25,11 @@ def every_command(group: click.Group = gbnbench, prefix: str = "") -> Iterator[t
 
 
 COMMANDS = dict(every_command())
-# Which command has which of the options that several have; report and analyze wait for little.
+# Which command has which of the options that several have; report waits for little, and analyze.
 BENCHES = "bench periodogram, bench gbn"
 SHARED = {
-    "--out": "compare spectrum analyze generate generators stipple reconstruct convert integrate figures, "
-    f"{BENCHES}",
+    "--out": "compare spectrum analyze generate generators stipple reconstruct convert integrate figures "
+    f"report, {BENCHES}",
     "--json": f"compare spectrum analyze generators reconstruct integrate check devices doctor, {BENCHES}",
     "--quiet": "compare spectrum generate generators stipple reconstruct integrate figures check doctor, "
     f"{BENCHES}",
@@ -125,7 +125,10 @@ def test_a_file_whose_name_begins_with_a_dash_is_told_from_an_option(tmp_path, m
     monkeypatch.chdir(tmp_path)
     (tmp_path / "-x.txt").write_text("0.5 0.25\n")
     assert run(["analyze", "-x.txt"]) == 2
-    assert "No such option '-x'. Of the file of this name, write ./-x.txt." in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert "No such option" in said
+    assert "-x'. Of the file" in said or "-x. Of the file" in said  # click quotes it since 8.4
+    assert said.endswith("Of the file of this name, write ./-x.txt.\n")
     assert run(["analyze", "-y.txt"]) == 2
     assert "Of the file" not in capsys.readouterr().err
 

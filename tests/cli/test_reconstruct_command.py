@@ -107,6 +107,17 @@ def test_a_set_of_several_and_a_volume(picture):
     assert command("v.txt", "-o", "v.png") == 2
 
 
+def test_three_columns_without_names_are_refused_before_any_work(here, capsys, monkeypatch):
+    Path("sized.txt").write_text("0.5 0.25 0.75\n0.125 0.75 0.5\n0.25 0.5 0.25\n")
+    with monkeypatch.context() as patch:
+        patch.setattr("gbnbench.api.reconstruct.density_of_points", None)  # is not reached
+        assert command("sized.txt", "-o", "s.png") == 2
+    error = capsys.readouterr().err
+    assert "sized.txt: has points of three coordinates, a volume, which is written as .npy" in error
+    assert "--columns 1,2" in error
+    assert command("sized.txt", "-o", "s.png", "--columns", "1,2") == 0
+
+
 def test_points_on_the_border_stay_there(here):
     Path("b.txt").write_text("0.0 1.0\n1.0 1.0\n1.0 0.5\n")
     assert command("b.txt", "-o", "b.npy", "--size", "9x9", "--method", "kernel") == 0
@@ -125,7 +136,10 @@ def test_points_on_the_border_stay_there(here):
         (("x.png", "-o", "o.png"), "x.png: is a PNG image"),
         (("dots.txt", "-o", "o.png", "--size", "0x5"), "must be pixels of width and height, such as 768x512"),
         (("dots.txt", "-o", "o.png", "--size", "99999999x99999999"), "at most 134,217,728 pixels"),
-        (("dots.txt", "-o", "o.png", "--size", "8x8x8"), "shape must be (rows, columns) for points of d=2"),
+        (
+            ("dots.txt", "-o", "o.png", "--size", "8x8x8"),
+            "shape must be (rows, columns), whole numbers of pixels",
+        ),
         (
             ("dots.txt", "-o", "o.png", "--size", "8x8", "--against", "x.png"),
             "x.png is 36x24: leave out --size",

@@ -41,9 +41,9 @@ def shown(name: str) -> list[np.ndarray]:
 
 
 def test_dots_of_a_palette_lie_on_their_colours(picture):
-    palette = ("--palette", "#c80000,#000", "--dpi", 60)
-    for suffix in ("csv", "svg", "png"):
-        assert command("c.png", "-n", 150, "-o", f"o.{suffix}", *palette, *QUICK) == 0
+    palette = ("--palette", "#c80000,#000")
+    for suffix, dpi in (("csv", ()), ("svg", ()), ("png", ("--dpi", 60))):
+        assert command("c.png", "-n", 150, "-o", f"o.{suffix}", *palette, *dpi, *QUICK) == 0
     table = pd.read_csv("o.csv")
     red, black = (table[table.ink == ink] for ink in ("#c80000", "#000000"))
     assert len(table) == 150
@@ -87,7 +87,7 @@ def test_a_progressive_file_is_the_same_dots_in_an_order(picture):
 
 
 def test_frames_show_more_and_more_dots(picture):
-    size = ("--width-mm", 40, "--dpi", 50)
+    size = ("--width-mm", 40, "--margin-mm", 0, "--dpi", 50)
     assert command("x.png", "-n", 60, "-o", "p.gif", "--progressive", "--frames", 6, *size, *QUICK) == 0
     frames = shown("p.gif")
     dark = [255 - frame.mean() for frame in frames]

@@ -101,7 +101,7 @@ def test_no_page_hides_code_from_these_tests():
         "gbnbench compare 'gbn[sigma=9]'",
         "gbnbench generate gbn -n 16",
         "gbnbench generate nbg -n 16 -o x.txt",
-        "gbnbench report one two",
+        "gbnbench report",
         "ls && GBNBENCH_DEVICE=0 gbnbench devices --all | head",
     ],
 )

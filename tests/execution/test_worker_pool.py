@@ -13,7 +13,8 @@ import pytest
 
 from gbnbench.core.errors import InputError
 from gbnbench.execution import worker_pool
-from gbnbench.execution.worker_pool import ONE_THREAD, Finished, Pool
+from gbnbench.execution.calls import Calls
+from gbnbench.execution.worker_pool import ONE_THREAD, Pool
 from gbnbench.opencl import devices_present
 from tests.processes import NO_DEVICE
 
@@ -31,7 +32,8 @@ def work(number: int) -> tuple[int, int, str | None]:
 
 def test_a_dead_child_costs_only_its_own_task() -> None:
     done = {}
-    with Pool(2) as pool:
+    with Pool(2) as workers:
+        pool = Calls(workers)
         for number in (1, 13, 14, 15, 2, 3):
             pool.submit(number, work, number)
         while pool.pending:
@@ -51,7 +53,8 @@ def device_is_present() -> bool:
 
 def test_a_child_without_its_parents_device_refuses_instead_of_turning_to_numpy() -> None:
     assert devices_present()
-    with Pool(1, {**ONE_THREAD, **NO_DEVICE}) as pool:
+    with Pool(1, {**ONE_THREAD, **NO_DEVICE}) as workers:
+        pool = Calls(workers)
         pool.submit(0, device_is_present)
         finished = pool.next()
     assert "finds no OpenCL device where the process that started it found one" in finished.failure
@@ -61,7 +64,8 @@ def test_a_child_without_its_parents_device_refuses_instead_of_turning_to_numpy(
 PARENT = """
 import os, sys, time
 from gbnbench.execution.worker_pool import Pool
-pool = Pool(1)
+from gbnbench.execution.calls import Calls
+pool = Calls(Pool(1))
 pool.submit(0, os.getpid)
 print(pool.next().value, flush=True)
 pool.submit(1, time.sleep, 600)
@@ -96,12 +100,12 @@ def test_a_pool_without_any_temporary_file_still_answers(monkeypatch: pytest.Mon
 
     monkeypatch.setattr(worker_pool.tempfile, "TemporaryFile", full)
     with Pool(1) as pool:
-        pool.submit("one", abs, -1)
-        assert pool.next() == Finished("one", 1)
+        assert pool.submit(abs, -1).result() == 1
 
 
 def test_a_child_that_cannot_be_started_fails_its_task_in_words(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(worker_pool.sys, "executable", "/nonexistent/python")
-    with Pool(1) as pool:
+    with Pool(1) as workers:
+        pool = Calls(workers)
         pool.submit("one", abs, -1)
         assert pool.next().failure.startswith("no process can be started for it: [Errno 2]")

@@ -35,7 +35,7 @@ def test_name_may_hold_settings() -> None:
         ({"name": "jitered", "n": 4}, "did you mean 'jittered'.*there are random, grid"),
         ({"name": "no-such-thing", "n": 4}, "no generator is named 'no-such-thing'; there are random"),
         ({"name": "lloyd[iterations=3]", "n": 4, "iterations": 4}, "a setting must come once"),
-        ({"name": "lloyd[iterations=-3]", "n": 4}, "iterations must be 0 to 1000000; got -3"),
+        ({"name": "lloyd[iterations=-3]", "n": 4}, r"iterations must lie in \[0, 1000000\]; got -3"),
         (
             {"name": "lloyd", "n": 4, "itrations": 4},
             "did you mean 'iterations'.*iterations=none, tolerance=0.001",

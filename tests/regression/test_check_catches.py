@@ -165,7 +165,8 @@ def test_float_where_double_was_asked():
 def test_float_in_the_spectrum():
     caught(
         """
-        for name, function in (("spectrum.periodogram", "periodogram"), ("set_powers", "each_power")):
+        for name in ("spectrum.periodogram.periodogram", "frequency_region.power_of_each"):
+            name, _, function = name.rpartition(".")
             module = importlib.import_module("gbnbench.analysis." + name)
             wrap(module, function, lambda power, x, fmax, precision=None: power(x, fmax, "float"))
         """,

@@ -22,6 +22,7 @@ def no_other_fonts(monkeypatch: pytest.MonkeyPatch) -> None:
     """Only our own font is installed."""
     own = [entry for entry in font_manager.fontManager.ttflist if entry.name == fonts.OWN]
     monkeypatch.setattr(font_manager.fontManager, "ttflist", own)
+    monkeypatch.setattr(fonts, "_find_new_fonts", lambda: None)
     monkeypatch.setattr(fonts, "_fallbacks", [])
     monkeypatch.setattr(fonts, "_without", {})
     fonts._family_with.cache_clear()

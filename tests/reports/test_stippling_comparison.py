@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,7 @@ import pytest
 from gbnbench.cli import run
 from gbnbench.generators.adaptive.density import as_density
 from gbnbench.generators.adaptive.registry import adaptive_points
-from gbnbench.reports.stippling_comparison import figure_files, table
+from gbnbench.reports.stippling_comparison import figure_files, gallery, table
 from gbnbench.reports.stippling_comparison.page import page
 from gbnbench.runs.resumable import TaskRun
 from gbnbench.studies.stippling_comparison.flat_patch import flattest_patch
@@ -124,3 +125,20 @@ def test_a_source_that_fails_is_exit_code_2_with_the_report_of_the_others(here: 
     assert run([*command, "--jobs", "1", "--out", "run"]) == 0
     assert "floydsteinberg" in capsys.readouterr().out
     assert "failed: floydsteinberg" not in (here / "run" / "report.html").read_text()
+
+
+def test_the_worst_source_does_not_set_the_scale_of_differences():
+    made = sample(60, ("a", "b", "c"))
+    flat = np.ones(DENSITY.shape, np.float32)
+    sources = [
+        replace(one, blurred=flat * size) for one, size in zip(made.sources, (3, 0.02, 0.5), strict=True)
+    ]
+    run = replace(made, sources=tuple(sources))
+    scale = gallery.difference_scale(run)
+    assert (scale.linthresh, scale.vmin, scale.vmax) == pytest.approx((0.02, -6, 6), rel=1e-6)
+    assert scale(0.02) - scale(0) > 0.1  # the colours of the best are told apart
+    assert scale(3) < 1  # and those of the worst do not end
+    five = replace(run, sources=(*sources, replace(sources[0], blurred=flat * 0.03), sources[0]))
+    assert gallery.difference_scale(five).linthresh == pytest.approx(0.03, rel=1e-6)
+    text = gallery.figure(run).texts
+    assert any("proportion up to 0.02," in " ".join(one.get_text().split()) for one in text)

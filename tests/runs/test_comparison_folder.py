@@ -227,6 +227,19 @@ def test_files_read_otherwise_are_told_by_how_they_are_read() -> None:
     source |= {"reading": {"period": [512.0]}}
     other = {**source, "sha256": "34", "reading": {"period": [256.0]}}
     said = _difference({"sources": [source]}, {"sources": [other]})
-    assert said == "reading of dots is {'period': [512.0]} there, {'period': [256.0]} here"
+    assert said == "period of dots is 512 there, 256 here"
     plain = {**source, "sha256": "56"}
-    assert "sha256 of dots is '12' there" in _difference({"sources": [source]}, {"sources": [plain]})
+    assert _difference({"sources": [source]}, {"sources": [plain]}) == "the content of dots differs"
+
+
+def test_settings_with_parts_are_told_in_words() -> None:
+    density = {"name": "camera", "shape": [512, 512], "sha256": "12"}
+    for part, said in (
+        ({"name": "coins"}, "name of the density is camera there, coins here"),
+        ({"shape": [303, 384]}, "shape of the density is 512,512 there, 303,384 here"),
+        ({"sha256": "34"}, "the content of the density differs"),
+    ):
+        assert _difference({"density": density}, {"density": {**density, **part}}) == said
+    flat = {"patch": {"side": 41, "variation": 0.5}}
+    assert _difference(flat, {"patch": None}) == "side of the patch is 41 there, not given here"
+    assert _difference({"wrap": True}, {"wrap": False}) == "wrap is on there, off here"

@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 from scipy.special import erf
 
+import gbnbench
+from gbnbench.api.stippled_page import text_of
 from gbnbench.api.stipplings import compare_stipplings
 from gbnbench.core.errors import FormatError, InputError, RefusalError
 from gbnbench.generators.adaptive.density import Density, as_density
@@ -198,6 +200,51 @@ def test_faults_of_sources_are_said(tmp_path):
     with pytest.raises(InputError, match="opposite borders of this density meet"):
         compare_stipplings(as_density(RAMP, toroidal=True), "rejection", n=9, out=tmp_path / "t", quiet=True)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["beyond.txt", "words.txt"]
+
+
+def test_stipplings_are_sources(tmp_path):
+    made = gbnbench.stipple(DENSITY, 80, method="rejection", seed=4)
+    run = compare_stipplings(DENSITY, [made, made.points], n=80, out=tmp_path / "run", jobs=1, quiet=True).run
+    assert [source.label for source in run.sources] == ["rejection, seed 4", "array"]
+    assert run.sources[0].points[0] == pytest.approx(made.pixels[:, ::-1], abs=1e-10)
+    assert np.array_equal(run.sources[0].points, run.sources[1].points)
+    labelled = compare_stipplings(DENSITY, {"mine": made}, n=80, out=tmp_path / "named", jobs=1, quiet=True)
+    assert labelled.table.source.tolist() == ["mine"]
+
+
+def test_a_file_that_cannot_be_read_does_not_lose_the_others(tmp_path):
+    (tmp_path / "bad.txt").write_text("0.1 0.2\n0.3 dog\n")
+    sources = [tmp_path / "bad.txt", "rejection", tmp_path / "gone.txt"]
+    made = compare_stipplings(DENSITY, sources, n=90, out=tmp_path / "run", jobs=1, quiet=True)
+    assert made.table.source.tolist() == ["rejection"]
+    assert "bad.txt, line 2" in made.failures[0]
+    assert "gone.txt: cannot be read" in made.failures[1]
+    points = unit_square(adaptive_points("rejection", DENSITY, 70, seed=5)[:, ::-1], DENSITY.shape[::-1])
+    np.savetxt(tmp_path / "bad.txt", points)
+    mended = compare_stipplings(DENSITY, sources[:2], n=90, out=tmp_path / "run2", jobs=1, quiet=True)
+    assert mended.table.source.tolist() == ["bad", "rejection"]
+    assert mended.failures == ()
+    with pytest.raises(InputError, match=r"gone\.txt: cannot be read"):
+        compare_stipplings(DENSITY, tmp_path / "gone.txt", n=90, out=tmp_path / "none", quiet=True)
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".txt"])
+def test_dots_of_several_inks_are_no_set(tmp_path, suffix):
+    made = gbnbench.stipple(RAMP, 30, method="rejection")
+    (tmp_path / f"one{suffix}").write_bytes(text_of({"black": made}, suffix))
+    ((sets, _),) = sets_on_image(tmp_path / f"one{suffix}", made.density.shape, PLAIN)
+    assert sets[0] == pytest.approx(made.pixels[:, ::-1], abs=1e-10)
+    (tmp_path / f"inks{suffix}").write_bytes(text_of({"cyan": made, "black": made}, suffix))
+    with pytest.raises(FormatError, match=f"inks{suffix}.*: its dots are of several inks"):
+        sets_on_image(tmp_path / f"inks{suffix}", made.density.shape, PLAIN)
+
+
+def test_points_of_a_volume_lie_on_no_image(tmp_path):
+    (tmp_path / "cube.csv").write_text("x,y,z\n0.25,0.5,0.5\n0.5,0.25,0.75\n")
+    with pytest.raises(FormatError, match="holds no points of a plane: name two columns by --columns"):
+        sets_on_image(tmp_path / "cube.csv", (48, 40), PLAIN)
+    ((sets, _),) = sets_on_image(tmp_path / "cube.csv", (48, 40), reading_options(columns="x,y"))
+    assert sets[0] == pytest.approx(np.array([[24, 10], [36, 20]]))
 
 
 def test_points_on_the_borders_of_an_image_stay_there(tmp_path):

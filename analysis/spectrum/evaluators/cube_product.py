@@ -11,7 +11,13 @@ from gbnbench.analysis.spectrum.error_model import Errors, coordinates, rounded_
 from gbnbench.analysis.spectrum.evaluators.device_evaluator import DeviceEvaluator
 from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
 from gbnbench.analysis.spectrum.evaluators.kept_memory import kept
-from gbnbench.analysis.spectrum.evaluators.point_slots import TABLE_BYTES, Slots, choose_slots, tile_rows
+from gbnbench.analysis.spectrum.evaluators.point_slots import (
+    TABLE_BYTES,
+    Slots,
+    choose_slots,
+    tile_columns,
+    tile_rows,
+)
 from gbnbench.analysis.spectrum.evaluators.prepared_cube import PreparedCube
 from gbnbench.analysis.spectrum.evaluators.small_cube import MOST_WORK
 from gbnbench.analysis.spectrum.evaluators.two_group_product import product_errors
@@ -46,9 +52,9 @@ class CubeProduct(DeviceEvaluator):
 
     def _product_work(self, request: SpectrumRequest) -> float:
         p, n = self.on_device, request.n
-        divided = cheapest_division(request.d, request.largest, tile_rows(p))
+        divided = cheapest_division(request.d, request.largest, tile_rows(p), tile_columns(p))
         a, b = half_size(divided.leading), half_size(divided.trailing)
-        each = (TILE * padded(a, tile_rows(p)) * b + ENTRY * (a + b)) * n
+        each = (TILE * padded(a, tile_rows(p)) * padded(b, tile_columns(p)) + ENTRY * (a + b)) * n
         return request.realizations * float(each + WRITTEN * request.frequencies / 2)
 
     def cost(self, request: SpectrumRequest) -> EvaluationCost:
@@ -92,10 +98,10 @@ def product_slots(p: Precision, request: SpectrumRequest) -> Slots:
     -------
     Slots
     """
-    divided = cheapest_division(request.d, request.largest, tile_rows(p))
+    divided = cheapest_division(request.d, request.largest, tile_rows(p), tile_columns(p))
     a, b = half_size(divided.leading), half_size(divided.trailing)
     return choose_slots(
-        p, request.n, request.realizations, padded(a, tile_rows(p)), padded(b, p.runtime.group)
+        p, request.n, request.realizations, padded(a, tile_rows(p)), padded(b, p.runtime.group * p.lanes)
     )
 
 

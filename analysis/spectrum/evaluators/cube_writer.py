@@ -10,9 +10,10 @@ import numpy as np
 from gbnbench.analysis.precision import Precision, padded
 from gbnbench.analysis.spectrum.digits import Division, Harmonics, each_axis, half_size
 from gbnbench.core.torus import FloatArray
-from gbnbench.opencl import Program
+from gbnbench.opencl import Program, RepeatedLaunch
 
 GPU_COLUMNS = 64  # frequencies of a row that one work-item of a GPU turns into power
+ITEM_POWERS = 4096  # frequencies that one work-item of a CPU turns into power: waking a core takes as long
 
 
 class CubeWriter:
@@ -64,6 +65,7 @@ class CubeWriter:
         self.nbytes = self._count * (1 if mean else self._sets) * np.dtype(p.sum).itemsize
         self.set_size = 0 if mean else self._count
         self.out = p.runtime.empty(self.nbytes)
+        self._launches: dict[tuple[int, int, int], RepeatedLaunch] = {}
         self.gains = p.runtime.upload((np.ones(self._rows) if gains is None else gains).astype(p.sum))
 
     def add(
@@ -94,23 +96,29 @@ class CubeWriter:
         first_row, rows : int
             First leading frequency of the amplitudes, and how many there are.
         """
-        each = GPU_COLUMNS if self._p.runtime.group > 1 else self._columns
-        program.run(
+        key = id(program), first_row, rows
+        if key not in self._launches:
+            self._launches[key] = self._launch(program, first_row, rows)
+        self._launches[key](amplitude, norms, np.uint32(splits), np.uint32(count), np.uint32(first))
+
+    def _launch(self, program: Program, first_row: int, rows: int) -> RepeatedLaunch:
+        """Prepare the launch for a run of leading frequencies."""
+        group, columns = self._p.runtime.group, self._columns
+        each, rows_each = (GPU_COLUMNS, 1) if group > 1 else (columns, max(1, ITEM_POWERS // columns))
+        return RepeatedLaunch(
+            program,
             "cube_power",
-            (-(-self._columns // each), rows),
+            (-(-columns // each), -(-rows // rows_each)),
             (1, 1),
-            amplitude,
+            *(None, None, np.uint32, np.uint32, np.uint32),
             np.uint32(self._rows),
             np.uint32(first_row),
             np.uint32(rows),
-            np.uint32(self._columns),
-            np.uint32(padded(self._columns, self._p.runtime.group)),
+            np.uint32(rows_each),
+            np.uint32(columns),
+            np.uint32(padded(columns, group * self._p.lanes)),
             np.uint32(each),
-            np.uint32(splits),
-            np.uint32(count),
-            norms,
             self.gains,
-            np.uint32(first),
             self.out,
             np.uint64(self.start),
             np.uint64(self.set_size),

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.analysis.precision import Precision, padded
+from gbnbench.analysis.precision import SUM_POINTS, Precision, padded
 from gbnbench.analysis.spectrum.digits import Axes, even_division, half_space, multiples
 from gbnbench.analysis.spectrum.evaluators.frequency_group import Group
 from gbnbench.analysis.spectrum.evaluators.point_slots import Slots, items_of, tile_rows
@@ -23,9 +23,7 @@ from gbnbench.opencl import Program
 
 MOST_ENTRIES = 1 << 15  # table entries for one point, of the two smaller tables of a group
 DIGITS_GROUP = 64  # frequencies that a work-group decodes
-ITEM_VECTORS = (
-    16  # vectors of points that a work-item of a CPU tabulates, at most: to start one takes as long as one
-)
+ITEM_VECTORS = 16  # vectors of points that a work-item of a CPU tabulates at most; its start takes as long
 
 
 @dataclass(frozen=True)
@@ -72,7 +70,7 @@ class FrequencyTables:
         self.p, self.d, self.a, self.b = p, d, a, b
         self.rows, self.width = tile_rows(p), p.runtime.group
         self.tiles = -(-a.count // self.rows)
-        self.columns = padded(b.count, self.width)
+        self.columns = padded(b.count, self.width * p.lanes)
         # A power of two from 64 on, so that one program serves nearly every request.
         self.entries = 1 << (max(64, self._describe()) - 1).bit_length()
 
@@ -143,15 +141,17 @@ class FrequencyTables:
         -------
         Program
         """
-        small = () if folded or self.width > 1 else ("small_cube.cl",)
+        small = () if folded or self.width > 1 else ("slot_sums.cl", "small_cube.cl")
         return self.p.program(
-            *("tables.cl", "lane_sums.cl", "product.cl", "power.cl", *small),
+            *("tables.cl", "product.cl", "power.cl", *small),
             ROWS=self.rows,
             COLUMNS=self.width,
             ENTRIES=self.entries,
             COMPENSATED=int(compensated),
             FOLDED=int(folded),
             BY_POINT=0,
+            SUM_POINTS=SUM_POINTS,
+            SUM_LANES=self.p.sum_lanes,
         )
 
     def program_by_point(self) -> Program:

@@ -10,12 +10,19 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gbnbench.analysis.precision import Precision, padded
+from gbnbench.analysis.precision import SUM_POINTS, Precision, padded
 
 TABLE_BYTES = 4 << 20  # of both groups' tables of a slot, which then stay in cache
+OWN_POINTS = 128  # points whose tables a core makes and multiplies at once: they stay in its second cache
+MORE_POINTS, LARGE_SUMS = 256, 1 << 20  # as many where the sums of a slot take more bytes than that cache has
+OWN_COLUMNS = 512 << 10  # bytes of its trailing tables that all rows are multiplied with before the next
+OWN_BATCH = 8 << 20  # bytes of the sums of a batch of such slots
+SMALL = 1 << 18  # pairs of frequencies times points that one core takes alone
+LAUNCH_POINTS = 512  # points of a slot whose tables are made first, at least, where there are so many
 AMPLITUDE_BYTES = 256 << 20  # of the amplitudes of a batch, or of the rows of one pass over the points
 LEAST_ITEMS = 4  # work-items for each core of a CPU at least, so that all cores end together
 GPU_ITEMS = 256  # the same for each multiprocessor of a GPU
+WIDE = 64  # bytes of a vector of AVX-512, of which there are 32 registers, twice as many as of narrower ones
 COMPENSATED_FROM = 32  # the rounding of a slot's sums is kept if it adds up more register sums than this
 
 
@@ -34,12 +41,16 @@ class Slots:
     pitch : int
         Points from one tile of a table to the next: ``length``, or a few more where that would put all
         tiles in the same lines of a cache.
+    items : int
+        Work-items that take whole slots, each with tables of its own (slot_sums.cl); 0 where the tables of
+        all slots are made first.
     """
 
     sets: int
     splits: int
     length: int
     pitch: int
+    items: int = 0
 
     @property
     def count(self) -> int:
@@ -55,26 +66,31 @@ class Slots:
         """Count the launches that n points take."""
         return -(-n // self.span)
 
-    def sums(self, n: int, p: Precision) -> int:
+    def sums(self, n: int) -> int:
         """Count the register sums that a slot adds up one after another.
 
         Parameters
         ----------
         n : int
             Points of a set.
-        p : Precision
-            Precision on the device.
 
         Returns
         -------
         int
         """
-        return -(-self.length // (p.sum_points * p.lanes)) * self.launches(n)
+        return -(-self.length // SUM_POINTS) * self.launches(n)
 
 
 def tile_rows(p: Precision) -> int:
-    """Give the rows of a register tile: as many as registers hold beside one column."""
-    return 3 if p.lanes > 1 else 4
+    """Give the rows of a register tile, whose sums with two vectors of columns registers hold."""
+    if p.lanes == 1:
+        return 4
+    return 6 if p.lanes * np.dtype(p.real).itemsize == WIDE else 3
+
+
+def tile_columns(p: Precision) -> int:
+    """Give the columns of the smallest part of a block: a vector holds the cosines and sines of so many."""
+    return max(1, p.lanes // 2)
 
 
 def items_of(p: Precision) -> int:
@@ -99,7 +115,11 @@ def choose_slots(p: Precision, n: int, sets: int, rows: int, columns: int) -> Sl
     -------
     Slots
     """
-    chunk = p.sum_points * p.lanes
+    if p.runtime.device.is_cpu:
+        own = _own_slots(p, n, sets, rows, columns)
+        if own is not None:
+            return own
+    chunk = LAUNCH_POINTS
     room = max(chunk, TABLE_BYTES // ((rows + columns) * 2 * np.dtype(p.real).itemsize) // chunk * chunk)
     whole = padded(n, p.lanes)
     amplitudes = rows * columns * 8 * np.dtype(p.sum).itemsize
@@ -109,3 +129,17 @@ def choose_slots(p: Precision, n: int, sets: int, rows: int, columns: int) -> Sl
     launches = -(-whole // max(room, splits * chunk))
     length = padded(-(-whole // (launches * splits)), p.lanes)
     return Slots(batch, splits, length, length + (p.lanes if p.lanes > 1 else 0))
+
+
+def _own_slots(p: Precision, n: int, sets: int, rows: int, columns: int) -> Slots | None:
+    """Choose slots that are one core's each, or None where there are too few points for all cores."""
+    cores, sums = p.runtime.device.compute_units, rows * columns * 8 * np.dtype(p.sum).itemsize
+    splits = min(-(-cores // sets), max(1, n // OWN_POINTS))
+    if (splits * sets < cores and rows * columns * n > SMALL) or sums > OWN_BATCH:
+        return None
+    most = OWN_POINTS if sums < LARGE_SUMS else MORE_POINTS
+    whole = padded(n, p.lanes)
+    runs = -(-whole // (splits * most))
+    length = padded(-(-whole // (runs * splits)), p.lanes)
+    batch = max(1, min(sets, max(LEAST_ITEMS * cores, OWN_BATCH // sums) // splits))
+    return Slots(batch, splits, length, length + p.lanes, min(batch * splits, LEAST_ITEMS * cores))

@@ -12,7 +12,7 @@ from gbnbench.analysis.precision import Precision
 from gbnbench.analysis.spectrum.digits import Division, Harmonics, cheapest_division, half_size, size
 from gbnbench.analysis.spectrum.evaluators.cube_writer import CubeWriter
 from gbnbench.analysis.spectrum.evaluators.frequency_group import Group
-from gbnbench.analysis.spectrum.evaluators.point_slots import AMPLITUDE_BYTES, Slots, tile_rows
+from gbnbench.analysis.spectrum.evaluators.point_slots import AMPLITUDE_BYTES, Slots, tile_columns, tile_rows
 from gbnbench.analysis.spectrum.evaluators.small_cube import SmallCube, is_small
 from gbnbench.analysis.spectrum.evaluators.two_group_product import TwoGroupProduct, norms_of
 from gbnbench.core.torus import FloatArray
@@ -42,7 +42,7 @@ class PreparedCube:
         self, p: Precision, n: int, d: int, sets: int, fmax: Harmonics, half: bool, mean: bool
     ) -> None:
         self._p, self._n, self._d, self._sets = p, n, d, sets
-        self._divided = cheapest_division(d, fmax, tile_rows(p))
+        self._divided = cheapest_division(d, fmax, tile_rows(p), tile_columns(p))
         self.writer = CubeWriter(p, self._divided, fmax, sets, d, half=half, mean=mean)
         whole = half_size(self._divided.leading) <= most_rows(p, self._divided)
         self._whole = self._product(Group(self._divided.leading)) if whole else None

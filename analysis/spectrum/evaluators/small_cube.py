@@ -6,7 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from gbnbench.analysis.precision import padded
 from gbnbench.analysis.spectrum.evaluators.cube_writer import CubeWriter
+from gbnbench.analysis.spectrum.evaluators.point_slots import tile_columns
 from gbnbench.analysis.spectrum.evaluators.two_group_product import TwoGroupProduct
 from gbnbench.analysis.spectrum.evaluators.work_model import ENTRY, TILE
 from gbnbench.core.torus import FloatArray
@@ -60,13 +62,12 @@ class SmallCube:
             np.uint32(d),
             np.uint32(weight_stride),
             *tables.layout,
-            product.tables[0],
-            np.uint64(product.sizes[0]),
-            product.tables[1],
-            np.uint64(product.sizes[1]),
+            *product.tables,
             np.uint32(slots.length),
             np.uint32(slots.pitch),
             np.uint32(slots.splits),
+            np.uint32(slots.launches(product.n)),
+            tables.all_columns,
             np.uint32(sets),
             np.uint32(tables.a.count),
             np.uint32(tables.b.count),
@@ -91,10 +92,9 @@ def is_small(product: TwoGroupProduct, sets: int) -> bool:
     Returns
     -------
     bool
-        True where its points take one launch and its sets one batch, and the work is little.
+        True where its sets take one batch, and the work is little.
     """
     tables, slots = product.frequencies, product.slots
-    at_once = slots.sets >= sets and slots.launches(product.n) == 1
-    a, b = tables.tiles * tables.rows, tables.columns
+    a, b = tables.tiles * tables.rows, padded(tables.b.count, tile_columns(product.p))
     work = sets * product.n * (TILE * a * b + ENTRY * (a + b))
-    return product.p.runtime.device.is_cpu and at_once and work <= MOST_WORK
+    return product.p.runtime.device.is_cpu and slots.sets >= sets and work <= MOST_WORK

@@ -53,11 +53,11 @@ def multiply(
     tiles_each = each = 1
     if width == 1:
         of_a_point = sizes[1] // frequencies.columns // pitch * np.dtype(p.real).itemsize
-        most = max(2, COLUMN_BYTES // (min(length, p.sum_points * p.lanes) * of_a_point))
+        most = max(p.lanes, COLUMN_BYTES // (length * of_a_point))
         blocks, items = -(-frequencies.columns // most), -(-items_of(p) // slots)
         tiles_each = -(-tiles // min(tiles, -(-items // blocks)))
         blocks = max(blocks, -(-items // -(-tiles // tiles_each)))
-        each = padded(-(-frequencies.columns // blocks), 2)  # two columns share the rows in registers
+        each = padded(-(-frequencies.columns // blocks), p.lanes)
     columns, tile_blocks = -(-frequencies.columns // each), -(-tiles // tiles_each)
     items_wanted = (tile_blocks, columns) if width == 1 else (padded(columns, width), tile_blocks)
     program.run(

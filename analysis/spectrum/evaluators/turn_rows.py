@@ -52,7 +52,8 @@ class TurnRows:
         """
         rows, reals = self.rows[: len(x), :, : self._n], self._reals[: len(x)]
         bits = 8 * rows.itemsize
-        np.greater_equal(x, 0.5 - 2.0 ** -(bits + 1), out=reals)
+        np.add(x, (0.0 if bits == 64 else 2.0 ** -(bits + 1)) + 2.0**-53, out=reals)
+        np.rint(reals, out=reals)  # 1 from 1/2 up, which is rounded upwards to be no tie
         np.subtract(x, reals, out=reals)
         reals *= 2.0**bits
         np.rint(reals, out=reals)

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.analysis.precision import Precision, padded
+from gbnbench.analysis.precision import SUM_POINTS, Precision, padded
 from gbnbench.analysis.spectrum.error_model import Coordinates, Errors, sum_errors
 from gbnbench.analysis.spectrum.evaluators.frequency_group import Group
 from gbnbench.analysis.spectrum.evaluators.frequency_tables import (
@@ -23,6 +23,7 @@ from gbnbench.analysis.spectrum.evaluators.frequency_tables import (
     whole_group_tables,
 )
 from gbnbench.analysis.spectrum.evaluators.point_slots import COMPENSATED_FROM, Slots, choose_slots
+from gbnbench.analysis.spectrum.evaluators.slot_sums import SlotSums
 from gbnbench.analysis.spectrum.evaluators.table_product import multiply
 from gbnbench.analysis.spectrum.evaluators.turn_rows import TurnRows
 from gbnbench.core.torus import FloatArray
@@ -73,12 +74,12 @@ class TwoGroupProduct:
         rows, columns = self.frequencies.tiles * self.frequencies.rows, self.frequencies.columns
         self.slots = choose_slots(p, n, sets, rows, columns)
         self.stride = padded(n, self.slots.span)
-        compensated = self.slots.sums(n, p) > COMPENSATED_FROM
+        compensated = self.slots.sums(n) > COMPENSATED_FROM
         self._bounds = self.frequencies.all_columns if bounds is None else p.runtime.upload(bounds)
         self.program = self.frequencies.program(compensated)
         self.sizes = self.frequencies.table_sizes(self.slots.pitch)
         real, total = np.dtype(p.real).itemsize, np.dtype(p.sum).itemsize
-        of_tables = [size * self.slots.count * real for size in self.sizes]
+        of_tables = [size * (self.slots.items or self.slots.count) * real for size in self.sizes]
         of_amplitudes = self.slots.count * rows * columns * (8 if compensated else 4) * total
         self.nbytes = sum(of_tables) + of_amplitudes
         self.tables = p.runtime.empty(of_tables[0]), p.runtime.empty(of_tables[1])
@@ -87,6 +88,13 @@ class TwoGroupProduct:
             # the memory held, since denormals take a processor a hundred cycles each.
             p.runtime.clear(self.tables[0], of_tables[0])
         self.amplitude = p.runtime.empty(of_amplitudes)
+        self._own_slots = SlotSums(
+            *(self.frequencies, self.program, self.slots, n, self.stride),
+            tables=self.tables,
+            sizes=self.sizes,
+            bounds=self._bounds,
+            sums=self.amplitude,
+        )
         self._turns = TurnRows(p, min(sets, self.slots.sets), n, d, self.stride)
         self.nbytes += self._turns.nbytes
 
@@ -111,11 +119,14 @@ class TwoGroupProduct:
             shared = weights is None or len(weights) == 1
             points = self.upload(x[batch], weights if weights is None or shared else weights[batch])
             count = len(x[batch])
-            for begin in range(0, self.stride, slots.span):
-                self.frequencies.tabulate(
-                    *(self.program, (0, 2), points, self.tables, slots), self.sizes, count, begin
-                )
-                self.multiply(count, again=begin > 0)
+            if slots.items:
+                self._own_slots(points, count)
+            else:
+                for begin in range(0, self.stride, slots.span):
+                    self.frequencies.tabulate(
+                        *(self.program, (0, 2), points, self.tables, slots), self.sizes, count, begin
+                    )
+                    self.multiply(count, again=begin > 0)
             yield first, count
             self.p.runtime.finish()  # before the next points take the place of these, or nothing holds them
 
@@ -198,9 +209,9 @@ def product_errors(p: Precision, n: int, slots: Slots, fmax: int, at: Coordinate
     -------
     Errors
     """
-    sums = slots.sums(n, p)
+    sums = slots.sums(n)
     beyond = (2 if sums > COMPENSATED_FROM else sums) + slots.splits
-    in_registers = min(p.sum_points, -(-slots.length // p.lanes)) + p.lanes.bit_length()
+    in_registers = min(SUM_POINTS, slots.length, n)  # points beyond the last weigh nothing and round nothing
     return sum_errors(p.name, "double" if p.sum is np.float64 else "float", at, fmax, 3, in_registers, beyond)
 
 

@@ -4,7 +4,8 @@
  * signed twin; REALV, TURNV, STURNV are LANES of them. LOADV(p, i) and STOREV(v, p, i) move LANES scalars
  * from p + i on, wherever that is: a dereferenced vector pointer that is not aligned crashes, and vloadN is a
  * call on the PoCL of PyPI, around which every vector register is spilled. Compilers make one move of the
- * components named one by one. GATHER(p, step) has lane l from p[l * step], SPREAD(v, p, step) puts it there.
+ * components named one by one, but no more than 32 bytes in a store: STORE_ALIGNED is for global addresses that
+ * are multiples of a vector's. GATHER(p, step) has lane l from p[l * step], SPREAD(v, p, step) puts it there.
  */
 /* A function with vectors: PoCL compiles what it does not inline for any processor, ten times slower. */
 #define INLINE static inline __attribute__((always_inline))
@@ -24,6 +25,8 @@
 #define STURN int
 #define TURN_BITS 32
 #endif
+
+#define STORE_ALIGNED(v, p, i) (*(__global REALV *)((p) + (i)) = (v))
 
 #if LANES == 1
 #define REALV REAL

@@ -1,30 +1,12 @@
-"""Requirements of an integration study: its numbers, and the dimensions of its families."""
+"""Requirements of an integration study: the dimensions of its families."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
 from gbnbench.analysis.integration.integrands.protocol import Family
-from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.errors import RefusalError
 from gbnbench.core.settings import specification
-
-
-def require(**whole: tuple[int, int]) -> None:
-    """Refuse numbers that are too small.
-
-    Parameters
-    ----------
-    **whole : (int, int)
-        By name, a value and the least that is allowed.
-
-    Raises
-    ------
-    InputError
-        If a value is below its least.
-    """
-    for name, (value, least) in whole.items():
-        if value < least:
-            raise InputError(f"{name} must be at least {least}; got {value}")
 
 
 def served(families: Sequence[Family], d: int) -> tuple[tuple[Family, ...], list[str]]:

@@ -6,9 +6,10 @@ from numpy.typing import ArrayLike
 
 from gbnbench.analysis.integration.integrands.registry import find as find_family
 from gbnbench.analysis.integration.variance import Variance, variance_of
+from gbnbench.core.least_values import require
 from gbnbench.core.torus import as_realizations
 from gbnbench.studies.integration.blocks import errors_of, instances_of
-from gbnbench.studies.integration.requirements import refuse, require
+from gbnbench.studies.integration.requirements import refuse
 
 
 def variance(

@@ -15,18 +15,19 @@ from typing import Any
 from gbnbench import __version__
 from gbnbench.analysis.integration.integrands.registry import find as find_family
 from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.least_values import require
 from gbnbench.core.settings import specification
 from gbnbench.core.sides import as_sides
 from gbnbench.execution.progress import Progress
-from gbnbench.opencl import choose, devices_present
 from gbnbench.runs import comparison_folder
+from gbnbench.runs.device_proof import run_device
 from gbnbench.runs.provenance import versions
 from gbnbench.runs.resumable import run_tasks
 from gbnbench.runs.resumable_folder import explain_interruption
 from gbnbench.runs.sources import Source, resolve
 from gbnbench.studies.drawing import failure_of
 from gbnbench.studies.integration.blocks import tasks_of
-from gbnbench.studies.integration.requirements import require, served
+from gbnbench.studies.integration.requirements import served
 from gbnbench.studies.integration.study_folder import IntegrationStudy, StudyFolder, read_integration
 from gbnbench.studies.integration.tables import gather, tables
 
@@ -127,6 +128,7 @@ def run_integration_study(
     began = time.monotonic()
     progress = progress or Progress()
     require(instances=(instances, 1), shifts=(shifts, 0), seed=(seed, 0), jobs=(jobs or 1, 1))
+    jobs = jobs or os.cpu_count() or 1
     families = tuple(dict.fromkeys(find_family(text) for text in integrands))
     if not families:
         raise InputError("no integrand given: name one, such as gaussians")
@@ -150,7 +152,7 @@ def run_integration_study(
     settings: dict[str, Any] = {
         "gbnbench": __version__,
         "seed": seed,
-        "device": _device(),
+        "device": run_device(jobs) or "numpy",
         "sources": [source.identity() for source in given],
         "integrands": [specification(family) for family in families],
         "instances": instances,
@@ -168,7 +170,7 @@ def run_integration_study(
             study = read_integration(store.path)
             return IntegrationOutcome(study, store.path, len(tasks), len(tasks), time.monotonic() - began)
         store.begin()
-        work = run_tasks(tasks, store, jobs or os.cpu_count() or 1, progress)
+        work = run_tasks(tasks, store, jobs, progress)
         errors = {
             (source.key, specification(family)): gather(work.results, source, family)
             for source in given for family in families_in[source.d][0]
@@ -196,8 +198,3 @@ def run_integration_study(
         undrawn = failure_of(last_steps)
     seconds = time.monotonic() - began
     return IntegrationOutcome(study, store.path, work.reused, len(tasks), seconds, undrawn)
-
-
-def _device() -> dict[str, Any] | str:
-    """Name the device, or what stands in for it: spectra and integrands have forms in numpy."""
-    return dict(choose().describe()) if devices_present() else "numpy"

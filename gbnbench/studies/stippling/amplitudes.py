@@ -31,8 +31,9 @@ def amplitudes(generator: AdaptiveGenerator, density: Density, x: FloatArray) ->
         other methods the density of the pixel that holds the point.
     """
     if isinstance(generator, AdaptiveGaussianBlueNoise):
-        field = kernel_widths(density, len(x), generator.sigma, generator.smoothing)
-        at = (x - 0.5 + BORDER).T
+        block = generator.blocks(density, len(x))
+        field = kernel_widths(density, len(x), generator.sigma, generator.smoothing, block=block)
+        at = (x / block - 0.5 + BORDER).T
         log_width = ndimage.map_coordinates(field.coefficients, at, order=3, prefilter=False, mode="nearest")
         found = np.exp(-density.d * (log_width - log_width.min()))
     else:

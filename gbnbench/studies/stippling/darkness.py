@@ -17,6 +17,7 @@ from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density, as_density, density_of
 from gbnbench.io.images import Image, read_image
 from gbnbench.io.images.arrays import ARRAY_SUFFIX, COLOURS, image_of, load_array
+from gbnbench.studies.stippling.units import checked_shape
 
 # what stipple takes: a path or name, an array, an image that was read, a density, or a function of positions
 ImageLike = str | os.PathLike[str] | ArrayLike | Image | Density | Callable[[FloatArray], ArrayLike]
@@ -171,14 +172,18 @@ def as_darkness(
     InputError
         If this can be no image and no density.
     """
-    if (shape is not None) != callable(image):
-        raise InputError("shape goes with a function of positions, and such a function needs it")
+    if callable(image) and shape is None:
+        raise InputError(
+            "a function of positions needs shape, the pixels that it is taken at, such as (300, 400)"
+        )
+    if shape is not None and not callable(image):
+        raise InputError("shape is of a function of positions: leave it out, as the image has its own pixels")
     if isinstance(image, Image):
         return image_darkness(image, curve)
     if isinstance(image, Density):
         return _density(image, "the density", curve)
     if callable(image) and shape is not None:
-        return _density(density_of(image, shape), "the density", curve)
+        return _density(density_of(image, checked_shape(shape, (2, 3))), "the density", curve)
     if isinstance(image, (str, os.PathLike)):
         path = Path(image)
         if path.suffix.lower() != ARRAY_SUFFIX or not path.is_file():

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
 from gbnbench.io.images import Image
-from gbnbench.io.images.image import LUMA
+from gbnbench.studies.stippling.colours import luma, read_colour
 from gbnbench.studies.stippling.darkness import PLAIN, Darkness, ToneCurve
 
 MOST_INKS = 8
@@ -47,8 +47,6 @@ def read_palette(text: str) -> tuple[str, ...] | int:
     >>> read_palette("#000,gold, #08c"), read_palette("3")
     (('#ffd700', '#0088cc', '#000000'), 3)
     """
-    from PIL import ImageColor
-
     if text.strip().isdecimal():
         count = int(text)
         if not 1 <= count <= MOST_INKS:
@@ -56,13 +54,7 @@ def read_palette(text: str) -> tuple[str, ...] | int:
         return count
     found: list[str] = []
     for word in text.split(","):
-        try:
-            red, green, blue = ImageColor.getrgb(word.strip())[:3]
-        except ValueError:
-            raise InputError(
-                f"{word.strip()!r} is no colour: write #rgb, #rrggbb or a name of CSS, parted by commas"
-            ) from None
-        colour = f"#{red:02x}{green:02x}{blue:02x}"
+        colour = read_colour(word)
         if colour == "#ffffff":
             raise InputError("white is the paper: leave it out of the palette")
         if colour in found:
@@ -219,7 +211,4 @@ def _chunks(rows: FloatArray) -> Iterator[FloatArray]:
 
 
 def _light_first(colours: set[str] | list[str]) -> tuple[str, ...]:
-    def luma(colour: str) -> float:
-        return sum(w * int(colour[k : k + 2], 16) for w, k in zip(LUMA, (1, 3, 5), strict=True))
-
     return tuple(sorted(colours, key=lambda colour: (-luma(colour), colour)))

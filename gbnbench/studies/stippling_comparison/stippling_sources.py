@@ -6,22 +6,21 @@ import dataclasses
 import hashlib
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
 
-from gbnbench.core.errors import InputError, RefusalError
-from gbnbench.core.readable_text import without_bytes
+from gbnbench.core.errors import FormatError, InputError, RefusalError
 from gbnbench.core.settings import nearest, specification
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density
 from gbnbench.generators.adaptive.protocol import AdaptiveGenerator
 from gbnbench.generators.adaptive.registry import ADAPTIVE_GENERATORS, adaptive_generator
 from gbnbench.io.points import ReadingOptions
-from gbnbench.runs.source_names import unique_key
-from gbnbench.studies.stippling_comparison.points_of_image import rows_first, sets_on_image
+from gbnbench.runs.source_names import told_apart
+from gbnbench.studies.stippling_comparison.points_of_image import on_pixels, sets_on_image
 
 StipplingSourceLike = Any  # str, Path, array_like or AdaptiveGenerator
 
@@ -75,7 +74,7 @@ def stippling_sources(
     n: int,
     realizations: int,
     reading: ReadingOptions,
-) -> tuple[tuple[StipplingSource, ...], tuple[str, ...]]:
+) -> tuple[tuple[StipplingSource, ...], tuple[str, ...], tuple[str, ...]]:
     """Turn what was given into sources, in its order.
 
     Parameters
@@ -97,16 +96,20 @@ def stippling_sources(
         At least one.
     skipped : tuple of str
         A sentence for each generator that refuses this density and n.
+    unread : tuple of str
+        A sentence for each file or folder that cannot be read.
 
     Raises
     ------
     InputError
-        If something is no source, or options of reading are given where no file is read.
+        If something is no source, options of reading are given where no file is read, or what is left is
+        nothing but files that cannot be read.
     RefusalError
         If nothing remains.
     """
     sources: list[StipplingSource] = []
     skipped: list[str] = []
+    unread: list[str] = []
     stems = Counter(Path(item).stem for _, item in given if isinstance(item, (str, Path)))
     for label, item in given:
         generator = _generator(item)
@@ -119,15 +122,20 @@ def stippling_sources(
         elif isinstance(item, (str, Path)):
             path = Path(item)
             title = label or (path.stem if stems[path.stem] == 1 else str(path))
-            sources += _files(path, title, density, reading)
+            try:
+                sources += _files(path, title, density, reading)
+            except (InputError, OSError) as error:
+                unread.append(str(error) if isinstance(error, FormatError) else f"{title}: {error}")
         else:
             sources.append(_array(item, label or "array", density))
     said = reading.record()
-    if said and not any(source.kind == "files" for source in sources):
+    if said and not unread and not any(source.kind == "files" for source in sources):
         raise InputError(f"{', '.join(said)} say how files are read, and no source is a file: leave them out")
+    if not sources and unread:
+        raise InputError("; ".join([*unread, *skipped]))
     if not sources:
         raise RefusalError("; ".join(skipped) if skipped else "no source given: name one")
-    return _distinct(sources), tuple(skipped)
+    return told_apart(sources), tuple(skipped), tuple(unread)
 
 
 def _generator(item: StipplingSourceLike) -> AdaptiveGenerator | None:
@@ -162,26 +170,16 @@ def _array(item: StipplingSourceLike, label: str, density: Density) -> Stippling
         x = np.asarray(item, np.float64)
     except (TypeError, ValueError):
         raise InputError(f"{label}: a source is a name, a path or an array of points") from None
-    if x.ndim not in (2, 3) or x.shape[-1] != 2 or x.size == 0:
-        raise InputError(f"{label}: points must be (n, 2) or (realizations, n, 2); got shape {x.shape}")
+    if x.size == 0:
+        raise InputError(f"{label} holds no points: a source has at least one")
+    if x.ndim not in (2, 3) or x.shape[-1] != 2:
+        raise InputError(
+            f"{label}: points must be (n, 2) or (realizations, n, 2); got an array of shape {x.shape}"
+        )
     if not ((x >= 0) & (x <= 1)).all():
         raise InputError(
             f"{label}: points must lie in the unit square, x to the right and y up, as Stippling.points do"
         )
-    down = (x if x.ndim == 3 else x[None])[..., ::-1] * [-1, 1] + [1, 0]
-    sets = rows_first(down, (density.shape[0], density.shape[1]))
+    sets = on_pixels(x if x.ndim == 3 else x[None], (density.shape[0], density.shape[1]))
     digest = hashlib.sha256(repr(sets.shape).encode() + sets.tobytes()).hexdigest()
     return StipplingSource("", label, sets.shape[1], len(sets), sets=sets, digest=digest, kind="array")
-
-
-def _distinct(sources: Sequence[StipplingSource]) -> tuple[StipplingSource, ...]:
-    """Count repeated labels, and give every source a key of its own."""
-    seen: Counter[str] = Counter()
-    keys: set[str] = set()
-    result = []
-    for source in sources:
-        label = without_bytes(source.label)
-        seen[label] += 1
-        text = label if seen[label] == 1 else f"{label} ({seen[label]})"
-        result.append(replace(source, key=unique_key(text, keys), label=text))
-    return tuple(result)

@@ -6,17 +6,17 @@ import hashlib
 import os
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from gbnbench import __version__
-from gbnbench.core.errors import InputError
+from gbnbench.core.least_values import require
 from gbnbench.core.torus import FloatArray
 from gbnbench.execution.progress import Progress
 from gbnbench.generators.adaptive.density import Density
-from gbnbench.opencl import choose
 from gbnbench.runs.comparison_folder import default_folder
+from gbnbench.runs.device_proof import needed_device
 from gbnbench.runs.provenance import versions
 from gbnbench.runs.resumable import TaskRun
 from gbnbench.runs.resumable_folder import explain_interruption
@@ -70,6 +70,7 @@ def run_stippling_comparison(
     jobs: int | None = None,
     command: str = "",
     skipped: Sequence[str] = (),
+    unread: Sequence[str] = (),
     progress: Progress | None = None,
     draw: Callable[[StipplingRun, Path], None] | None = None,
     meanwhile: Callable[[], None] | None = None,
@@ -96,6 +97,8 @@ def run_stippling_comparison(
         What the user typed, for the manifest.
     skipped : sequence of str
         What was refused, for the manifest.
+    unread : sequence of str
+        What could not be read: failures of the run, as sources are that fail at work.
     progress : Progress, optional
         Told what is being done.
     draw : callable, optional
@@ -120,14 +123,13 @@ def run_stippling_comparison(
     """
     began = time.monotonic()
     progress = progress or Progress()
-    for what, value, least in (("jobs", 1 if jobs is None else jobs, 1), ("seed", seed, 0)):
-        if value < least:
-            raise InputError(f"{what} must be at least {least}; got {value}")
+    require(jobs=(1 if jobs is None else jobs, 1), seed=(seed, 0))
+    jobs = jobs or os.cpu_count() or 1
     patch = flattest_patch(density.values, n)
     settings: dict[str, Any] = {
         "gbnbench": __version__,
         "seed": seed,
-        "device": choose().describe(),
+        "device": needed_device(jobs),
         "density": {
             "name": name,
             "shape": list(density.shape),
@@ -137,13 +139,14 @@ def run_stippling_comparison(
         "sources": [source.identity() for source in sources],
     }
     store = StipplingFolder(Path(folder or default_folder(settings, "stipplings")), settings)
-    jobs = jobs or os.cpu_count() or 1
     tasks = stippling_tasks(sources, density, patch, seed, jobs)
     with store.lock(), explain_interruption(store.path):
         if store.whole:
-            run = read_stippling_run(store.path)
+            run = replace(read_stippling_run(store.path), failures=tuple(unread))
             return StipplingOutcome(run, store.path, len(tasks), len(tasks), time.monotonic() - began)
         store.begin()
+        for line in unread:
+            progress.say(f"failed: {line}")
         work = TaskRun(tasks, store)
         if work.missing:
             if work.reused:
@@ -162,7 +165,7 @@ def run_stippling_comparison(
             "timings": {"seconds": round(time.monotonic() - began, 3), "resumed": work.reused > 0},
             "skipped": list(skipped),
         }
-        run = _run(sources, density.values, manifest, work)
+        run = _run(sources, density.values, manifest, work, unread)
 
         def last_steps() -> None:
             progress.advance("writing the tables", 0)
@@ -178,9 +181,10 @@ def run_stippling_comparison(
 
 
 def _run(
-    sources: Sequence[StipplingSource], density: FloatArray, manifest: dict[str, Any], work: TaskRun
-) -> StipplingRun:
-    found, failures = {}, []
+    sources: Sequence[StipplingSource], density: FloatArray, manifest: dict[str, Any], work: TaskRun,
+    unread: Sequence[str],
+) -> StipplingRun:  # fmt: skip
+    found, failures = {}, list(unread)
     for source in sources:
         keys = [set_key(source.key, k) for k in range(source.realizations)]
         faults = [work.failures[key] for key in keys if key in work.failures]

@@ -19,7 +19,7 @@ from gbnbench.generators.adaptive.protocol import Told
 from gbnbench.generators.adaptive.rejection import Rejection
 from gbnbench.generators.kernel_based.electrostatic import EVERY, STRONGEST, shaking_length
 from gbnbench.generators.protocol import MOST_ITERATIONS
-from gbnbench.generators.ranges import check_range
+from gbnbench.generators.ranges import check_above, check_range
 
 PIXEL = 0.8  # width of the Gaussian over which a pixel's charge is spread, in pixels
 FINEST = 2.0  # pixels that the least spacing has, at least
@@ -85,7 +85,7 @@ class ElectrostaticHalftoning(AdaptiveMethod):
 
     def __post_init__(self) -> None:
         check_range("iterations", self.iterations, 0, MOST_ITERATIONS)
-        check_range("tau", self.tau, np.nextafter(0, 1), 0.3, "squared spacings")
+        check_above("tau", self.tau, 0, 0.3, "squared spacings")
         check_range("shaking", self.shaking, 0, STRONGEST)
 
     def refusal(self, density: Density, n: int) -> str | None:

@@ -8,7 +8,6 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density
 from gbnbench.generators.adaptive.dithering.pixel_density import (
@@ -19,6 +18,7 @@ from gbnbench.generators.adaptive.dithering.pixel_density import (
 from gbnbench.generators.adaptive.method import AdaptiveMethod
 from gbnbench.generators.adaptive.protocol import Told
 from gbnbench.generators.kernel_based.void_and_cluster import initial_binary_pattern
+from gbnbench.generators.ranges import check_above, check_range
 
 INITIAL = 0.1  # share of ones in the initial binary pattern
 
@@ -62,10 +62,8 @@ class VoidAndClusterDither(AdaptiveMethod):
     sigma: float = 1.5
 
     def __post_init__(self) -> None:
-        if not 8 <= self.side <= 256:
-            raise InputError(f"side must be from 8 to 256 pixels; got {self.side}")
-        if not 0 < self.sigma <= 20:
-            raise InputError(f"sigma must be above 0 and at most 20 pixels; got {self.sigma}")
+        check_range("side", self.side, 8, 256, "pixels")
+        check_above("sigma", self.sigma, 0, 20, "pixels")
 
     def refusal(self, density: Density, n: int) -> str | None:
         """Say why a halftone has no n points, as ``AdaptiveMethod.refusal`` does."""

@@ -21,7 +21,8 @@ from scipy.special import erf
 
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density
-from gbnbench.generators.adaptive.gbn.kernel_widths import LADDER, KernelWidths
+from gbnbench.generators.adaptive.gbn.kernel_widths import BORDER, LADDER, KernelWidths
+from gbnbench.generators.adaptive.gbn.pixel_blocks import in_blocks, mean_over_blocks
 from gbnbench.generators.adaptive.gbn.smoothing import ComplexArray, PaddedGrid, padded_grid
 
 PIXEL = 1 / 12  # variance of a pixel's square along an axis
@@ -61,6 +62,7 @@ def attraction_levels(
     part: float,
     resolution: float,
     reach: float,
+    blocks: int = 1,
 ) -> tuple[Level, ...]:
     """Spread the density, and sample it at cells of 1, 2, 4 ... pixels.
 
@@ -79,22 +81,32 @@ def attraction_levels(
         2).
     reach : float
         Standard deviations after which a Gaussian ends.
+    blocks : int
+        Pixels along the sides of blocks, on which the widths are and the levels shall be (``pixel_blocks``).
 
     Returns
     -------
     tuple of Level
         From the finest on: level j serves kernels of width resolution * 2^j up to twice that.
     """
-    inked = density.values > 0
+    cells = in_blocks(density, blocks)
+    inked = cells.values > 0
     on_ink = float(np.exp(widths.log_width[inked].max()))
     # The transform's ends meet: a kernel at one border must not see what is spread at the other one.
     apart = reach * on_ink * math.hypot(1, part)
-    room = max(LEAST_ROOM, max(density.shape) // 2)
+    room = max(LEAST_ROOM // blocks, max(cells.shape) // 2)
     margin = 0 if density.toroidal else max(4, min(math.ceil(apart), room))
-    grid = padded_grid(density.shape, margin)
+    grid = padded_grid(cells.shape, margin)
     most = math.inf if density.toroidal else margin / (reach * math.hypot(1, part))
     log_width = np.minimum(grid.reflected(widths.log_width), math.log(most))
-    spectrum = _spread_spectrum(grid, grid.reflected(density.of_points(n)), log_width, part)
+    rho, of_mass = grid.reflected(cells.of_points(n)), log_width
+    if blocks > 1:
+        inner = tuple(slice(BORDER, -BORDER) for _ in cells.shape)
+        mean = mean_over_blocks(density, cells, blocks, widths.coefficients[inner])
+        of_mass = np.minimum(grid.reflected(mean), math.log(most))
+    spectrum = _spread_spectrum(grid, rho, of_mass, part, PIXEL / blocks**2)
+    if blocks > 1:
+        spectrum = grid.without_blocks(spectrum)
     if margin:
         field = grid.sampled(spectrum, grid.padded) * _share_inside(grid, np.exp(log_width))
         spectrum = grid.transform(field * (n / field.sum()))
@@ -126,7 +138,9 @@ def _share_inside(grid: PaddedGrid, width: FloatArray) -> FloatArray:
     return share
 
 
-def _spread_spectrum(grid: PaddedGrid, rho: FloatArray, log_width: FloatArray, part: float) -> ComplexArray:
+def _spread_spectrum(
+    grid: PaddedGrid, rho: FloatArray, log_width: FloatArray, part: float, pixel: float
+) -> ComplexArray:
     """Spectrum of T: a sum over a ladder of widths, among which each pixel's share is interpolated."""
     ink = np.flatnonzero(rho > 0)
     logs = log_width.ravel()[ink]
@@ -155,7 +169,7 @@ def _spread_spectrum(grid: PaddedGrid, rho: FloatArray, log_width: FloatArray, p
         if not field.any():
             continue
         width = part * math.exp(least + j * step)
-        spread = grid.smoothed(grid.transform(field.reshape(rho.shape)), width**2 + PIXEL)
+        spread = grid.smoothed(grid.transform(field.reshape(rho.shape)), width**2 + pixel)
         if total is None:
             total = spread
         else:

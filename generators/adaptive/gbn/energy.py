@@ -24,6 +24,7 @@ from gbnbench.generators.adaptive.gbn.attraction import attraction_levels
 from gbnbench.generators.adaptive.gbn.gradient import AdaptiveGradient
 from gbnbench.generators.adaptive.gbn.kernel_widths import kernel_widths
 from gbnbench.generators.adaptive.gbn.pair_sums import PairSums
+from gbnbench.generators.adaptive.gbn.pixel_blocks import in_blocks
 from gbnbench.generators.adaptive.gbn.pull_sums import PullSums
 from gbnbench.generators.adaptive.gbn.spline_field import SplineField
 from gbnbench.opencl import Runtime
@@ -32,6 +33,8 @@ from gbnbench.opencl import Runtime
 # cells, exp(-pi^2 resolution^2 / 2): 3e-7 in float, 1e-15 in double.
 REACH = {"float": 5.5, "double": 8.3}
 RESOLUTION = {"float": 1.75, "double": 2.65}
+BLOCK_RESOLUTION = 2.5  # width of the narrowest kernel over the side of blocks of pixels, at least
+BLOCK_AVERAGE = 1.2  # that of the average which gives it its width
 WIDER = 2.0  # factor of a kernel's width beyond which a move is refused
 
 
@@ -54,6 +57,9 @@ class AdaptiveEnergy:
         t: width over which a pixel's share is spread, over that of the kernels there.
     precision : {"double", "float"}
         Of the sums.
+    blocks : int
+        Pixels along the sides of blocks in which they are summed first (``pixel_blocks``). Kernels are to be
+        ``BLOCK_RESOLUTION`` blocks wide, and averages of ``smoothing`` times their width ``BLOCK_AVERAGE``.
 
     Attributes
     ----------
@@ -73,12 +79,14 @@ class AdaptiveEnergy:
         smoothing: float,
         spread: float,
         precision: str,
+        blocks: int = 1,
     ) -> None:
-        self.density, self.sigma, self.n = density, sigma, n
+        self.density, self.sigma, self.n, self._block = density, sigma, n, blocks
+        cells = in_blocks(density, blocks)
         self._runtime, self._precision = runtime, precision
         self._real = np.float64 if precision == "double" else np.float32
         d = density.d
-        found = kernel_widths(density, n, sigma, smoothing)
+        found = kernel_widths(density, n, sigma, smoothing, block=blocks)
         defines = {
             "DOUBLE": int(precision == "double"),
             "LANES": runtime.lanes(precision),
@@ -87,9 +95,9 @@ class AdaptiveEnergy:
         }
         self._log_width = SplineField(runtime, found.coefficients, n, defines)
         reach, resolution = REACH[precision], RESOLUTION[precision]
-        levels = attraction_levels(density, n, found, spread, resolution, reach)
+        levels = attraction_levels(density, n, found, spread, resolution, reach, blocks)
         self._pull = PullSums(runtime, levels, n, defines, resolution, reach)
-        self._push = PairSums(runtime, n, density.shape if density.toroidal else None, defines, reach)
+        self._push = PairSums(runtime, n, cells.shape if density.toroidal else None, defines, reach)
 
     def widths(self, x: FloatArray) -> FloatArray:
         """Look up the width of kernels.
@@ -104,10 +112,10 @@ class AdaptiveEnergy:
         (m,) float64
             In pixels.
         """
-        return np.asarray(np.exp(self._log_width(self._upload(x), len(x))[0]))
+        return np.asarray(np.exp(self._log_width(self._upload(x), len(x))[0]) * self._block)
 
     def _upload(self, x: FloatArray) -> Any:
-        return self._runtime.upload(x.T.astype(self._real))
+        return self._runtime.upload((x.T / self._block).astype(self._real))
 
     def __call__(self, x: FloatArray) -> AdaptiveGradient:
         """Evaluate the energy and its gradient.
@@ -124,10 +132,11 @@ class AdaptiveEnergy:
         at, n, d = self._upload(x), self.n, self.density.d
         log_widths, slopes = self._log_width(at, n)
         widths, variances = np.exp(log_widths), np.exp(2 * log_widths)
-        pushed, pulled = self._push(x, variances), self._pull(at, variances)
+        pushed, pulled = self._push(x / self._block, variances), self._pull(at, variances)
         excess = pushed - pulled  # of A over T, as the kernel sees it
-        gradient = excess[:d].T + (2 * variances * excess[d])[:, None] * slopes
-        energy = (0.5 * pushed[d + 1] - pulled[d + 1]).sum()
+        gradient = (excess[:d].T + (2 * variances * excess[d])[:, None] * slopes) / self._block ** (d + 1)
+        energy = (0.5 * pushed[d + 1] - pulled[d + 1]).sum() / self._block**d
+        widths, variances = widths * self._block, variances * self._block**2
         # E sums Gaussians of unit mass; a density's unit of E is rho (4 pi s^2)^(-d/2) of the uniform kernel.
         spacings = math.sqrt(2) / self.sigma * widths
         stiffness = (4 * math.pi * variances) ** (-d / 2) / spacings**2
@@ -154,8 +163,9 @@ class AdaptiveEnergy:
             filled = np.concatenate([some, np.broadcast_to(x[0], (self.n - len(some), x.shape[1]))])
             at = self._upload(filled)
             found = np.exp(self._log_width(at, self.n)[0])
-            widths[first : first + self.n] = found[: len(some)]
+            widths[first : first + self.n] = found[: len(some)] * self._block
             pulls[first : first + self.n] = self._pull(at, found**2)[self.density.d + 1, : len(some)]
+        pulls /= self._block**self.density.d
         return widths, pulls
 
     def allowed(self, x: FloatArray, widths: FloatArray) -> NDArray[np.bool_]:

@@ -9,15 +9,21 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density
 from gbnbench.generators.adaptive.gbn.descent import descend
-from gbnbench.generators.adaptive.gbn.energy import RESOLUTION, AdaptiveEnergy
+from gbnbench.generators.adaptive.gbn.energy import (
+    BLOCK_AVERAGE,
+    BLOCK_RESOLUTION,
+    RESOLUTION,
+    AdaptiveEnergy,
+)
 from gbnbench.generators.adaptive.gbn.joint_energy import JointEnergy, Part, union_density
+from gbnbench.generators.adaptive.gbn.pixel_blocks import block_side
 from gbnbench.generators.adaptive.hilbert_start import hilbert_start
 from gbnbench.generators.adaptive.method import AdaptiveMethod, too_fine
 from gbnbench.generators.adaptive.protocol import Seen, Told
+from gbnbench.generators.ranges import check_least, check_range, raise_refusal
 from gbnbench.opencl import runtime
 
 
@@ -84,20 +90,40 @@ class AdaptiveGaussianBlueNoise(AdaptiveMethod):
             ("spread", 0, 1),
             ("union", 0, 100),
         ):
-            if not least <= getattr(self, name) <= most:
-                raise InputError(f"{name} must be from {least} to {most}; got {getattr(self, name)}")
-        if self.gradients < 0:
-            raise InputError(f"gradients must be >= 0; got {self.gradients}")
+            check_range(name, getattr(self, name), least, most)
+        check_least("gradients", self.gradients, 0)
 
     def refusal(self, density: Density, n: int) -> str | None:
         """Say why pixels cannot be cut finely enough, as ``AdaptiveMethod.refusal`` does."""
         return too_fine(density, n, density.values.size * self._parts(density, n) ** density.d)
 
+    def _narrowest(self, density: Density, n: int) -> float:
+        """Width of the narrowest kernel, in pixels."""
+        densest = float(density.values.max()) * (n / float(density.values.sum()))
+        return float(self.sigma / math.sqrt(2) / densest ** (1 / density.d))
+
     def _parts(self, density: Density, n: int) -> int:
         """Parts of a pixel's side that make pixels finer than the narrowest kernel."""
-        narrowest = self.sigma / math.sqrt(2) / float(density.of_points(n).max()) ** (1 / density.d)
-        parts: int = math.ceil(RESOLUTION[self.precision] / narrowest)
+        parts: int = math.ceil(RESOLUTION[self.precision] / self._narrowest(density, n))
         return parts
+
+    def blocks(self, density: Density, n: int) -> int:
+        """Choose the blocks in which pixels are summed first.
+
+        Parameters
+        ----------
+        density : Density
+            The density.
+        n : int
+            Points.
+
+        Returns
+        -------
+        int
+            Pixels along a side of those that resolve the narrowest kernel; 1 in double precision.
+        """
+        least = max(BLOCK_RESOLUTION, BLOCK_AVERAGE / self.smoothing)
+        return 1 if self.precision == "double" else block_side(density, self._narrowest(density, n), least)
 
     def one_set(self, density: Density, n: int, rng: np.random.Generator, told: Told) -> FloatArray:
         """Draw one set, as ``AdaptiveMethod.one_set`` describes it."""
@@ -143,8 +169,7 @@ class AdaptiveGaussianBlueNoise(AdaptiveMethod):
         is held as stiffly by its own class as by all points at ``union`` = 1.
         """
         whole, n = union_density(densities, counts), sum(counts)
-        if reason := self.refusal(whole, n):
-            raise RefusalError(reason)
+        raise_refusal(self.refusal(whole, n))
         parts = self._parts(whole, n)
         ends = np.cumsum(counts)[:-1].tolist()
         starts = zip(densities, counts, rngs, strict=True)
@@ -190,7 +215,7 @@ class AdaptiveGaussianBlueNoise(AdaptiveMethod):
     def _energy(self, density: Density, n: int) -> AdaptiveEnergy:
         return AdaptiveEnergy(
             runtime(), density, n, sigma=self.sigma, smoothing=self.smoothing, spread=self.spread,
-            precision=self.precision,
+            precision=self.precision, blocks=self.blocks(density, n),
         )  # fmt: skip
 
     def _joint_energy(

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scipy import fft
 
 from gbnbench.core.torus import FloatArray
+from gbnbench.generators.adaptive.gbn.pixel_blocks import spline_spectrum
 
 ComplexArray = NDArray[np.complex128]
 
@@ -72,6 +73,14 @@ class PaddedGrid:
         found: ComplexArray = spectrum * factors[0]
         for factor in factors[1:]:
             found *= factor
+        return found
+
+    def without_blocks(self, spectrum: ComplexArray) -> ComplexArray:
+        """Divide the spectrum of a field in blocks (``pixel_blocks``) by that of their spline."""
+        found = spectrum
+        for a, size in enumerate(self.padded):
+            k = _harmonics(size, last=a == len(self.padded) - 1)
+            found = found / _along(spline_spectrum(k, size), a, len(self.padded))
         return found
 
     def sampled(self, spectrum: ComplexArray, counts: tuple[int, ...]) -> FloatArray:

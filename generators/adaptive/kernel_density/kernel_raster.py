@@ -95,9 +95,11 @@ class KernelRaster:
         cells : (m, window) intp
             Flat indices.
         heights : (m, window) float64
-            exp(-pi r^2), r in spacings; 0 beyond the kernel's reach, and outside of a box.
+            exp(-pi r^2), r in spacings; in a box what would lie beyond its borders is mirrored at them, so
+            that a kernel keeps its mass. 0 beyond the kernel's reach, and outside of a box.
         away : (2, m, window) float64
-            From the point to the cell, in spacings.
+            From the point to the cell, in spacings; where a mirrored part is added, the mean of both weighted
+            by their heights, a mirrored part counting backwards: it moves against its point.
         """
         own = np.floor(x / self._cell).astype(np.intp)
         index = own[:, :, None] + np.arange(-reach, reach + 1)  # (m, 2, offsets)
@@ -107,6 +109,7 @@ class KernelRaster:
             index %= self._counts[:, None]
         else:
             inside = np.clip(index, 0, (self._counts - 1)[:, None])
+            heights, apart = self._mirrored(heights, apart, x, spacing)
             heights[inside != index] = 0.0
             index = inside
         cells = index[:, 0, :, None] * self._counts[1] + index[:, 1, None, :]
@@ -115,6 +118,19 @@ class KernelRaster:
         away = np.empty((2, *product.shape))
         away[0], away[1] = apart[:, 0, :, None], apart[:, 1, None, :]
         return cells.reshape(len(x), -1), product.reshape(len(x), -1), away.reshape(2, len(x), -1)
+
+    def _mirrored(
+        self, heights: FloatArray, apart: FloatArray, x: FloatArray, spacing: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Add the images of points beyond the lower and the upper border, along each axis."""
+        total = np.where(np.abs(apart) <= REACH, heights, 0.0)
+        turned = total * apart
+        for image in (-x, 2 * self.shape - x):
+            beyond = apart + ((x - image) / spacing[:, None])[:, :, None]
+            part = np.where(np.abs(beyond) <= REACH, np.exp(-math.pi * beyond**2), 0.0)
+            total += part
+            turned -= part * beyond
+        return total, turned / np.maximum(total, 1e-300)
 
     def add(self, x: FloatArray) -> None:
         """Take the kernels of points, (m, 2) in pixels, off the density."""

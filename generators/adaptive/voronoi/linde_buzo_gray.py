@@ -17,9 +17,11 @@ from gbnbench.generators.adaptive.protocol import Told
 from gbnbench.generators.adaptive.rejection import Rejection
 from gbnbench.generators.adaptive.voronoi.secord import on_ink, parts_refusal
 from gbnbench.generators.adaptive.voronoi.weighted_cells import CellParts, WeightedCells
+from gbnbench.generators.ranges import check_least, check_range
 
 TURNS_TO_COUNT = 60  # in which the number of points is made the one asked for
 LAST_MOVES = 5  # to centroids, once it is
+JITTER = 0.1  # of points that come of a split, in standard deviations of the cell
 
 
 @dataclass(frozen=True)
@@ -48,7 +50,10 @@ class LindeBuzoGray(AdaptiveMethod):
     its longest axis, and every other point moves to its centroid, until nothing splits or vanishes. The dot's
     ink is the density over n, so that about n points are left; the publication lets their number follow from
     the size of dots, and exactly n are made of them here at the end: the fullest cells split, or the emptiest
-    vanish, a few at a time, between moves to centroids.
+    vanish, a few at a time, between moves to centroids. All begins with one point, wherever it lies, and
+    would come to the same set for every seed: as in the authors' program, both points of a split are
+    jittered, there by up to a thousandth of the image's sides, here by a tenth of the cell's standard
+    deviation.
 
     References
     ----------
@@ -71,14 +76,11 @@ class LindeBuzoGray(AdaptiveMethod):
     iterations: int = 100
 
     def __post_init__(self) -> None:
-        if self.start < 1:
-            raise InputError(f"start must be >= 1; got {self.start}")
+        check_least("start", self.start, 1)
         if not 0 < self.hysteresis < 2:
             raise InputError(f"hysteresis must be above 0 and below 2; got {self.hysteresis}")
-        if not 0 <= self.widening <= 1:
-            raise InputError(f"widening must be from 0 to 1; got {self.widening}")
-        if self.iterations < 1:
-            raise InputError(f"iterations must be >= 1; got {self.iterations}")
+        check_range("widening", self.widening, 0, 1)
+        check_least("iterations", self.iterations, 1)
 
     def refusal(self, density: Density, n: int) -> str | None:
         """Say why the pixels cannot be cut finely enough, as ``AdaptiveMethod.refusal`` does."""
@@ -113,19 +115,23 @@ def split(
     full, kept : (n,) bool
         Cells of two points, and of one.
     rng : numpy.random.Generator
-        Turns the axis of cells that have no longest one.
+        Turns the axis of cells that have no longest one, and jitters both points of a split.
 
     Returns
     -------
     (m, d) float64
-        In pixels; those of two lie a standard deviation to either side along the longest axis.
+        In pixels; those of two lie about a standard deviation to either side along the longest axis.
     """
     directions, deviations = cells.main_axes()
     flat = deviations == 0
     directions[flat] = rng.normal(size=(int(flat.sum()), cells.x.shape[1]))
-    step = (np.maximum(deviations, 1e-6)[:, None] * directions)[full]
+    deviations = np.maximum(deviations, 1e-6)[full, None]
+    step = deviations * directions[full]
+    jitter = JITTER * deviations * rng.normal(size=(2, *step.shape))
     centroid = cells.x + cells.moves
-    found: FloatArray = np.concatenate([centroid[kept], centroid[full] - step, centroid[full] + step])
+    found: FloatArray = np.concatenate(
+        [centroid[kept], centroid[full] - step + jitter[0], centroid[full] + step + jitter[1]]
+    )
     return found
 
 

@@ -8,7 +8,6 @@ from typing import ClassVar
 import numpy as np
 from scipy.spatial import cKDTree
 
-from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density
 from gbnbench.generators.adaptive.domain import pixels_of, within
@@ -16,6 +15,7 @@ from gbnbench.generators.adaptive.hilbert_start import hilbert_start
 from gbnbench.generators.adaptive.method import AdaptiveMethod, too_fine
 from gbnbench.generators.adaptive.protocol import Told
 from gbnbench.generators.adaptive.voronoi.weighted_cells import CellParts, parts_of_pixels
+from gbnbench.generators.ranges import check_least
 
 
 @dataclass(frozen=True)
@@ -60,10 +60,8 @@ class WeightedVoronoi(AdaptiveMethod):
     tolerance: float = 0.002
 
     def __post_init__(self) -> None:
-        if self.iterations < 0:
-            raise InputError(f"iterations must be >= 0; got {self.iterations}")
-        if not self.tolerance >= 0:
-            raise InputError(f"tolerance must be >= 0; got {self.tolerance}")
+        check_least("iterations", self.iterations, 0)
+        check_least("tolerance", self.tolerance, 0)
 
     def refusal(self, density: Density, n: int) -> str | None:
         """Say why the pixels cannot be cut finely enough, as ``AdaptiveMethod.refusal`` does."""

@@ -50,18 +50,30 @@ def test_a_grid_has_amplitudes_of_1_up_to_its_borders():
     assert cut.min() < 0.95
 
 
+@pytest.mark.parametrize("reflected", [True, False])
+@pytest.mark.parametrize("n", [1, 3, 150])
 @pytest.mark.parametrize("estimate", ESTIMATES)
-@pytest.mark.parametrize("shape", [(40, 60), (14, 18, 16)])
-def test_estimates_keep_the_number_of_points(estimate, shape):
-    points = np.random.default_rng(1).random((150, len(shape))) * shape
-    found = reconstructed_density(points, shape, estimate=estimate)
+@pytest.mark.parametrize("shape", [(40, 60), (14, 18, 16), (1, 1), (1, 30), (3, 2), (9, 7), (1, 5, 4)])
+def test_estimates_add_up_to_the_number_of_points(estimate, shape, n, reflected):
+    points = np.random.default_rng(1).random((n, len(shape))) * shape
+    found = reconstructed_density(points, shape, estimate=estimate, reflected=reflected)
     assert found.shape == shape
-    assert found.sum() == pytest.approx(150, rel=2e-3)
+    assert found.sum() == pytest.approx(n, rel=1e-12)
     assert found.min() >= 0
-    twice = tuple(2 * side for side in shape)
-    finer = reconstructed_density(points, shape, estimate=estimate, size=twice)
-    assert finer.shape == twice
-    assert finer.mean() == pytest.approx(found.mean(), rel=2e-3)
+    for size in (tuple(2 * side for side in shape), (1,) * len(shape)):
+        other = reconstructed_density(points, shape, estimate=estimate, size=size, reflected=reflected)
+        assert other.shape == size
+        assert other.mean() == pytest.approx(found.mean(), rel=1e-12)
+
+
+def test_kernels_have_the_mass_of_their_points_before_they_are_scaled():
+    points = np.random.default_rng(1).random((150, 2)) * (40, 60)
+    width, a = kernel_width(150, (40, 60), 0.5), amplitudes(points, (40, 60))
+    sources, number = with_reflections(points, (40, 60), 12 * width)
+    variances = width**2 / a[number] + 1 / 12
+    centres = np.argwhere(np.ones((40, 60))) + 0.5
+    total = kernel_sums(centres, sources, 1 / (2 * np.pi * variances), variances).sum()
+    assert total == pytest.approx(150, rel=2e-4)
 
 
 def test_a_ramp_is_found_back():

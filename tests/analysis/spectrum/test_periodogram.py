@@ -8,7 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gbnbench.analysis.spectrum.limits import check_fmax, check_harmonic, largest_fmax
-from gbnbench.analysis.spectrum.periodogram import each_power, periodogram
+from gbnbench.analysis.spectrum.periodogram import periodogram
+from gbnbench.analysis.spectrum.power_of_each import each_power
 from gbnbench.core.errors import InputError
 from tests.oracles.power import direct_power, on_grid, roots
 

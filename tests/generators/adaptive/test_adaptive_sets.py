@@ -129,7 +129,7 @@ def test_what_is_no_density_is_refused(values, words):
 def test_wrong_arguments_are_refused_in_words():
     with pytest.raises(InputError, match="no adaptive generator"):
         adaptive_generator("gbnn")
-    with pytest.raises(InputError, match="sigma must be"):
+    with pytest.raises(InputError, match=r"sigma must lie in \[0.5, 1.5\]"):
         adaptive_generator("gbn[sigma=9]")
     with pytest.raises(InputError, match="n must be"):
         adaptive_points("gbn", DISC, 0)

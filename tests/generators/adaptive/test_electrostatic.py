@@ -90,7 +90,7 @@ def test_what_charges_cannot_do_is_refused_in_words():
     assert "near pairs" in str(charges_refusal(as_density(np.ones((100, 100))), 2_000_000))
     with pytest.raises(RefusalError, match="too narrow"):
         adaptive_points("electrostatic", as_density(np.ones((1, 100_000)), toroidal=True), 100)
-    with pytest.raises(InputError, match="tau must lie"):
+    with pytest.raises(InputError, match=r"tau must be above 0 and at most 0\.3"):
         adaptive_generator("electrostatic[tau=1]")
 
 

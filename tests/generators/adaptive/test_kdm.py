@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 import pytest
 
@@ -18,16 +20,20 @@ RAMP = np.linspace(0.2, 1, 40)[:, None] * np.ones(30)
 
 
 def plain_lack(density, n, x):
-    """Density less kernels at every pixel, by plain sums; pixels are cells."""
-    rho = density.of_points(n)
-    raster = KernelRaster(density, n, 1.0)
-    spacing = raster.spacings(x)
-    apart = np.argwhere(rho >= 0)[:, None] + 0.5 - x
-    if density.toroidal:
-        apart -= np.array(density.shape) * np.rint(apart / density.shape)
-    r = np.linalg.norm(apart, axis=2) / spacing
-    kernels = np.where(r <= REACH, np.exp(-np.pi * r**2), 0.0) / spacing**2
-    return rho.ravel() - kernels.sum(axis=1)
+    """Density less kernels at every pixel, by plain sums over the images of points; pixels are cells."""
+    rho, shape = density.of_points(n), np.array(density.shape)
+    spacing = KernelRaster(density, n, 1.0).spacings(x)
+    centres = np.argwhere(rho >= 0)[:, None] + 0.5
+    kernels = np.zeros((len(centres), n))
+    for k, m in itertools.product((-1, 0, 1), repeat=2):
+        image = x + np.array([k, m]) * shape
+        if not density.toroidal:  # mirrored: -x, x and 2 shape - x
+            image = np.where([k, m], shape * (1 + np.array([k, m])) - x, x)
+        r = (centres - image) / spacing[:, None]
+        kernels += np.where(np.abs(r).max(axis=2) <= REACH, np.exp(-np.pi * (r**2).sum(axis=2)), 0.0)
+    # a kernel ends where it and its images add up to less than it has at its reach
+    kernels[kernels < np.exp(-np.pi * REACH**2)] = 0.0
+    return rho.ravel() - (kernels / spacing**2).sum(axis=1)
 
 
 @pytest.mark.parametrize("toroidal", [False, True])
@@ -77,6 +83,36 @@ def test_the_raster_shares_pixels_among_its_cells():
         assert raster.lack.sum() * raster.area == pytest.approx(12)
     coarse = KernelRaster(as_density([[1.0, 2, 3, 4]]), 10, 2.0)
     assert (coarse.lack * coarse.area).tolist() == pytest.approx([3, 7])
+
+
+def test_kernels_keep_their_mass_and_slope_at_borders():
+    density = as_density(np.ones((40, 40)))
+    raster = KernelRaster(density, 16, 1.0)
+    x = np.array([[0.3, 1.2], [39.5, 20.3], [20.3, 38.4]])
+    raster.add(x)
+    # of a kernel, exp(-pi 1.19^2) = 1.2% lie beyond its reach
+    assert raster.lack.sum() == pytest.approx(16 - 3, abs=3 * 0.015)
+    spacing = raster.spacings(x)
+    reach = int(raster.reaches(spacing).max())
+    cells, heights, away = raster.kernels(x, spacing, reach)
+    for axis in range(2):
+        step = 1e-5 * np.eye(2)[axis]
+        up, down = (raster.kernels(x + sign * step, spacing, reach)[1] for sign in (1, -1))
+        moved = (up - down) / 2e-5  # d heights / d x, which is 2 pi heights away / spacing
+        held = (heights > 0) & (up > 0) & (down > 0)
+        slope = 2 * np.pi * heights * away[axis] / spacing[:, None]
+        assert slope[held] == pytest.approx(moved[held], abs=1e-7)
+    assert cells.min() >= 0
+
+
+@pytest.mark.slow
+def test_borders_hold_no_more_points_than_they_are_to():
+    x = adaptive_points("kdm[iterations=30]", as_density(np.ones((64, 64))), 1000)
+    near = np.minimum(x, 64 - x).min(axis=1)  # pixels; the spacing is 2
+    for inner in range(2):
+        share = (64 - 2 * inner) ** 2 - (62 - 2 * inner) ** 2
+        held = ((near >= inner) & (near < inner + 1)).sum()
+        assert held == pytest.approx(1000 * share / 64**2, rel=0.35)
 
 
 def test_tones_get_their_shares():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 
 from gbnbench.generators.adaptive.density import as_density
 from gbnbench.generators.adaptive.dithering.error_diffusion import diffuse
@@ -43,6 +44,14 @@ def test_cells_of_lbg_have_about_one_dot():
     assert masses.sum() == pytest.approx(60)
     assert masses.min() > 0.4
     assert masses.max() < 1.8
+
+
+def test_lbg_depends_on_the_seed():
+    sets = [adaptive_points("lbg", RAMP, 60, seed=1, realization=k) for k in (0, 1)]
+    again = adaptive_points("lbg", RAMP, 60, seed=1)
+    assert (sets[0] == again).all()
+    away = cKDTree(sets[0]).query(sets[1])[0]
+    assert np.median(away) > 1  # pixels; the spacing is 4.5, and that of unrelated sets would leave 1.7
 
 
 def test_a_cell_splits_along_its_longest_axis():

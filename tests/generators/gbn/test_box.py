@@ -20,10 +20,10 @@ CASES = [
     (200, 2, 0.3),
     (200, 3, 0.5),
     (40, 1, 0.7),
-    (9, 1, 3.0),
-    (64, 8, 3.0),
-    (12, 20, 1.0),
     (2, 2, 1.0),
+    (12, 20, 1.0),
+    pytest.param(9, 1, 3.0, marks=pytest.mark.slow),
+    pytest.param(64, 8, 3.0, marks=pytest.mark.slow),
 ]
 
 

@@ -47,7 +47,11 @@ def check(evaluate, n, d, sigma, precision, x, expected):
 
 @pytest.mark.parametrize(
     ("n", "d", "sigma"),
-    [(2, 2, 1.0), (7, 1, 0.5), (9, 2, 0.3), (8, 3, 1.3), (6, 5, 1.0), (4, 2, 3.0), (3, 1, 3.0), (4, 20, 1.0)],
+    [
+        *((7, 1, 0.5), (9, 2, 0.3), (8, 3, 1.3), (4, 2, 3.0)),
+        *(pytest.param(*case, marks=pytest.mark.slow) for case in ((2, 2, 1.0), (6, 5, 1.0), (3, 1, 3.0))),
+        pytest.param(4, 20, 1.0, marks=pytest.mark.slow),
+    ],
 )
 def test_small_boxes_agree_with_the_theta_function(n, d, sigma):
     x = np.random.default_rng(n).random((n, d))
@@ -97,7 +101,9 @@ def test_the_oracles_agree():
     assert whole[1] == pytest.approx(energy, abs=1e-14)
 
 
-@pytest.mark.parametrize(("n", "d", "sigma"), [(64, 2, 1.0), (53, 3, 0.7), (37, 8, 1.0)])
+@pytest.mark.parametrize(
+    ("n", "d", "sigma"), [(64, 2, 1.0), (53, 3, 0.7), pytest.param(37, 8, 1.0, marks=pytest.mark.slow)]
+)
 @pytest.mark.parametrize("precision", ["double", "float"])
 def test_a_set_is_bitwise_the_same_in_any_company(n, d, sigma, precision):
     x = np.random.default_rng(n).random((5, n, d))
@@ -136,7 +142,9 @@ def single():
 
 
 @pytest.mark.parametrize("precision", ["double", "float"])
-@pytest.mark.parametrize(("n", "d", "sigma"), [(83, 2, 1.0), (37, 4, 0.4)])
+@pytest.mark.parametrize(
+    ("n", "d", "sigma"), [(83, 2, 1.0), pytest.param(37, 4, 0.4, marks=pytest.mark.slow)]
+)
 def test_single_lanes_in_groups_agree_with_vectors(single, n, d, sigma, precision):
     x = np.random.default_rng(n).random((3, n, d))
     for kind in (Theta, Images, Harmonics):
@@ -199,7 +207,14 @@ def test_forces_keep_their_digits_across_the_border():
             assert near[0, 0] == pytest.approx(same[0, 0], abs=1e-15)
 
 
-@pytest.mark.parametrize(("n", "d", "edge"), [(200, 2, 0.5), (100, 1, 0.4), (120, 3, 0.7), (30, 4, 0.9)])
+@pytest.mark.parametrize(
+    ("n", "d", "edge"),
+    [
+        (200, 2, 0.5),
+        (120, 3, 0.7),
+        *(pytest.param(*case, marks=pytest.mark.slow) for case in ((100, 1, 0.4), (30, 4, 0.9))),
+    ],
+)
 @pytest.mark.parametrize("precision", ["double", "float"])
 def test_an_edge_keeps_the_modes_within_it(n, d, edge, precision):
     x = np.random.default_rng(n).random((n, d))

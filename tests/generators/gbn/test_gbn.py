@@ -113,7 +113,7 @@ def test_a_mode_of_the_low_band_is_divided_by_its_own_curvature():
 @pytest.mark.parametrize(
     ("settings", "says"),
     [
-        ({"sigma": 0.1}, "sigma must be between 0.3 and 3"),
+        ({"sigma": 0.1}, r"sigma must lie in \[0\.3, 3\] spacings"),
         ({"sigma": math.nan}, "sigma"),
         ({"gradients": -1}, "gradients"),
         ({"iterations": -1}, "iterations"),

@@ -163,7 +163,7 @@ def test_charges_on_a_circle_come_to_rest_evenly() -> None:
 @pytest.mark.parametrize(
     ("wrong", "says"),
     [
-        ({"sigma": 0.1}, "sigma must be"),
+        ({"sigma": 0.1}, "sigma must lie in"),
         ({"power": 0.0}, "power must be"),
         ({"power": 3.0}, "power must be"),
         ({"kernel": "log", "cutoff": 2.0}, "kernel=log is summed whole"),

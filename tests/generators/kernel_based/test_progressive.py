@@ -78,5 +78,5 @@ def test_wrong_input_is_refused(x: list[list[float]], sigma: float, message: str
 def test_sizes_beyond_the_set_are_refused() -> None:
     with pytest.raises(InputError, match="sizes must be 1 to 4"):
         prefix_noise_floors(np.arange(4)[:, None] / 4, [5])
-    with pytest.raises(InputError, match="prefix_sigma must be"):
+    with pytest.raises(InputError, match="prefix_sigma must lie"):
         generate("progressivegbn[prefix_sigma=3]", n=4)

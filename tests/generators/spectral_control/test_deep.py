@@ -158,10 +158,10 @@ class TestTarget:
 @pytest.mark.parametrize(
     ("settings", "says"),
     [
-        ({"c": 0.0}, "c must be positive"),
-        ({"c": math.inf}, "c must be positive"),
-        ({"edge": 0.0}, "edge must be 1e-9 to 1e9"),
-        ({"gradients": -1}, "gradients must be 0 to 1000000"),
+        ({"c": 0.0}, "c must be above 0 and finite"),
+        ({"c": math.inf}, "c must be above 0 and finite"),
+        ({"edge": 0.0}, r"edge must lie in \[1e-09, 1e\+09\]"),
+        ({"gradients": -1}, r"gradients must lie in \[0, 1000000\]"),
         ({"target": 3.0}, r"a target must be \(k, 2\) numbers"),
         (
             {"target": ((0.0, 1e-9), (0.5, 1.0)), "edge": 0.6},

@@ -102,12 +102,12 @@ class TestTargeted:
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        ("step[edge=0]", "edge must be 1e-9 to 1e9"),
-        ("step[highest=-1]", "highest must be positive"),
-        ("step[core=-1]", "core must be 0 or more"),
-        ("step[iterations=-1]", "iterations must be 0 or more"),
-        ("peak[power=-1]", r"power must be 0 to 1e\+06"),
-        ("peak[width=0]", "width must be positive"),
+        ("step[edge=0]", r"edge must lie in \[1e-09, 1e\+09\]"),
+        ("step[highest=-1]", "highest must be above 0 and finite"),
+        ("step[core=-1]", "core must be >= 0 spacings"),
+        ("step[iterations=-1]", "iterations must be >= 0"),
+        ("peak[power=-1]", r"power must lie in \[0, 1e\+06\]"),
+        ("peak[width=0]", "width must be above 0 and finite"),
         ("staircase[level=0]", r"level must be above 0 and at most 1e\+06"),
         ("staircase[edge=0.8,end=0.8]", "end must be above the edge, 0.8; got 0.8"),
     ],

@@ -71,6 +71,8 @@ class Grid:
         self._leading = node_table(p, d, fmax, self.nodes)
         self._grid = p.runtime.empty(self._grid_size * self.sets * real)
         self._trailing = p.runtime.empty(self._trailing_size * self.sets * real)
+        if f.b.count < f.columns:
+            p.runtime.clear(self._trailing, self._trailing_size * self.sets * real)  # columns beyond the last
         self.amplitude = p.runtime.empty(self.sets * pairs)
         self._ones = p.runtime.upload(np.ones(self._stride, p.real))
         self._coefficients = window_buffer(p)

@@ -13,7 +13,7 @@ import math
 
 import numpy as np
 
-from gbnbench.analysis.precision import Precision
+from gbnbench.analysis.precision import SUM_POINTS, Precision
 from gbnbench.analysis.spectrum.digits import Division, whole_axes
 from gbnbench.analysis.spectrum.error_model import BITS, UNIT, Coordinates, Errors, coordinates, sum_errors
 from gbnbench.analysis.spectrum.evaluators.cube_product import cube_powers
@@ -99,8 +99,10 @@ def gridded_errors(p: Precision, fmax: int, crowd: int, at: Coordinates) -> Erro
     # First the points' table and the window, then the nodes' table and the sum over nodes.
     sums = "double" if p.sum is np.float64 else "float"
     to_nodes = sum_errors(p.name, p.name, Coordinates(0, 0, at.share), 0, 2, in_run, beyond)
-    steps = min(p.sum_points, nodes // 2 // p.lanes + 1) + p.lanes.bit_length()
-    from_nodes = sum_errors(p.name, sums, Coordinates(0, 0, at.share), 0, 2, steps, 1)
+    steps = min(SUM_POINTS, nodes // 2 + 1)
+    from_nodes = sum_errors(
+        p.name, sums, Coordinates(0, 0, at.share), 0, 2, steps, -(-(nodes // 2 + 1) // SUM_POINTS)
+    )
     rounded = 2 * math.pi * fmax
     bound = magnified * (to_nodes.bound + from_nodes.bound) + at.share * (2 * shape.left_out)
     typical = math.hypot(to_nodes.rms, from_nodes.rms, UNIT[p.name] * math.sqrt(0.2 * runs))

@@ -158,7 +158,7 @@ def test_a_device_named_otherwise_is_a_runtime_of_its_own():
     assert gpu_form().runtime.device == replace(runtime().device, is_cpu=False)
 
 
-@pytest.mark.parametrize("precision", ["double", "float"])
+@pytest.mark.parametrize("precision", ["double", pytest.param("float", marks=pytest.mark.slow)])
 def test_no_frequency_gathers_the_rounding_of_two_pi(precision):
     # 2 pi rounded once turns every angle by the same share, which added up at multiples of 4.
     n = 65_536

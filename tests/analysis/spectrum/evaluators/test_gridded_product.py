@@ -97,7 +97,7 @@ def test_a_dyadic_lattice_has_nothing_off_its_harmonics():
     assert power[~harmonic].max() <= 1e-27
 
 
-@pytest.mark.parametrize("precision", ["double", "float"])
+@pytest.mark.parametrize("precision", ["double", pytest.param("float", marks=pytest.mark.slow)])
 def test_the_form_for_gpus_and_other_widths(precision):
     p = precision_of(precision)
     rng = np.random.default_rng(5)

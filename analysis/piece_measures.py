@@ -1,0 +1,129 @@
+"""Everything measured of a piece of a source's realizations, as arrays that ``Scalars`` puts together."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gbnbench.analysis.measuring_plan import MeasuringPlan
+from gbnbench.analysis.outcomes import outcome
+from gbnbench.analysis.radial.psa import excess_density
+from gbnbench.analysis.set_powers import SetPowers, measured_powers, merged_powers, one_set
+from gbnbench.analysis.spatial.bond_order import bond_order, psi6
+from gbnbench.analysis.spatial.delaunay import Neighbours, neighbours
+from gbnbench.analysis.spatial.discrepancy import DiscrepancyResult, measure_discrepancies
+from gbnbench.analysis.spatial.discrepancy_kernels import Discrepancy
+from gbnbench.analysis.spatial.distances import nearest_distances
+from gbnbench.analysis.spatial.rdf import RadialDistribution, rdf
+from gbnbench.analysis.spatial.valence import Valence, valence, valence6
+from gbnbench.analysis.spatial.zone_plate import zone_plate
+from gbnbench.analysis.spectral_scalars import spectral_scalars
+from gbnbench.core.errors import RefusalError, ShortSpectrumError
+from gbnbench.core.torus import FloatArray
+
+DISCREPANCIES: dict[str, Discrepancy] = {"discrepancy_wd": "WD", "discrepancy_star": "L2-star"}
+
+
+def measure_piece(points: FloatArray, plan: MeasuringPlan, first: int = 0) -> dict[str, NDArray[Any]]:
+    """Measure the sets of a piece.
+
+    Parameters
+    ----------
+    points : (sets, n, d) float64
+        Checked points of consecutive realizations.
+    plan : MeasuringPlan
+        Of the whole source.
+    first : int
+        The number of the first of them.
+
+    Returns
+    -------
+    dict of arrays
+        By name: ``near/...`` and, where measures need them, ``far/...`` as ``measured_powers`` returns them;
+        a value of each set for measures of single sets; sums over the sets for curves. What is undefined has
+        its refusal in its place (``outcome``).
+    """
+    found = {f"near/{name}": array for name, array in measured_powers(points, plan.near, plan.group).items()}
+    if plan.far is not None and needs_farther(_powers_of(found, plan)):
+        farther = measured_powers(points, plan.far, plan.group)
+        found |= {f"far/{name}": array for name, array in farther.items()}
+    found |= {name: outcome(compute) for name, compute in _of_sets(points, plan).items()}
+    if plan.curves:
+        found |= _curves(points, plan)
+        if first == 0:
+            found["zone_plate"] = outcome(lambda: zone_plate(points[:1], sides=plan.sides))
+    return found
+
+
+def needs_farther(powers: SetPowers) -> bool:
+    """Tell whether some measure needs frequencies beyond those of a spectrum: this is of the sizes alone."""
+    for compute in spectral_scalars(one_set(powers)).values():
+        try:
+            compute()
+        except ShortSpectrumError:
+            return True
+        except RefusalError:
+            continue
+    return False
+
+
+def _powers_of(found: dict[str, NDArray[Any]], plan: MeasuringPlan) -> SetPowers:
+    near = {name.removeprefix("near/"): array for name, array in found.items()}
+    return merged_powers([near], plan.near, plan.group, plan.n)
+
+
+def _of_sets(points: FloatArray, plan: MeasuringPlan) -> dict[str, Callable[[], FloatArray]]:
+    """Measures of each set, and what those of the mean are made of."""
+    sides = plan.sides
+
+    @cache
+    def nearest() -> FloatArray:
+        return nearest_distances(points, sides)
+
+    @cache
+    def beside() -> tuple[Neighbours, ...]:
+        return neighbours(points, sides)
+
+    @cache
+    def discrepancies() -> dict[Discrepancy, DiscrepancyResult]:
+        return measure_discrepancies(points, tuple(DISCREPANCIES.values()))  # they share most of their cost
+
+    def discrepancy(kind: Discrepancy) -> Callable[[], FloatArray]:
+        def values() -> FloatArray:
+            found = discrepancies()[kind]
+            unknown = [reason for reason in found.reasons if reason]
+            if unknown:
+                raise RefusalError(unknown[0])
+            return found.value
+
+        return values
+
+    def degrees() -> FloatArray:
+        found: Valence = valence(beside())
+        shares = found.share_by_set.sum(axis=0)
+        return np.stack([found.degree.astype(np.float64), shares])
+
+    return {
+        "min_distance": lambda: np.asarray(nearest().min(axis=1)),
+        "mean_distance": lambda: np.asarray(nearest().mean(axis=1)),
+        "bond_order": lambda: bond_order(beside()),
+        "psi6": lambda: psi6(beside()),
+        "valence6": lambda: valence6(beside()),
+        "valence": degrees,
+        "psa": lambda: excess_density(points, sides),
+        **{name: discrepancy(kind) for name, kind in DISCREPANCIES.items()},
+    }
+
+
+def _curves(points: FloatArray, plan: MeasuringPlan) -> dict[str, NDArray[Any]]:
+    """Radial distribution function, summed over the sets."""
+
+    def both() -> FloatArray:
+        found: RadialDistribution = rdf(points, plan.sides)
+        return np.stack([found.r, found.g_by_set.sum(axis=0)])
+
+    return {"rdf": outcome(both)}

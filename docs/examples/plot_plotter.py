@@ -1,0 +1,58 @@
+"""
+A picture for a pen plotter
+===========================
+
+Dots whose density follows the darkness of an image, in an order that keeps the pen's way short, as an
+SVG in millimetres.
+"""
+
+# %%
+# ``stipple`` takes a file, an array or the name of one of scikit-image's pictures.
+
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+
+import gbnbench
+
+made = gbnbench.stipple("coins", 3000, invert=True, seed=1)
+print(made)
+
+# %%
+# The command writes the page that a plotter takes, in millimetres and in a good order: in a terminal
+# ``gbnbench stipple coins -n 3000 --invert --order tour -o coins.svg``.
+
+svg = Path(tempfile.mkdtemp(), "coins.svg")
+words = [
+    "stipple",
+    "coins",
+    "-n",
+    "3000",
+    "--invert",
+    "--seed",
+    "1",
+    "--order",
+    "tour",
+    "-o",
+    svg.name,
+    "--quiet",
+]
+written = subprocess.run(
+    [sys.executable, "-m", "gbnbench", *words], cwd=svg.parent, capture_output=True, text=True, check=True
+)
+print(written.stdout or written.stderr)
+
+# %%
+# The picture that the points alone draw, by the paper's Algorithm 2, tells how much of it they hold.
+
+back = gbnbench.reconstruct(made.points, shape=made.size[::-1])
+figure, (dots, image) = plt.subplots(1, 2, figsize=(10, 4.2), layout="constrained")
+dots.plot(*made.points.T, "k.", markersize=1.5)
+dots.set(
+    aspect=made.size[1] / made.size[0], xlim=(0, 1), ylim=(0, 1), xticks=[], yticks=[], title="3,000 dots"
+)
+image.imshow(back, cmap="gray_r")
+image.set(xticks=[], yticks=[], title="found back from the dots")

@@ -1,0 +1,114 @@
+"""The executor in force: what ``--executor`` chose for all work within a block."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from pathlib import Path
+from typing import Any
+
+from gbnbench.execution.calls import Calls
+from gbnbench.execution.executors.local_processes import LocalProcesses
+from gbnbench.execution.executors.registry import find
+from gbnbench.execution.protocol import Executor, Workers
+
+
+class ChosenExecutor:
+    """An executor whose workers are started when they are first needed, and then kept.
+
+    Parameters
+    ----------
+    executor : Executor
+        Which.
+
+    Attributes
+    ----------
+    facts : dict
+        What was found out of its workers, such as their device.
+    """
+
+    def __init__(self, executor: Executor) -> None:
+        self.executor = executor
+        self.facts: dict[str, Any] = {}
+        self._workers: Workers | None = None
+
+    @property
+    def remote(self) -> bool:
+        """Whether its workers may be on other machines."""
+        return self.executor.remote
+
+    def workers(self, jobs: int) -> Workers:
+        """Give the workers, started at the first call.
+
+        Parameters
+        ----------
+        jobs : int
+            How many, where their number is chosen here.
+
+        Returns
+        -------
+        Workers
+        """
+        if self._workers is None:
+            self._workers = self.executor.start(jobs)
+        return self._workers
+
+    @contextmanager
+    def calls(self, jobs: int, check: Any = None) -> Iterator[Calls]:
+        """Take calls within a block; local processes end with it.
+
+        Parameters
+        ----------
+        jobs : int
+            Most workers, where their number is chosen here.
+        check : tuple, optional
+            As ``Calls`` takes it.
+        """
+        try:
+            yield Calls(self.workers(jobs), self.executor.tries, check)
+        finally:
+            if not self.remote:
+                self.close()
+
+    def close(self) -> None:
+        """End the workers that were started."""
+        if self._workers is not None:
+            self._workers.shutdown()
+            self._workers = None
+
+
+_chosen: ContextVar[ChosenExecutor | None] = ContextVar("executor", default=None)
+
+
+@contextmanager
+def use_executor(text: str | None, config: str | Path | None = None) -> Iterator[None]:
+    """Let all work within a ``with`` block be done by an executor.
+
+    Parameters
+    ----------
+    text : str or None
+        As ``find`` takes it. None, without a file, changes nothing.
+    config : path, optional
+        A TOML file of settings.
+
+    Raises
+    ------
+    InputError, FormatError
+        As ``find``.
+    """
+    if text is None and config is None:
+        yield
+        return
+    chosen = ChosenExecutor(find(text, config))
+    token = _chosen.set(chosen)
+    try:
+        yield
+    finally:
+        _chosen.reset(token)
+        chosen.close()
+
+
+def chosen_executor() -> ChosenExecutor:
+    """Return the executor in force: that of ``use_executor``, else processes on this machine."""
+    return _chosen.get() or ChosenExecutor(LocalProcesses())

@@ -1,0 +1,1 @@
+"""Executors, one a module: processes here, a Dask scheduler's workers, ranks of MPI, jobs of Slurm."""

@@ -1,0 +1,192 @@
+"""Workers of a Dask scheduler, or a scheduler and workers started here (Rocklin 2015)."""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+import time
+import warnings
+from collections.abc import Callable
+from concurrent.futures import Future
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar
+
+from gbnbench.core.errors import InputError, UnfinishedError
+from gbnbench.core.readable_text import in_one_line
+from gbnbench.execution.executors.extra import require
+from gbnbench.execution.remote_call import Answer
+from gbnbench.execution.worker_pool import ONE_THREAD
+
+LOCAL = "local"
+ORPHANED_SECONDS = "20s"  # after which workers end whose driver, and scheduler with it, is gone
+
+
+@dataclass(frozen=True)
+class DaskScheduler:
+    """The workers of a Dask scheduler.
+
+    Attributes
+    ----------
+    address : str
+        Of the scheduler, such as ``tcp://head:8786``; ``local`` starts one here with ``--jobs`` workers.
+    tries : int
+        How often a piece is tried that its worker could not make.
+    connect_seconds : float
+        How long the scheduler is waited for.
+    wait_seconds : float
+        How long a run waits while there is no worker at all.
+    """
+
+    name: ClassVar[str] = "dask"
+    summary: ClassVar[str] = "workers of a Dask scheduler: dask:tcp://HOST:PORT, or dask:local for one here"
+    remote: ClassVar[bool] = True
+
+    address: str = ""
+    tries: int = 3
+    connect_seconds: float = 30.0
+    wait_seconds: float = 60.0
+
+    def start(self, jobs: int) -> DaskWorkers:
+        """Connect to the scheduler, or start one."""
+        require("distributed", "dask", self.name)
+        if not self.address:
+            raise InputError("give the address of the Dask scheduler, dask:tcp://HOST:8786, or dask:local")
+        return DaskWorkers(self, jobs)
+
+
+class DaskWorkers:
+    """The workers behind a client of a scheduler.
+
+    Parameters
+    ----------
+    settings : DaskScheduler
+        Where they are.
+    jobs : int
+        How many to start, for ``local``.
+    """
+
+    def __init__(self, settings: DaskScheduler, jobs: int) -> None:
+        from distributed import Client
+
+        _silence()
+        self._settings = settings
+        self._stack = contextlib.ExitStack()
+        target: Any = settings.address
+        if target == LOCAL:
+            target = self._stack.enter_context(_started_here(jobs))
+        try:
+            self._client = self._stack.enter_context(
+                Client(target, set_as_default=False, timeout=settings.connect_seconds)  # type: ignore[no-untyped-call]
+            )
+        except (OSError, TimeoutError, ValueError) as error:
+            self._stack.close()
+            raise UnfinishedError(
+                f"no Dask scheduler answers at {settings.address} ({in_one_line(str(error))}); "
+                "start one with: dask scheduler"
+            ) from None
+        self._executor = self._client.get_executor(pure=False)
+        self._avoided: set[str] = set()
+        self._alone_since: float | None = None
+        try:
+            if target is not settings.address:
+                self._client.wait_for_workers(jobs, timeout=settings.connect_seconds)
+            self._refuse_threads()
+        except BaseException:
+            self.shutdown()
+            raise
+
+    @property
+    def count(self) -> int:
+        """Workers that are there now."""
+        return max(1, len(self._present()))
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any) -> Future[Any]:
+        """Queue a call with the scheduler."""
+        chosen = {}
+        if self._avoided:
+            fit = [worker for worker in self._present() if worker not in self._avoided]
+            chosen = {"workers": fit, "allow_other_workers": False}
+        with warnings.catch_warnings():
+            warnings.filterwarnings("ignore", "Sending large graph")  # points and powers are large
+            future: Future[Any] = self._executor.submit(at_worker, fn, *args, **chosen)
+        return future
+
+    def shutdown(self) -> None:
+        """Cancel what is not finished and close the client, and the scheduler that was started."""
+        with contextlib.suppress(Exception):
+            self._executor.shutdown(wait=False)
+        with contextlib.suppress(Exception):
+            self._stack.close()
+
+    def trouble(self) -> str:
+        """Say whether the scheduler is gone, or there has been no worker for too long."""
+        where = self._settings.address
+        if self._client.status != "running":
+            return f"the Dask scheduler at {where} is gone"
+        if set(self._present()) - self._avoided:
+            self._alone_since = None
+            return ""
+        self._alone_since = self._alone_since or time.monotonic()
+        waited = time.monotonic() - self._alone_since
+        if waited < self._settings.wait_seconds:
+            return ""
+        return (
+            f"there has been no worker at the Dask scheduler {where} for {waited:.0f} s; start some with: "
+            f"dask worker {where} --nthreads 1"
+        )
+
+    def avoid(self, worker: str) -> bool:
+        """Send no more calls to a worker."""
+        self._avoided.add(worker)
+        return bool(set(self._present()) - self._avoided)
+
+    def _present(self) -> dict[str, Any]:
+        present: dict[str, Any] = self._client.scheduler_info(n_workers=-1)["workers"]
+        return present
+
+    def _refuse_threads(self) -> None:
+        """Refuse workers that would carry out several calls in one process."""
+        for address, about in self._present().items():
+            if about["nthreads"] != 1:
+                raise InputError(
+                    f"the Dask worker {address} carries out {about['nthreads']} calls at once in one "
+                    "process; gbnbench needs one: dask worker ADDRESS --nthreads 1 --nworkers N"
+                )
+
+
+def _started_here(jobs: int) -> Any:
+    """Start a scheduler in this process, which ends with it, and workers in processes of their own."""
+    from distributed import Scheduler, SpecCluster
+    from distributed.deploy.subprocess import SubprocessWorker
+
+    here = {"host": "127.0.0.1", "dashboard": False}
+    about = {
+        "nthreads": 1,
+        "env": ONE_THREAD,
+        "death_timeout": ORPHANED_SECONDS,
+        "memory_limit": 0,
+        "silence_logs": logging.CRITICAL,
+    }
+    worker = {"cls": SubprocessWorker, "options": {"worker_kwargs": {**here, **about}}}
+    return SpecCluster(  # type: ignore[no-untyped-call]
+        workers=dict.fromkeys(range(jobs), worker),
+        scheduler={"cls": Scheduler, "options": {**here, "port": 0}},
+        worker=worker,
+        name="gbnbench",
+        silence_logs=logging.CRITICAL,
+    )
+
+
+def _silence() -> None:
+    """Keep distributed's logs off the terminal: what matters of them is said by ``trouble``."""
+    for name in list(logging.root.manager.loggerDict):
+        if name == "distributed" or name.startswith("distributed."):
+            logging.getLogger(name).setLevel(logging.CRITICAL)
+
+
+def at_worker(function: Callable[..., Any], *arguments: Any) -> Any:
+    """Carry out a call in a Dask worker, whose address goes with its answer."""
+    from distributed import get_worker
+
+    answer = function(*arguments)
+    return replace(answer, worker=get_worker().address) if isinstance(answer, Answer) else answer

@@ -1,0 +1,1 @@
+"""Farthest-point optimisation for a density."""
