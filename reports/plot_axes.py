@@ -17,7 +17,7 @@ class _TicksOnDemand(Axis):
         """Tell on which sides the ticks are, from the first of each kind."""
         self.get_major_ticks(1)
         self.get_minor_ticks(1)
-        return super()._get_ticks_position()  # type: ignore[no-any-return]
+        return super()._get_ticks_position()  # type: ignore[misc, no-any-return]
 
     def _get_tick(self, major: bool) -> Tick:
         """Make a tick whose grid line ends at the frame."""
