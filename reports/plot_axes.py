@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any, cast
+
+import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis, Tick, XAxis, YAxis
 
@@ -37,6 +41,21 @@ class _Y(_TicksOnDemand, YAxis):
     pass
 
 
+def _style_of_ticks(side: str, which: str) -> dict[str, Any]:
+    """Collect the settings of ticks and grid lines, which matplotlib reads when it makes a tick."""
+    settings = cast("Mapping[str, Any]", mpl.rcParams)
+    colour, ink = settings[f"{side}.color"], settings[f"{side}.labelcolor"]
+    return {
+        **{name: settings[f"{side}.{which}.{name}"] for name in ("size", "width", "pad")},
+        **{f"grid_{name}": settings[f"grid.{name}"] for name in ("color", "linestyle", "linewidth", "alpha")},
+        "direction": settings[f"{side}.direction"],
+        "color": colour,
+        "labelcolor": colour if ink == "inherit" else ink,
+        "labelsize": settings[f"{side}.labelsize"],
+        "labelfontfamily": settings["font.family"],
+    }
+
+
 class PlotAxes(Axes):
     """Axes for figures of many panels, of which most show no ticks."""
 
@@ -49,7 +68,10 @@ class PlotAxes(Axes):
             self.spines[spine].register_axis(self.yaxis)
 
     def clear(self) -> None:
-        """Empty the axes; their frame is put in its place, as the first tick would."""
+        """Empty the axes; frame and ticks are settled as by the first tick, whatever the style when drawn."""
         super().clear()
+        for axis in (self.xaxis, self.yaxis):
+            for which in ("major", "minor"):
+                axis.set_tick_params(which, **_style_of_ticks(f"{axis.axis_name}tick", which))
         for spine in self.spines.values():
             spine.get_spine_transform()

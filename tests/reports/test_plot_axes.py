@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Callable
 
 import numpy as np
@@ -43,12 +44,18 @@ def image(ax: Axes) -> None:
 @pytest.mark.parametrize("draw", [curve, logarithmic, image])
 def test_pictures_are_those_of_axes_of_matplotlib(draw: Callable[[Axes], None]) -> None:
     @styled
-    def drawn(kind: type[Axes]) -> bytes:
+    def made(kind: type[Axes]) -> Figure:
         figure = Figure(figsize=(3, 2.5))
         draw(figure.add_axes((0.2, 0.2, 0.7, 0.65), axes_class=kind))
-        return png(figure)
+        return figure
 
-    assert drawn(PlotAxes) == drawn(Axes)
+    def saved(figure: Figure) -> bytes:
+        stream = io.BytesIO()
+        figure.savefig(stream, format="rgba", dpi=100)
+        return stream.getvalue()
+
+    assert png(made(PlotAxes)) == png(made(Axes))
+    assert saved(made(PlotAxes)) == styled(saved)(made(PlotAxes))  # the style is that of the figure
 
 
 def test_axes_have_no_ticks_before_they_are_drawn() -> None:
