@@ -13,6 +13,12 @@ class _TicksOnDemand(Axis):
         """Forget the ticks."""
         self.majorTicks, self.minorTicks = [], []  # pyright: ignore[reportAttributeAccessIssue]
 
+    def _get_ticks_position(self) -> int | str:
+        """Tell on which sides the ticks are, from the first of each kind."""
+        self.get_major_ticks(1)
+        self.get_minor_ticks(1)
+        return super()._get_ticks_position()  # type: ignore[misc, no-any-return]
+
     def _get_tick(self, major: bool) -> Tick:
         """Make a tick whose grid line ends at the frame."""
         tick: Tick = super()._get_tick(major)  # type: ignore[misc]  # of XAxis or YAxis

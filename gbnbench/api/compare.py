@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 
 from numpy.typing import ArrayLike
 
 from gbnbench.api.comparison import Comparison, draw, draw_unfinished, load_pictures
+from gbnbench.api.report_files import FIGURES
 from gbnbench.api.source_arguments import SourceLike, as_sources
 from gbnbench.execution import progress
 from gbnbench.execution.executor_choice import use_executor
@@ -34,6 +36,7 @@ def compare(
     reading: ReadingOptions = DEFAULT_READING,
     sides: ArrayLike | None = None,
     pictures: bool = False,
+    pdf: bool = False,
     command: str = "gbnbench.compare",
 ) -> Comparison:
     """Make and measure every source, in a folder from which the same call goes on where it was stopped.
@@ -74,6 +77,9 @@ def compare(
         Files tell their own, or ``reading`` does; generators make cubes.
     pictures : bool
         Also write report.html and the figures into the folder; ``Comparison.report`` makes them later.
+    pdf : bool
+        Write the figures also as PDF, in a finished folder too; ``gbnbench report FOLDER --pdf`` does
+        it later.
     command : str
         What the manifest and the report say was called.
 
@@ -118,10 +124,12 @@ def compare(
                 command=command,
                 skipped=skipped,
                 progress=shown,
-                draw=draw if pictures else None,
+                draw=partial(draw, pdf=pdf) if pictures else None,
                 grow=draw_unfinished if pictures else None,
                 meanwhile=load_pictures if pictures else None,
             )
+            if pictures and pdf and not any((done.folder / FIGURES).glob("*.pdf")):
+                draw(done.run, done.folder, pdf=True)  # the folder was finished, without them
     return Comparison(
         done.run,
         done.folder,

@@ -9,6 +9,7 @@ import base64
 import html
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -197,7 +198,7 @@ class Comparison:
         return "\n".join([html_table(self.run), *skipped, *pictures])
 
 
-def draw(run: Run, folder: Path) -> None:
+def draw(run: Run, folder: Path, *, pdf: bool = False) -> None:
     """Write the figures and report.html of a comparison into its folder.
 
     Parameters
@@ -206,6 +207,8 @@ def draw(run: Run, folder: Path) -> None:
         What was measured.
     folder : Path
         Where ``figures`` and report.html are made, or replaced.
+    pdf : bool
+        Make the figures also as PDF.
 
     Raises
     ------
@@ -215,7 +218,7 @@ def draw(run: Run, folder: Path) -> None:
     from gbnbench.reports.comparison.figure_files import write_figures
     from gbnbench.reports.html.page import write_report
 
-    write_files(run, folder, write_figures, write_report)
+    write_files(run, folder, partial(write_figures, with_pdf=pdf), write_report)
 
 
 def draw_unfinished(run: Run, folder: Path, unfinished: Unfinished) -> None:
@@ -238,7 +241,6 @@ def draw_unfinished(run: Run, folder: Path, unfinished: Unfinished) -> None:
 def load_pictures() -> None:
     """Import what makes the figures and the report, while other processes work."""
     import pandas  # noqa: F401
-    from fontTools import subset  # noqa: F401
-    from matplotlib.backends import backend_agg, backend_pdf  # noqa: F401
+    from matplotlib.backends import backend_agg  # noqa: F401
 
     import gbnbench.reports.html.page  # noqa: F401

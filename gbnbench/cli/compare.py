@@ -51,6 +51,7 @@ Examples:
 @options.groups
 @options.out_folder("Run folder.  [default: runs/NAME, by the settings]")
 @click.option("--baseline", type=click.Path(path_type=Path), help="A finished run to be judged against.")
+@click.option("--pdf", is_flag=True, help="Write the figures also as PDF.")
 @options.reading
 @options.realizations(16)
 @options.seed
@@ -69,6 +70,7 @@ def compare(
     seed: int,
     out: Path | None,
     baseline: Path | None,
+    pdf: bool,
     jobs: int | None,
     as_json: bool,
     quiet: bool,
@@ -108,6 +110,7 @@ def compare(
         quiet=quiet,
         reading=reading,
         pictures=True,
+        pdf=pdf,
         command=shlex.join(["gbnbench", *sys.argv[1:]]),
     )
     _show(comparison, as_json)

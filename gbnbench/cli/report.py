@@ -19,7 +19,8 @@ Examples:
 @click.command(cls=options.Command, epilog=EPILOG)
 @click.argument("runs", nargs=-1, required=True, metavar="RUN...", type=click.Path(path_type=Path))
 @options.out_file("Page of several runs side by side; of one run, its page alone, written there.")
-def report(runs: tuple[Path, ...], out: Path | None) -> None:
+@click.option("--pdf", is_flag=True, help="Write the figures of a comparison also as PDF.")
+def report(runs: tuple[Path, ...], out: Path | None, pdf: bool) -> None:
     """Draw a finished run again, or set several side by side.
 
     RUN is the folder of a comparison, also of stipplings, or of a study of integration. Several comparisons
@@ -32,6 +33,8 @@ def report(runs: tuple[Path, ...], out: Path | None) -> None:
 
     if len(runs) > 1 and out is None:
         raise click.UsageError("a report of several runs goes into a file of its own: give -o FILE")
+    if out is not None and pdf:
+        raise click.UsageError("--pdf writes figures into the folder of a run; -o FILE writes one page alone")
     if out is not None:
         for run in runs:
             if is_study(run) or is_stippling_run(run):
@@ -47,7 +50,7 @@ def report(runs: tuple[Path, ...], out: Path | None) -> None:
     if is_stippling_run(run):
         stippling_comparison.draw(stippling_comparison.StipplingComparison.read(run).run, run)
     else:
-        comparison.draw(comparison.Comparison.read(run).run, run)
+        comparison.draw(comparison.Comparison.read(run).run, run, pdf=pdf)
     click.echo(f"report: {run / 'report.html'}")
 
 

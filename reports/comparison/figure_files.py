@@ -1,4 +1,4 @@
-"""Every figure of a run as PNG and PDF files, each written whole or not at all."""
+"""Every figure of a run as PNG files, and as PDF where asked for, each written whole or not at all."""
 
 from __future__ import annotations
 
@@ -134,7 +134,9 @@ def planned(run: Run) -> list[tuple[str, Callable[[Run, Group | None], Figure], 
 
 
 @style.styled
-def write_figures(run: Run, folder: str | Path, drawn: dict[str, bytes] | None = None) -> list[Path]:
+def write_figures(
+    run: Run, folder: str | Path, drawn: dict[str, bytes] | None = None, *, with_pdf: bool = False
+) -> list[Path]:
     """Draw every figure that the run has data for.
 
     Parameters
@@ -145,12 +147,14 @@ def write_figures(run: Run, folder: str | Path, drawn: dict[str, bytes] | None =
         Folder of the files, made where missing. Files of the same names are replaced.
     drawn : dict of bytes, optional
         Takes each PNG by the stem of its file, as ``write_report`` can use them.
+    with_pdf : bool
+        Write each also as PDF, which takes as long again.
 
     Returns
     -------
     list of Path
-        ``gallery.png``, ``gallery.pdf`` and so on. In a run of several sizes or dimensions the names end in
-        ``_n1024_d2``, and the figure ``sweep`` shows the measures against n.
+        ``gallery.png`` and so on, ``gallery.pdf`` beside it where asked for. In a run of several sizes or
+        dimensions the names end in ``_n1024_d2``, and the figure ``sweep`` shows the measures against n.
 
     Raises
     ------
@@ -166,7 +170,8 @@ def write_figures(run: Run, folder: str | Path, drawn: dict[str, bytes] | None =
         picture = png(figure)
         if drawn is not None:
             drawn[name] = picture
-        for ending, content in (("png", picture), ("pdf", pdf(figure))):
+        files = {"png": picture, **({"pdf": pdf(figure)} if with_pdf else {})}
+        for ending, content in files.items():
             path = folder / f"{name}.{ending}"
             write_whole(path, content)
             written.append(path)

@@ -128,7 +128,7 @@ def _framed(image: AxesImage) -> bytes:
     """Write an image that fills its panel, in grey or 256 colours: faster and smaller than as a figure."""
     width, margin, frame = round(PANEL * DOTS), 3, 1
     side = width - 2 * (margin + frame)
-    shades = image.to_rgba(np.asarray(image.get_array()), bytes=True)[::-1, :, :3]
+    shades = image.to_rgba(np.ma.asanyarray(image.get_array()), bytes=True)[::-1, :, :3]
     if (shades == shades[:, :, :1]).all():
         drawn = Image.fromarray(np.ascontiguousarray(shades[:, :, 0]))
     else:

@@ -53,10 +53,10 @@ def test_compare_prints_a_table_and_leaves_a_whole_run(whole: Whole) -> None:
     names = {path.relative_to(out).as_posix() for path in out.rglob("*") if path.is_file()}
     assert {
         "manifest.json", "settings.json", "measures.csv", "table.csv", "report.html", "figures/gallery.png",
-        "figures/gallery.pdf", "sources/random_n64_d2/points.npz", "sources/random_n64_d2/spectrum.npz",
+        "sources/random_n64_d2/points.npz", "sources/random_n64_d2/spectrum.npz",
         "sources/mine_n64_d2/radial.csv",
     } <= names  # fmt: skip
-    assert not any("parts" in name or name.endswith(".tmp") for name in names)
+    assert not any("parts" in name or name.endswith((".tmp", ".pdf")) for name in names)
     result = read_run(out)
     assert [(s.label, s.n, s.realizations) for s in result.sources] == [
         ("random", 64, 3), ("jittered", 64, 3), ("mine", 64, 3)
@@ -68,6 +68,21 @@ def test_compare_prints_a_table_and_leaves_a_whole_run(whole: Whole) -> None:
     assert result.sources[0].cpu_seconds > 0
     assert np.isnan(result.sources[2].cpu_seconds)
     assert result.manifest["command"].startswith("gbnbench compare random jittered mine.npy -n 64")
+
+
+@pytest.mark.slow
+def test_pdf_files_come_when_they_are_asked_for(tmp_path: Path) -> None:
+    line = ("compare", "random", "-n", "64", "--realizations", "2", "--jobs", "1", "--out", "run")
+    figures = tmp_path / "run" / "figures"
+    assert command(*line, cwd=tmp_path).returncode == 0
+    assert not list(figures.glob("*.pdf"))
+    assert command(*line, "--pdf", cwd=tmp_path).returncode == 0  # of the finished run
+    stems = {path.stem for path in figures.glob("*.png")}
+    assert {path.stem for path in figures.glob("*.pdf")} == stems
+    for path in figures.glob("*.pdf"):
+        path.unlink()
+    assert command("report", "run", "--pdf", cwd=tmp_path).returncode == 0
+    assert {path.stem for path in figures.glob("*.pdf")} == stems
 
 
 @pytest.mark.slow

@@ -56,7 +56,7 @@ def find(text: str | None, config: str | Path | None = None) -> Executor:
         wanted = type(known[key])
         if isinstance(value, bool) or not isinstance(value, (int, float) if wanted is float else wanted):
             raise InputError(f"{config}: {key} of {name} must be a {_WORDS[wanted]}; got {value!r}")
-        if wanted is not str and float(value) < (0 if key == "gpus" else 1):
+        if isinstance(value, (int, float)) and value < (0 if key == "gpus" else 1):
             raise InputError(f"{config}: {key} of {name} must be at least 1; got {value!r}")
     executor: Executor = EXECUTORS[name](**settings)
     return executor

@@ -51,7 +51,9 @@ def assert_drawn(content: bytes) -> None:
 @pytest.mark.slow
 def test_files_are_whole_named_and_repeatable(tmp_path: Path) -> None:
     run = samples.small_run()
-    paths = write_figures(run, tmp_path / "figures")
+    names = [path.name for path in write_figures(run, tmp_path / "pictures")]
+    assert names == [f"{name}.png" for name in FIGURES]
+    paths = write_figures(run, tmp_path / "figures", with_pdf=True)
     assert sorted(p.name for p in paths) == sorted(
         f"{name}.{end}" for name in FIGURES for end in ("pdf", "png")
     )
