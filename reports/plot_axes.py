@@ -25,6 +25,9 @@ class _TicksOnDemand(Axis):
         tick.set_clip_path(self.axes.patch)
         return tick
 
+    def _copy_tick_props(self, src: Tick, dest: Tick) -> None:
+        """Leave a new tick as it is: it was made with the settings of all."""
+
 
 class _X(_TicksOnDemand, XAxis):
     pass

@@ -72,15 +72,34 @@ def png(figure: Figure, dpi: float = style.DPI) -> bytes:
     bytes
         Content of the file.
     """
-    pixels, stream = io.BytesIO(), io.BytesIO()
+    stream = io.BytesIO()
+    pixels(figure, dpi).save(stream, format="png", dpi=(dpi, dpi), compress_level=COMPRESSION)
+    return stream.getvalue()
+
+
+@style.styled
+def pixels(figure: Figure, dpi: float = style.DPI) -> Image.Image:
+    """Render a figure.
+
+    Parameters
+    ----------
+    figure : Figure
+        Figure to render.
+    dpi : float
+        Pixels an inch.
+
+    Returns
+    -------
+    Image
+        Red, green and blue: figures are opaque, and without a fourth channel they are packed in half the
+        time.
+    """
+    drawn = io.BytesIO()
     _leave_empty_labels(figure)
     FigureCanvasAgg(figure)
-    figure.savefig(pixels, format="rgba", dpi=dpi)
+    figure.savefig(drawn, format="rgba", dpi=dpi)
     width, height = (int(inches * dpi) for inches in figure.get_size_inches())
-    # Figures are opaque: without the fourth channel they are packed in half the time, and no larger.
-    picture = Image.frombytes("RGBA", (width, height), pixels.getvalue()).convert("RGB")
-    picture.save(stream, format="png", dpi=(dpi, dpi), compress_level=COMPRESSION)
-    return stream.getvalue()
+    return Image.frombytes("RGBA", (width, height), drawn.getvalue()).convert("RGB")
 
 
 @style.styled

@@ -15,7 +15,7 @@ from PIL import Image, ImageColor
 
 from gbnbench.reports import style
 from gbnbench.reports.comparison import spectrum
-from gbnbench.reports.comparison.figure_files import png
+from gbnbench.reports.comparison.figure_files import pixels
 from gbnbench.reports.plot_axes import PlotAxes
 from gbnbench.runs.comparison_result import SourceResult
 
@@ -61,7 +61,7 @@ def figure_picture(figure: Figure, alt: str) -> Picture:
     Picture
         The figure at the resolution of all PNG files.
     """
-    return small_picture(png(figure), alt)
+    return Picture(alt, _packed(pixels(figure)))
 
 
 def small_picture(content: bytes, alt: str) -> Picture:
@@ -81,10 +81,15 @@ def small_picture(content: bytes, alt: str) -> Picture:
         lines, some are replaced by their neighbours in the palette, a few of 255 steps away.
     """
     with Image.open(io.BytesIO(content)) as picture:
-        packed, stream = picture.convert("RGB"), io.BytesIO()
-    packed = packed.quantize(COLOURS, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
-    packed.save(stream, format="png", compress_level=COMPRESSION)
-    return Picture(alt, stream.getvalue())
+        return Picture(alt, _packed(picture.convert("RGB")))
+
+
+def _packed(picture: Image.Image) -> bytes:
+    """Write an RGB picture as PNG with a palette."""
+    stream = io.BytesIO()
+    few = picture.quantize(COLOURS, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+    few.save(stream, format="png", compress_level=COMPRESSION)
+    return stream.getvalue()
 
 
 @style.styled
@@ -121,7 +126,7 @@ def gallery_panel(
     draw(ax, source)
     if plain and ax.images and source.sides is None:
         return Picture(alt, _framed(ax.images[0]))
-    return small_picture(png(figure, DOTS), alt)
+    return Picture(alt, _packed(pixels(figure, DOTS)))
 
 
 def _framed(image: AxesImage) -> bytes:
@@ -139,7 +144,7 @@ def _framed(image: AxesImage) -> bytes:
     panel.paste(ImageColor.getcolor(style.RULE, drawn.mode), (margin, margin, width - margin, width - margin))
     panel.paste(drawn, (margin + frame, margin + frame))
     if panel.mode == "RGB":
-        panel = panel.quantize(COLOURS, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+        return _packed(panel)
     stream = io.BytesIO()
     panel.save(stream, format="png", compress_level=COMPRESSION)
     return stream.getvalue()

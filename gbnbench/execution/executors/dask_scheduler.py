@@ -196,7 +196,7 @@ def _started_here(jobs: int) -> Any:
         scheduler={"cls": Scheduler, "options": {**here, "port": 0}},
         worker=worker,
         name="gbnbench",
-        silence_logs=logging.CRITICAL,
+        silence_logs=logging.CRITICAL,  # pyright: ignore[reportArgumentType]  # a level, and not a truth
     )
 
 
