@@ -1,4 +1,4 @@
-"""What is measured of the sets of a source, decided by their number and size alone, before there are any."""
+"""The plan of measuring a source, decided by the number and size of its sets before there are any."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What became of a measure as an array: its values, or the words in which it was refused."""
+"""Outcomes of measures as arrays: values, or the words in which a measure was refused."""
 
 from __future__ import annotations
 
@@ -57,12 +57,34 @@ def values_of(outcomes: Sequence[NDArray[Any]]) -> list[NDArray[Any]]:
 
 
 def is_refused(found: NDArray[Any]) -> bool:
-    """Tell whether an outcome is a refusal."""
+    """Tell whether an outcome is a refusal.
+
+    Parameters
+    ----------
+    found : array
+        As ``outcome`` returns it.
+
+    Returns
+    -------
+    bool
+    """
     return found.dtype.kind == "U"
 
 
 def within(pieces: Sequence[Arrays], name: str) -> list[dict[str, NDArray[Any]]]:
-    """Give the arrays of each piece whose names begin with ``name/``, without that beginning."""
+    """Give the arrays of each piece whose names begin with ``name/``, without that beginning.
+
+    Parameters
+    ----------
+    pieces : sequence of mapping
+        Arrays by name, one mapping a piece.
+    name : str
+        What the names begin with.
+
+    Returns
+    -------
+    list of dict
+    """
     start = f"{name}/"
     return [
         {key.removeprefix(start): array for key, array in piece.items() if key.startswith(start)}

@@ -64,6 +64,10 @@ class ChosenExecutor:
             Most workers, where their number is chosen here.
         check : tuple, optional
             As ``Calls`` takes it.
+
+        Yields
+        ------
+        Calls
         """
         try:
             yield Calls(self.workers(jobs), self.executor.tries, check)
@@ -91,6 +95,10 @@ def use_executor(text: str | None, config: str | Path | None = None) -> Iterator
         As ``find`` takes it. None, without a file, changes nothing.
     config : path, optional
         A TOML file of settings.
+
+    Yields
+    ------
+    None
 
     Raises
     ------

@@ -19,7 +19,19 @@ class Workers(Protocol):
         ...
 
     def submit(self, fn: Callable[..., Any], /, *args: Any) -> Future[Any]:
-        """Queue a call of a function of a module; an exception of the future means a lost worker."""
+        """Queue a call of a function of a module; an exception of the future means a lost worker.
+
+        Parameters
+        ----------
+        fn : callable
+            A function of a module.
+        *args
+            They can be pickled.
+
+        Returns
+        -------
+        Future
+        """
         ...
 
     def shutdown(self) -> None:
@@ -30,7 +42,18 @@ class Workers(Protocol):
         ...
 
     def avoid(self, worker: str) -> bool:
-        """Send no more calls to an unfit worker, where that can be chosen; False if none is left."""
+        """Send no more calls to an unfit worker, where that can be chosen; False if none is left.
+
+        Parameters
+        ----------
+        worker : str
+            As its answers name it.
+
+        Returns
+        -------
+        bool
+            False if no other is left.
+        """
         ...
 
 

@@ -41,7 +41,19 @@ class Answer:
 
 
 def packed(function: Callable[..., Any], *arguments: object) -> bytes:
-    """Pickle a call of a function of a module."""
+    """Pickle a call of a function of a module.
+
+    Parameters
+    ----------
+    function : callable
+        It is found by its module and name.
+    *arguments
+        They can be pickled.
+
+    Returns
+    -------
+    bytes
+    """
     return pickle.dumps((function, arguments), protocol=5)
 
 

@@ -92,7 +92,13 @@ class Pool(Executor):
         return future
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = True) -> None:  # noqa: ARG002
-        """End every child at once, whatever it is doing."""
+        """End every child at once, whatever it is doing.
+
+        Parameters
+        ----------
+        wait, cancel_futures : bool
+            Of the protocol; both are so in any case.
+        """
         with self._lock:
             self._closing = True
             for child in self._children:

@@ -138,24 +138,78 @@ def draw_realization(
 def measure_realizations(
     plan: MeasuringPlan, first: int, realizations: Sequence[Realization]
 ) -> dict[str, NDArray[Any]]:
-    """Measure a piece of the sets drawn, in a worker; as ``measure_piece``."""
+    """Measure a piece of the sets drawn, in a worker; as ``measure_piece``.
+
+    Parameters
+    ----------
+    plan : MeasuringPlan
+        Of the source.
+    first : int
+        The number of the first set.
+    realizations : sequence of Realization
+        The sets drawn.
+
+    Returns
+    -------
+    dict of arrays
+    """
     return measure_piece(_points(realizations), plan, first)
 
 
 def measure_sets(plan: MeasuringPlan, first: int, sets: FloatArray) -> dict[str, NDArray[Any]]:
-    """Measure a piece of the sets given, in a worker; as ``measure_piece``."""
+    """Measure a piece of the sets given, in a worker; as ``measure_piece``.
+
+    Parameters
+    ----------
+    plan : MeasuringPlan
+        Of the source.
+    first : int
+        The number of the first set.
+    sets : (sets, n, d) float64
+
+    Returns
+    -------
+    dict of arrays
+    """
     return measure_piece(sets, plan, first)
 
 
 def analyse_realizations(
     plan: MeasuringPlan, first: int, realizations: Sequence[Realization]
 ) -> AnalysisArrays:
-    """Measure all sets drawn for a source, which are one piece, in a worker."""
+    """Measure all sets drawn for a source, which are one piece, in a worker.
+
+    Parameters
+    ----------
+    plan : MeasuringPlan
+        Of the source.
+    first : int
+        The number of the first set.
+    realizations : sequence of Realization
+        The sets drawn.
+
+    Returns
+    -------
+    AnalysisArrays
+    """
     return merged_analysis(plan, [measure_realizations(plan, first, realizations)])
 
 
 def analyse_sets(plan: MeasuringPlan, first: int, sets: FloatArray) -> AnalysisArrays:
-    """Measure all sets given for a source, which are one piece, in a worker."""
+    """Measure all sets given for a source, which are one piece, in a worker.
+
+    Parameters
+    ----------
+    plan : MeasuringPlan
+        Of the source.
+    first : int
+        The number of the first set.
+    sets : (sets, n, d) float64
+
+    Returns
+    -------
+    AnalysisArrays
+    """
     return merged_analysis(plan, [measure_sets(plan, first, sets)])
 
 

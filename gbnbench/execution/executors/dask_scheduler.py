@@ -101,7 +101,19 @@ class DaskWorkers:
         return max(1, len(self._present()))
 
     def submit(self, fn: Callable[..., Any], /, *args: Any) -> Future[Any]:
-        """Queue a call with the scheduler."""
+        """Queue a call with the scheduler.
+
+        Parameters
+        ----------
+        fn : callable
+            A function of a module.
+        *args
+            They can be pickled.
+
+        Returns
+        -------
+        Future
+        """
         chosen = {}
         if self._avoided:
             fit = [worker for worker in self._present() if worker not in self._avoided]
@@ -136,7 +148,18 @@ class DaskWorkers:
         )
 
     def avoid(self, worker: str) -> bool:
-        """Send no more calls to a worker."""
+        """Send no more calls to a worker.
+
+        Parameters
+        ----------
+        worker : str
+            As its answers name it.
+
+        Returns
+        -------
+        bool
+            False if no other is left.
+        """
         self._avoided.add(worker)
         return bool(set(self._present()) - self._avoided)
 
@@ -173,7 +196,7 @@ def _started_here(jobs: int) -> Any:
         scheduler={"cls": Scheduler, "options": {**here, "port": 0}},
         worker=worker,
         name="gbnbench",
-        silence_logs=logging.CRITICAL,
+        silence_logs=logging.CRITICAL,  # pyright: ignore[reportArgumentType]  # a level, and not a truth
     )
 
 
@@ -185,7 +208,20 @@ def _silence() -> None:
 
 
 def at_worker(function: Callable[..., Any], *arguments: Any) -> Any:
-    """Carry out a call in a Dask worker, whose address goes with its answer."""
+    """Carry out a call in a Dask worker, whose address goes with its answer.
+
+    Parameters
+    ----------
+    function : callable
+        A function of a module.
+    *arguments
+        Its arguments.
+
+    Returns
+    -------
+    object
+        What it returned.
+    """
     from distributed import get_worker
 
     answer = function(*arguments)

@@ -70,7 +70,19 @@ class RankWorkers:
         self._executor = MPIPoolExecutor(count, initializer=one_thread)
 
     def submit(self, fn: Callable[..., Any], /, *args: Any) -> Future[Any]:
-        """Queue a call."""
+        """Queue a call.
+
+        Parameters
+        ----------
+        fn : callable
+            A function of a module.
+        *args
+            They can be pickled.
+
+        Returns
+        -------
+        Future
+        """
         future: Future[Any] = self._executor.submit(fn, *args)
         return future
 
@@ -83,7 +95,18 @@ class RankWorkers:
         return ""
 
     def avoid(self, worker: str) -> bool:  # noqa: ARG002 - mpi4py chooses
-        """Say that there may be others: MPI gives no choice of the rank."""
+        """Say that there may be others: MPI gives no choice of the rank.
+
+        Parameters
+        ----------
+        worker : str
+            As its answers name it.
+
+        Returns
+        -------
+        bool
+            False if no other is left.
+        """
         return self.count > 1
 
 

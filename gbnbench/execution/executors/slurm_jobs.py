@@ -119,7 +119,19 @@ class JobWorkers:
         return self._settings.jobs
 
     def submit(self, fn: Callable[..., Any], /, *args: Any) -> Future[Any]:
-        """Queue a call for the next job."""
+        """Queue a call for the next job.
+
+        Parameters
+        ----------
+        fn : callable
+            A function of a module.
+        *args
+            They can be pickled.
+
+        Returns
+        -------
+        Future
+        """
         future: Future[Any] = Future()
         self._waiting.append((future, (fn, *args)))
         return future
@@ -137,7 +149,18 @@ class JobWorkers:
         return self._trouble
 
     def avoid(self, worker: str) -> bool:  # noqa: ARG002 - Slurm chooses
-        """Say that there may be others: the next job may be given another node."""
+        """Say that there may be others: the next job may be given another node.
+
+        Parameters
+        ----------
+        worker : str
+            As its answers name it.
+
+        Returns
+        -------
+        bool
+            False if no other is left.
+        """
         return True
 
     def _attend(self) -> None:
@@ -175,7 +198,18 @@ class JobWorkers:
 
 
 def carried_out(calls: Sequence[tuple[Any, ...]]) -> list[Any]:
-    """Carry out the calls of a job, one after another, with one thread."""
+    """Carry out the calls of a job, one after another, with one thread.
+
+    Parameters
+    ----------
+    calls : sequence of tuple
+        A function and its arguments each.
+
+    Returns
+    -------
+    list
+        What they returned.
+    """
     import os
 
     for name, value in ONE_THREAD.items():
