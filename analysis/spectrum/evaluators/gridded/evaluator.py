@@ -95,7 +95,7 @@ class GriddedProduct(DeviceEvaluator):
         """State the product's errors for points that are spread over the torus."""
         p, n, f = self.on_device, request.n, request.fmax
         crowd = min(n, 2 * n * WIDTH[p.name] // nodes_for(f, p.lanes) + 1)
-        return gridded_errors(p, f, crowd, rounded_at_worst(n, request.d, p.name))
+        return gridded_errors(p, f, n, crowd, rounded_at_worst(n, request.d, p.name))
 
     def cube(
         self, x: FloatArray, fmax: int, weights: FloatArray | None, *, half: bool, mean: bool

@@ -58,7 +58,7 @@ def gridded_powers(
         grid.multiply(len(held.x))
         writer.add(grid.program, grid.amplitude, 1, over, first, len(held.x), 0, fmax + 1)
     power = writer.result()
-    errors = gridded_errors(p, fmax, crowd, coordinates(x, p.name, weights))
+    errors = gridded_errors(p, fmax, x.shape[-2], crowd, coordinates(x, p.name, weights))
     at = (2 * fmax + 1) ** (d - 1) // 2
     if n <= PLAIN_FROM:
         totals = np.full(sets, float(n)) if weights is None else weights.sum(axis=1) ** 2 / norms
@@ -71,7 +71,7 @@ def gridded_powers(
     return power, Errors(max(errors.rms, plain.rms), max(errors.bound, plain.bound))
 
 
-def gridded_errors(p: Precision, fmax: int, crowd: int, at: Coordinates) -> Errors:
+def gridded_errors(p: Precision, fmax: int, n: int, crowd: int, at: Coordinates) -> Errors:
     """State the errors of sqrt(power).
 
     Parameters
@@ -80,6 +80,8 @@ def gridded_errors(p: Precision, fmax: int, crowd: int, at: Coordinates) -> Erro
         Precision on the device.
     fmax : int
         Largest harmonic on each axis.
+    n : int
+        Points of a set.
     crowd : int
         Points that reach the node which most of them reach.
     at : Coordinates
@@ -99,12 +101,14 @@ def gridded_errors(p: Precision, fmax: int, crowd: int, at: Coordinates) -> Erro
     # First the points' table and the window, then the nodes' table and the sum over nodes.
     sums = "double" if p.sum is np.float64 else "float"
     to_nodes = sum_errors(p.name, p.name, Coordinates(0, 0, at.share), 0, 2, in_run, beyond)
-    steps = min(SUM_POINTS, nodes // 2 + 1)
-    from_nodes = sum_errors(
-        p.name, sums, Coordinates(0, 0, at.share), 0, 2, steps, -(-(nodes // 2 + 1) // SUM_POINTS)
-    )
+    at_nodes = Coordinates(0, 0, at.share)
+    steps, blocks = min(SUM_POINTS, nodes // 2 + 1), -(-(nodes // 2 + 1) // SUM_POINTS)
+    from_nodes = sum_errors(p.name, sums, at_nodes, 0, 2, steps, blocks)
+    # Nodes that no point reaches hold zero, and to add a zero rounds nothing.
+    filled = n * (WIDTH[p.name] + p.lanes)
+    worst = sum_errors(p.name, sums, at_nodes, 0, 2, min(steps, filled), min(blocks, filled)).bound
     rounded = 2 * math.pi * fmax
-    bound = magnified * (to_nodes.bound + from_nodes.bound) + at.share * (2 * shape.left_out)
+    bound = magnified * (to_nodes.bound + worst) + at.share * (2 * shape.left_out)
     typical = math.hypot(to_nodes.rms, from_nodes.rms, UNIT[p.name] * math.sqrt(0.2 * runs))
     typical *= math.sqrt(magnified) / 2
     return Errors(math.hypot(typical, rounded / math.sqrt(6) * at.scattered), bound + rounded * at.coherent)
