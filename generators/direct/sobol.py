@@ -97,7 +97,13 @@ def unscrambled(bits: int, d: int) -> NDArray[np.int64]:
     (2**bits, d) int64
         Coordinates times 2**bits.
     """
-    numbers = directions(d)[:, :bits] >> (MOST_BITS - bits)
+    try:
+        numbers = directions(d)[:, :bits] >> (MOST_BITS - bits)
+    except (OSError, KeyError):  # the table is scipy's own affair, and may move
+        from scipy.stats import qmc
+
+        plain = qmc.Sobol(d, scramble=False, bits=MOST_BITS).random_base2(bits)
+        return np.asarray(np.floor(plain * 2**bits), np.int64)
     points = np.zeros((1, d), dtype=np.int64)
     for number in numbers.T:  # the second half of a Gray code is the first in reverse, with one digit more
         points = np.concatenate([points, points[::-1] ^ number])

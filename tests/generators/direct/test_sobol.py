@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy.stats import chisquare, kstest, qmc
 
+from gbnbench.generators.direct import sobol
 from gbnbench.generators.direct.sobol import (
     MOST_BITS,
     MOST_DIMENSIONS,
@@ -32,6 +33,14 @@ def test_every_elementary_interval_holds_one_point_in_2d(m: int) -> None:
 def test_unscrambled_points_are_those_of_scipy(bits: int, d: int) -> None:
     theirs = qmc.Sobol(d, scramble=False, bits=MOST_BITS).random_base2(bits)
     assert np.array_equal(unscrambled(bits, d) * 2.0**-bits, theirs)
+
+
+def test_points_are_the_same_where_scipy_has_moved_its_table(monkeypatch: pytest.MonkeyPatch) -> None:
+    kept = generate("sobol", n=100, d=3, seed=2)
+    monkeypatch.setattr(sobol, "NUMBERS", "stats/elsewhere.npz")
+    sobol.directions.cache_clear()
+    assert np.array_equal(generate("sobol", n=100, d=3, seed=2), kept)
+    sobol.directions.cache_clear()
 
 
 def test_all_direction_numbers_are_those_of_scipy() -> None:
