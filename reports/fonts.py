@@ -8,7 +8,9 @@ from collections.abc import Iterator
 from functools import cache
 
 import matplotlib as mpl
+from matplotlib.figure import Figure
 from matplotlib.font_manager import findfont, findSystemFonts, fontManager, get_font
+from matplotlib.text import Text
 
 OWN = "DejaVu Sans"
 LIKELY = ("cjk", "noto sans", "han", "gothic", "hei", "song", "ming", "unicode", "wqy", "droid", "nanum")
@@ -41,6 +43,20 @@ def has_glyph(sign: str) -> bool:
         _fallbacks.append(family)
     mpl.rcParams["font.family"] = families()  # of the figure that is being drawn
     return True
+
+
+def renew(figure: Figure) -> None:
+    """Let texts of a figure fall back too that were made before a label needed another font: titles are.
+
+    Parameters
+    ----------
+    figure : Figure
+        Its texts in our own font change.
+    """
+    if _fallbacks:
+        for text in figure.findobj(Text):
+            if text.get_fontfamily()[0] == OWN:
+                text.set_fontfamily(families())
 
 
 def shortage() -> str:

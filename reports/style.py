@@ -9,6 +9,7 @@ from functools import wraps
 from typing import Any, ParamSpec, TypeVar
 
 import matplotlib as mpl
+from matplotlib.figure import Figure
 
 from gbnbench.reports import fonts
 from gbnbench.runs.comparison_result import Run
@@ -94,7 +95,10 @@ def styled(draw: Callable[P, T]) -> Callable[P, T]:
             mpl.rcdefaults()
             mpl.rcParams.update(STYLE)  # type: ignore[arg-type]
             mpl.rcParams["font.family"] = fonts.families()  # matplotlib falls back within these alone
-            return draw(*args, **kwargs)
+            drawn = draw(*args, **kwargs)
+            if isinstance(drawn, Figure):
+                fonts.renew(drawn)
+            return drawn
 
     return inside
 

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from gbnbench.core.atomic_write import write_whole
-from gbnbench.reports import style
+from gbnbench.reports import fonts, style
 from gbnbench.reports.comparison import (
     gallery,
     loglog,
@@ -96,6 +96,7 @@ def pixels(figure: Figure, dpi: float = style.DPI) -> Image.Image:
     """
     drawn = io.BytesIO()
     _leave_empty_labels(figure)
+    fonts.renew(figure)
     FigureCanvasAgg(figure)
     figure.savefig(drawn, format="rgba", dpi=dpi)
     width, height = (int(inches * dpi) for inches in figure.get_size_inches())
@@ -107,6 +108,7 @@ def pdf(figure: Figure) -> bytes:
     """Render a figure as PDF, without a date, so that equal figures give equal bytes."""
     stream = io.BytesIO()
     _leave_empty_labels(figure)
+    fonts.renew(figure)
     with lean_fonts():
         figure.savefig(stream, format="pdf", dpi=200, metadata={"CreationDate": None, "Producer": None})
     return stream.getvalue()

@@ -91,3 +91,13 @@ def test_pictures_without_such_signs_are_the_same_beside_them(font_of_signs: str
     before = png(figure("gbn"))
     figure(SIGNS)
     assert png(figure("gbn")) == before
+
+
+def test_a_title_that_is_older_than_its_font_is_drawn_by_it(font_of_signs: str) -> None:
+    @style.styled
+    def titled() -> Figure:
+        drawn = Figure(figsize=(1, 1))
+        drawn.add_subplot().set_title(shown("点"))  # the axes make their title before its text is known
+        return drawn
+
+    assert titled().axes[0].title.get_fontfamily() == [fonts.OWN, font_of_signs]
