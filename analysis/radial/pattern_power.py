@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.analysis.spectrum.shell_spectrum import shells
+from gbnbench.analysis.spectrum.shells import EDGE
 from gbnbench.core.errors import InputError
 from gbnbench.core.results.radial import ShellSpectrum
 from gbnbench.core.sides import as_sides
@@ -103,7 +104,7 @@ def pattern_spectrum(ranks: NDArray[np.int64], ones: int, fmax: int) -> ShellSpe
 
 
 def _mean(spectrum: ShellSpectrum, end: float) -> float:
-    low = spectrum.frequency <= end
+    low = spectrum.frequency <= end * (1 + EDGE)
     if not low.any():
         return float(spectrum.power[0])
     return float(np.average(spectrum.power[low], weights=spectrum.count[low]))

@@ -20,7 +20,7 @@ from gbnbench.io.exports.c_header import c_header, c_name
 from gbnbench.io.exports.number_types import NumberType, check_number_type
 from gbnbench.io.exports.raw_numbers import raw_numbers
 from gbnbench.io.points.point_sets import PointSets, in_own_unit
-from gbnbench.io.points.writer import WRITTEN, encode, lost_box, suffix_of
+from gbnbench.io.points.writer import WRITTEN, encode, suffix_of
 
 HEADER, RAW, JSON = ".h", (".bin", ".raw"), ".json"
 PICTURES = (".png", ".exr")
@@ -61,26 +61,25 @@ def default_type(path: Path, number_type: str | None) -> NumberType:
     return checked
 
 
-def check_box(path: Path, sides: Sequence[float] | None) -> None:
-    """Refuse a file that cannot hold the box of its points.
+def check_format(path: Path, sets: int, d: int, sides: Sequence[float] | None) -> None:
+    """Refuse a file whose format cannot hold the sets, before they are drawn.
 
     Parameters
     ----------
     path : Path
         File to write, of a suffix that ``default_type`` knows.
+    sets, d : int
+        How many, and their dimension.
     sides : sequence of float or None
         Of the box; None for a cube.
 
     Raises
     ------
     InputError
-        If lengths could not be measured from the file alone.
+        If it holds fewer sets or other dimensions, or no box.
     """
-    suffix = path.suffix.lower()
-    if sides is None or suffix in (HEADER, *RAW, JSON):
-        return
-    if (lost := lost_box(path, PointSets([], tuple(sides)))) is not None:
-        raise InputError(f"{path}: {lost}")
+    if path.suffix.lower() not in (HEADER, *RAW, JSON):
+        encode(path, _boxed([np.zeros((1, d))] * min(sets, 2), sides))
 
 
 def encode_sets(
@@ -120,10 +119,10 @@ def encode_sets(
     about = description(made, identities, seed)
     if suffix in RAW:
         return raw_numbers(path, values, about)
-    boxed = PointSets(list(made.points), made.sides, None if made.sides is None else (0.0,) * d)
+    boxed = _boxed(list(made.points), made.sides)
     if suffix == JSON:
         return {path: _json(boxed, about)}
-    return {path: encode(path, boxed if made.sides is not None else made.points)}
+    return {path: encode(path, boxed)}
 
 
 def description(made: ExportedSets, identities: Sequence[dict[str, Any]], seed: int) -> dict[str, Any]:
@@ -188,6 +187,12 @@ def comment_lines(made: ExportedSets, array: str, seed: int) -> Iterator[str]:
             f"{number(one.over_random)} times as far apart as random ones."
         )
     yield from made.remarks
+
+
+def _boxed(sets: list[FloatArray], sides: Sequence[float] | None) -> PointSets:
+    if sides is None:
+        return PointSets(sets)
+    return PointSets(sets, tuple(sides), (0.0,) * len(sides))
 
 
 def _json(x: PointSets, about: dict[str, Any]) -> bytes:

@@ -16,7 +16,7 @@ from gbnbench.analysis.radial.projection_quality import (
     qualities,
     renderers_projections,
 )
-from gbnbench.api.export_files import check_box, default_type, encode_sets
+from gbnbench.api.export_files import check_format, default_type, encode_sets
 from gbnbench.api.exports import ExportedSets, SetCopy
 from gbnbench.api.source_arguments import SourceLike, as_sources
 from gbnbench.core.atomic_write import check_folder
@@ -24,7 +24,7 @@ from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.memory import too_large
 from gbnbench.core.sides import as_sides
 from gbnbench.core.torus import FloatArray
-from gbnbench.core.torus_isometry import isometry, random_isometries, repeated
+from gbnbench.core.torus_isometry import check_counts, isometry, random_isometries, repeated
 from gbnbench.generators.monitor import Monitor
 from gbnbench.generators.registry import generate
 from gbnbench.io.exports.number_types import NumberType, fractions, rounded
@@ -127,11 +127,10 @@ def export_sets(
     rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=COPIES_STREAM))
     sides = None if as_sides(first.sides, first.d) is None else first.sides
     asked = isometry(first.d, swap, flip, _shift(shift, first.d, rng), sides)
-    tiles = (1,) * first.d if repeat is None else tuple(repeat)
-    repeated(np.zeros((1, first.d)), tiles)  # wrong counts are refused before the work
+    tiles = (1,) * first.d if repeat is None else check_counts(repeat, first.d)
     whole = None if sides is None and len(set(tiles)) == 1 else _whole(sides, tiles)
-    check_box(path, whole)
     sets = sum(one.realizations for one in sources) * copies
+    check_format(path, sets, first.d, whole)
     if reason := too_large(3 * 8.0 * sets * first.n * first.d * math.prod(tiles)):
         raise RefusalError(f"{sets} sets of n={first.n * math.prod(tiles)} points {reason}; export fewer")
     with use_device(device):

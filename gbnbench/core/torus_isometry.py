@@ -179,13 +179,19 @@ def repeated(x: FloatArray, counts: Sequence[int]) -> FloatArray:
     product, and 0 at all others: neighbouring copies of a point stand on a lattice.
     """
     d = x.shape[-1]
+    check_counts(counts, d)
+    tiles = np.stack(np.meshgrid(*(np.arange(c) for c in counts), indexing="ij"), axis=-1).reshape(-1, d)
+    laid = (x[..., None, :, :] + tiles[:, None, :]) / np.array(counts)
+    return wrap(laid.reshape(*x.shape[:-2], -1, d))
+
+
+def check_counts(counts: Sequence[int], d: int) -> tuple[int, ...]:
+    """Return counts of tiles, one for each of d axes; an InputError says that they are none."""
     if len(counts) != d or not all(isinstance(c, (int, np.integer)) and c >= 1 for c in counts):
         raise InputError(
             f"repeat must be {d} whole numbers of at least 1, one for each axis; got {tuple(counts)}"
         )
-    tiles = np.stack(np.meshgrid(*(np.arange(c) for c in counts), indexing="ij"), axis=-1).reshape(-1, d)
-    laid = (x[..., None, :, :] + tiles[:, None, :]) / np.array(counts)
-    return wrap(laid.reshape(*x.shape[:-2], -1, d))
+    return tuple(int(c) for c in counts)
 
 
 def _axes(what: str, given: Sequence[int], d: int, count: int | None) -> tuple[int, ...]:
