@@ -7,7 +7,7 @@
 
 Each pixel averages the pattern over its own square at all points of the set, shifted on the torus by a vector
 that it reads from the mask (Cranley & Patterson 1976). What is printed is the root mean square error against
-1,024 points a pixel.
+256 points a pixel.
 """
 
 import json
@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-SIDE, REFERENCE = 256, 32  # pixels of the picture; points along each side of a pixel, for the reference
+SIDE, REFERENCE = 128, 16  # pixels of the picture; points along each side of a pixel, for the reference
 
 
 def pattern(x: np.ndarray, y: np.ndarray) -> np.ndarray:
