@@ -12,6 +12,7 @@ The names below load their modules when first used, so that importing gbnbench c
 - ``compare_stipplings(image, sources)``: stipplers and stipplings by anybody side by side, as a
   ``StipplingComparison``;
 - ``load(path)``, ``save(path, x)``: point-set files;
+- ``export_sets(path, source)``, ``export_mask(path, shape)``, ``dither_mask(shape)``: files for renderers;
 - ``wrap(x)``, ``scale(x, low, high)``: points brought onto the unit torus [0, 1)^d;
 - ``periodogram(x, fmax)``: exact power at every integer frequency; ``radial(spectrum)``: its radial mean;
 - ``shells(x, fmax)``: radial power and anisotropy without the cube, in any dimension;

@@ -138,7 +138,29 @@ def qualities(
     sides: ArrayLike | None = None,
     progress: Callable[[int, int, str], None] | None = None,
 ) -> tuple[ProjectionQuality, ...]:
-    """Measure several projections as ``projection_quality`` does, and tell of each."""
+    """Measure several projections as ``projection_quality`` does, and tell of each.
+
+    Parameters
+    ----------
+    x : (n, d) or (realizations, n, d) array_like
+        Points on the unit torus.
+    chosen : sequence of sequences of int
+        Coordinates of each projection.
+    sides : (d,) array_like, optional
+        Lengths of the torus's sides, whose ratios count; a cube if not given.
+    progress : callable, optional
+        Called with (projections done, projections in all, what is being done).
+
+    Returns
+    -------
+    tuple of ProjectionQuality
+        In the order of ``chosen``.
+
+    Raises
+    ------
+    InputError
+        As ``projection_quality``.
+    """
     found = []
     for k, axes in enumerate(chosen):
         found.append(projection_quality(x, axes, sides))

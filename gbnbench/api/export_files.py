@@ -126,7 +126,22 @@ def encode_sets(
 
 
 def description(made: ExportedSets, identities: Sequence[dict[str, Any]], seed: int) -> dict[str, Any]:
-    """Return what was made, of what and how good it is, JSON-ready."""
+    """Describe what was made, of what, and how good it is.
+
+    Parameters
+    ----------
+    made : ExportedSets
+        The points and what was measured of them.
+    identities : sequence of dict
+        What decides the points of each source, JSON-ready.
+    seed : int
+        Of generators, copies and random shifts.
+
+    Returns
+    -------
+    dict
+        JSON-ready.
+    """
     unit = "2^-32 of a side of the box" if made.number_type == "uint32" else "sides of the box, 0 to 1"
     return {
         "gbnbench": __version__,

@@ -1,4 +1,4 @@
-"""What an export wrote: the files, the numbers in them, and what was measured of them."""
+"""Results of exports: the files, the numbers in them, and what was measured of them."""
 
 from __future__ import annotations
 

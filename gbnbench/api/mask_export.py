@@ -106,7 +106,7 @@ def export_mask(
     if path.suffix.lower() == ".png" and ranks.size > 2**depth:
         remarks.append(f"{ranks.size:,} ranks share the {2**depth:,} values of {depth} bits")
     if ranks.ndim == 3:
-        remarks.append("ranks are of all frames: the share of ones of a frame varies by a pixel or so")
+        remarks.append("ranks are of all frames: the ones of a level differ between frames by a few pixels")
     return ExportedMask(tuple(reversed(files)), ranks, depth, levels, tuple(remarks))
 
 

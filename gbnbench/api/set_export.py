@@ -22,9 +22,10 @@ from gbnbench.api.source_arguments import SourceLike, as_sources
 from gbnbench.core.atomic_write import check_folder
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.memory import too_large
+from gbnbench.core.repeated_tile import check_counts, repeated
 from gbnbench.core.sides import as_sides
 from gbnbench.core.torus import FloatArray
-from gbnbench.core.torus_isometry import check_counts, isometry, random_isometries, repeated
+from gbnbench.core.torus_isometry import isometry, random_isometries
 from gbnbench.generators.monitor import Monitor
 from gbnbench.generators.registry import generate
 from gbnbench.io.exports.number_types import NumberType, fractions, rounded
@@ -114,8 +115,9 @@ def export_sets(
     >>> from pathlib import Path
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     made = export_sets(f"{folder}/sets.h", "gbn[iterations=10]", n=16, copies=2)
-    ...     print(Path(folder, "sets.h").read_text().splitlines()[10])
-    static const float sets_points[2][16][2] = {
+    ...     lines = Path(folder, "sets.h").read_text().splitlines()
+    >>> next(line for line in lines if line.startswith("static"))
+    'static const float sets_points[2][16][2] = {'
     """
     path = Path(path)
     numbers = default_type(path, number_type)

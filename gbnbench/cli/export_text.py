@@ -1,4 +1,4 @@
-"""What ``gbnbench export`` says of the files that it wrote, in lines and as JSON."""
+"""The words of ``gbnbench export`` on the files that it wrote, in lines and as JSON."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Isometries of the torus that keep its axes: shifts, reflections, exchanges of axes; and tiles repeated."""
+"""Isometries of the torus that keep its axes: shifts, reflections and exchanges of axes."""
 
 from __future__ import annotations
 
@@ -151,47 +151,6 @@ def random_isometries(
             continue
         drawn.append(TorusIsometry(*waiting.pop(), tuple(rng.random(d).tolist())))
     return tuple(drawn[:count])
-
-
-def repeated(x: FloatArray, counts: Sequence[int]) -> FloatArray:
-    """Lay a tile side by side, and take the whole as the new unit torus.
-
-    Parameters
-    ----------
-    x : (..., n, d) float64
-        Points of the tile.
-    counts : (d,) sequence of int
-        Tiles along each axis.
-
-    Returns
-    -------
-    (..., n * product of counts, d) float64
-        All points of one tile, then all of the next; the last axis moves fastest.
-
-    Raises
-    ------
-    InputError
-        If counts are not d whole numbers of at least 1.
-
-    Notes
-    -----
-    The spectrum is that of the tile at the frequencies that are multiples of ``counts``, times their
-    product, and 0 at all others: neighbouring copies of a point stand on a lattice.
-    """
-    d = x.shape[-1]
-    check_counts(counts, d)
-    tiles = np.stack(np.meshgrid(*(np.arange(c) for c in counts), indexing="ij"), axis=-1).reshape(-1, d)
-    laid = (x[..., None, :, :] + tiles[:, None, :]) / np.array(counts)
-    return wrap(laid.reshape(*x.shape[:-2], -1, d))
-
-
-def check_counts(counts: Sequence[int], d: int) -> tuple[int, ...]:
-    """Return counts of tiles, one for each of d axes; an InputError says that they are none."""
-    if len(counts) != d or not all(isinstance(c, (int, np.integer)) and c >= 1 for c in counts):
-        raise InputError(
-            f"repeat must be {d} whole numbers of at least 1, one for each axis; got {tuple(counts)}"
-        )
-    return tuple(int(c) for c in counts)
 
 
 def _axes(what: str, given: Sequence[int], d: int, count: int | None) -> tuple[int, ...]:

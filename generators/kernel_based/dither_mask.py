@@ -15,7 +15,7 @@ from gbnbench.generators.kernel_based.void_and_cluster import initial_binary_pat
 from gbnbench.generators.ranges import check_range
 
 INITIAL = 0.1  # share of ones in the initial binary pattern
-MOST_PIXELS = 2**18  # 512 x 512, two minutes: each rank is a search among all pixels
+MOST_PIXELS = 2**18  # 512 x 512, a minute: each rank is a search among all pixels
 SMALLEST, LARGEST = 2, 2**16  # pixels of a side
 TOLD_EVERY = 256  # ranks
 
@@ -58,8 +58,8 @@ def dither_mask(
     -----
     Phases I and II of Ulichney's void-and-cluster; phase III is the same as phase II on a torus. With frames
     a pixel acts on those of its own frame and on itself in other frames, as in the spatiotemporal masks of
-    Wolfe et al. (2022): each frame is blue, and so is each pixel over time. 64 x 64 take half a CPU second,
-    256 x 256 some eight.
+    Wolfe et al. (2022): each frame is blue, and so is each pixel over time. 64 x 64 take 0.1 CPU seconds,
+    256 x 256 take two and 512 x 512 forty.
 
     References
     ----------

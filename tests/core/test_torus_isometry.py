@@ -1,4 +1,4 @@
-"""Shifts, flips, swaps and tiles: what they keep of distances and spectra, and what is refused."""
+"""Shifts, flips and swaps keep distances and spectra, and wrong ones are refused."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import pytest
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import toroidal_distance
-from gbnbench.core.torus_isometry import identity, isometry, random_isometries, repeated
+from gbnbench.core.torus_isometry import identity, isometry, random_isometries
 
 X = np.random.default_rng(3).random((40, 3))
 FREQUENCIES = np.array(list(itertools.product(range(-3, 4), repeat=3)))
@@ -69,18 +69,6 @@ def test_many_axes_are_turned_at_random():
     assert all(sorted(one.axes) == list(range(12)) for one in drawn)
 
 
-def test_a_repeated_tile_has_power_at_multiples_alone():
-    tile = np.random.default_rng(5).random((20, 2))
-    laid = repeated(tile, (2, 3))
-    assert laid.shape == (120, 2)
-    f = np.array(list(itertools.product(range(-4, 5), range(-6, 7))))
-    power = periodogram(laid, frequencies=f).power
-    multiple = (f[:, 0] % 2 == 0) & (f[:, 1] % 3 == 0)
-    of_tile = periodogram(tile, frequencies=f[multiple] // (2, 3)).power
-    assert power[multiple] == pytest.approx(6 * of_tile, abs=1e-10)
-    assert power[~multiple] == pytest.approx(0, abs=1e-26 * 120**2)
-
-
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
@@ -94,9 +82,3 @@ def test_a_repeated_tile_has_power_at_multiples_alone():
 def test_wrong_arguments_are_named(arguments, said):
     with pytest.raises(InputError, match=said):
         isometry(2, **arguments)
-
-
-@pytest.mark.parametrize("counts", [(2,), (2, 0), (2, 1.5)])
-def test_wrong_counts_of_tiles_are_named(counts):
-    with pytest.raises(InputError, match="repeat must be 2 whole numbers of at least 1"):
-        repeated(X[:, :2], counts)
