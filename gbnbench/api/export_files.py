@@ -195,11 +195,11 @@ def comment_lines(made: ExportedSets, array: str, seed: int) -> Iterator[str]:
         if sets > 1 or not all(step.is_identity() for step in one.done):
             yield f"Set {k}: {one.words()}."
     yield f"Noise floor (1 for random points): {number(made.quality.noise_floor)}."
-    for one in made.projections:
-        axes = f"{'axis' if len(one.axes) == 1 else 'axes'} {'+'.join(map(str, one.axes))}"
+    for projection in made.projections:
+        axes = f"{'axis' if len(projection.axes) == 1 else 'axes'} {'+'.join(map(str, projection.axes))}"
         yield (
-            f"On {axes}: noise floor {number(one.noise_floor)}, nearest points "
-            f"{number(one.over_random)} times as far apart as random ones."
+            f"On {axes}: noise floor {number(projection.noise_floor)}, nearest points "
+            f"{number(projection.over_random)} times as far apart as random ones."
         )
     yield from made.remarks
 

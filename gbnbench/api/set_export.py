@@ -11,7 +11,6 @@ from typing import Literal
 import numpy as np
 
 from gbnbench.analysis.radial.projection_quality import (
-    ProjectionQuality,
     projection_quality,
     qualities,
     renderers_projections,
@@ -144,6 +143,8 @@ def export_sets(
                 made.append(own(asked(x)))
                 what.append(SetCopy(k, (asked, own)))
         x = repeated(np.stack(made), tiles)
+        some = max(1, min(MEASURED_SETS, len(x), MEASURED_POINTS // x.shape[1]))
+        every = tuple(range(first.d))
         values = rounded(x, numbers)
         points = fractions(values)
         exported = ExportedSets(
@@ -154,7 +155,10 @@ def export_sets(
             copies=tuple(what),
             repeat=tiles,
             sides=whole,
-            **_measured(x, points, whole, progress),
+            measured=some,
+            unrounded=projection_quality(x[:some], every, whole),
+            quality=projection_quality(points[:some], every, whole),
+            projections=qualities(points[:some], renderers_projections(first.d), whole, progress),
             remarks=(),
         )
     exported = replace(exported, remarks=_remarks(exported, sources))
@@ -200,20 +204,6 @@ def _shift(
 def _whole(sides: Sequence[float] | None, tiles: Sequence[int]) -> tuple[float, ...]:
     """Return the sides of the box that the tiles make."""
     return tuple(float(side * count) for side, count in zip(sides or (1.0,) * len(tiles), tiles, strict=True))
-
-
-def _measured(
-    x: FloatArray, points: FloatArray, sides: tuple[float, ...] | None, progress: Progress | None
-) -> dict[str, int | ProjectionQuality | tuple[ProjectionQuality, ...]]:
-    n, d = x.shape[1:]
-    some = max(1, min(MEASURED_SETS, len(x), MEASURED_POINTS // n))
-    every = tuple(range(d))
-    return {
-        "measured": some,
-        "unrounded": projection_quality(x[:some], every, sides),
-        "quality": projection_quality(points[:some], every, sides),
-        "projections": qualities(points[:some], renderers_projections(d), sides, progress),
-    }
 
 
 def _remarks(made: ExportedSets, sources: Sequence[Source]) -> tuple[str, ...]:

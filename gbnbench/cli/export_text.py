@@ -40,9 +40,10 @@ def set_lines(made: ExportedSets, *, replaced: bool) -> Iterator[str]:
         yield f"and {len(changed) - FEW} more copies, as the file tells"
     yield ""
     rows = [
-        (axes if k else "all", *map(number, numbers))
-        for k, (axes, *numbers) in enumerate(map(quality_row, (made.quality, *made.projections)))
-    ]
+        ("+".join(map(str, one.axes)) if k else "all",
+         *map(number, (one.noise_floor, one.power_at_1, one.min_distance, one.over_random)))
+        for k, one in enumerate((made.quality, *made.projections))
+    ]  # fmt: skip
     yield from aligned(("axes", "noise floor", "P(1)", "nearest points", "over random"), rows)
     of = f"the first {made.measured} sets" if made.measured < sets else how_many
     yield f"noise floor and P(1) are 1 for random points; of {of}, as written"
