@@ -17,7 +17,7 @@ def built(source: Path, standard: str, folder: Path) -> Path:
     program = next(filter(None, map(shutil.which, NAMES[standard])), None)
     if program is None:
         pytest.skip(f"there is no compiler of {standard}")
-    out = folder / f"{source.stem}-{standard.replace('+', 'p')}"
+    out = folder / f"{source.stem}-{standard.replace('+', 'p')}.exe"
     command = [program, f"-std={standard}", *STRICT, "-I", str(folder), str(source), "-o", str(out), "-lm"]
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=120)
     assert done.returncode == 0, done.stderr

@@ -214,7 +214,8 @@ def _json(x: PointSets, about: dict[str, Any]) -> bytes:
     box = {} if x.sides is None else {"low": list(x.low or ()), "sides": list(x.sides)}
     sets: list[FloatArray] = in_own_unit(x)
     points = (sets[0] if len(sets) == 1 else np.stack(sets)).tolist()
-    return json.dumps({**about, **box, "points": points}).encode() + b"\n"
+    unit = {"unit": "that of the box"} if box else {}
+    return json.dumps({**about, **unit, **box, "points": points}).encode() + b"\n"
 
 
 def _finite(value: str | float) -> str | float | None:
