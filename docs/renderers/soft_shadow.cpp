@@ -6,8 +6,9 @@
 //   ./soft_shadow blue > blue.pgm ; ./soft_shadow random > random.pgm
 //
 // Each pixel takes all points of a set, shifted on the torus (Cranley & Patterson 1976) by a vector that it
-// reads from the mask: neighbours get shifts far apart, so that what error is left varies from pixel to pixel
-// and the eye averages it. On standard error stands the root mean square error against 4,096 points a pixel.
+// reads from the mask: neighbours get shifts far apart, so that what error is left has less power at low
+// frequencies, which the eye sees best. On standard error stands the root mean square error against 4,096 points
+// a pixel.
 
 #include <cmath>
 #include <cstdio>
