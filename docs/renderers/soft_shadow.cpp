@@ -1,4 +1,4 @@
-// A small renderer: the soft shadow of a sphere under a square light, by sets and a mask that gbnbench exported.
+// A small renderer: the soft shadow of a sphere under a square light, by exported sets and an exported mask.
 //
 //   gbnbench export gbn -n 16 -o sets.h --copies 8
 //   gbnbench export --mask 64 -o mask.h
@@ -7,8 +7,8 @@
 //
 // Each pixel takes all points of a set, shifted on the torus (Cranley & Patterson 1976) by a vector that it
 // reads from the mask: neighbours get shifts far apart, so that what error is left has less power at low
-// frequencies, which the eye sees best. On standard error stands the root mean square error against 4,096 points
-// a pixel.
+// frequencies, which the eye sees best. On standard error stands the root mean square error against 4,096
+// points a pixel.
 
 #include <cmath>
 #include <cstdio>
@@ -50,12 +50,16 @@ int main(int count, char **words) {
             const double x = 3.0 * (column + 0.5) / SIDE - 1.2, y = 3.0 * (row + 0.5) / SIDE - 1.5;
             // the second coordinate reads the same mask elsewhere
             const double su = (mask_ranks[row % MASK_ROWS][column % MASK_COLUMNS] + 0.5) / MASK_PIXELS;
-            const double sv = (mask_ranks[(row + 23) % MASK_ROWS][(column + 41) % MASK_COLUMNS] + 0.5) / MASK_PIXELS;
+            const int there = (row + 23) % MASK_ROWS, across = (column + 41) % MASK_COLUMNS;
+            const double sv = (mask_ranks[there][across] + 0.5) / MASK_PIXELS;
             const int set = (row / MASK_ROWS + column / MASK_COLUMNS) % SETS_COUNT;
             double sum = 0;
-            for (int k = 0; k < SETS_N; ++k)
-                sum += blue ? light(x, y, wrapped(sets_points[set][k][0] + su), wrapped(sets_points[set][k][1] + sv))
-                            : light(x, y, uniform(numbers), uniform(numbers));
+            for (int k = 0; k < SETS_N; ++k) {
+                const float *point = sets_points[set][k];
+                const double u = blue ? wrapped(point[0] + su) : uniform(numbers);
+                const double v = blue ? wrapped(point[1] + sv) : uniform(numbers);
+                sum += light(x, y, u, v);
+            }
             picture[row * SIDE + column] = sum / SETS_N;
             double exact = 0;
             for (int i = 0; i < REFERENCE * REFERENCE; ++i)
