@@ -114,10 +114,9 @@ class DaskWorkers:
         -------
         Future
         """
-        chosen = {}
-        if self._avoided:
-            fit = [worker for worker in self._present() if worker not in self._avoided]
-            chosen = {"workers": fit, "allow_other_workers": False}
+        chosen: dict[str, Any] = {}
+        if self._avoided:  # else the scheduler need not be asked, which takes as long as a call
+            chosen = {"workers": self._fit(), "allow_other_workers": False}
         with warnings.catch_warnings():
             warnings.filterwarnings("ignore", "Sending large graph")  # points and powers are large
             future: Future[Any] = self._executor.submit(at_worker, fn, *args, **chosen)
@@ -135,7 +134,7 @@ class DaskWorkers:
         where = self._settings.address
         if self._client.status != "running":
             return f"the Dask scheduler at {where} is gone"
-        if set(self._present()) - self._avoided:
+        if self._fit():
             self._alone_since = None
             return ""
         self._alone_since = self._alone_since or time.monotonic()
@@ -161,20 +160,25 @@ class DaskWorkers:
             False if no other is left.
         """
         self._avoided.add(worker)
-        return bool(set(self._present()) - self._avoided)
+        return bool(self._fit())
 
     def _present(self) -> dict[str, Any]:
         present: dict[str, Any] = self._client.scheduler_info(n_workers=-1)["workers"]
         return present
 
+    def _fit(self) -> list[str]:
+        """Addresses of the workers of one thread that have not been found unfit."""
+        return [
+            address
+            for address, about in self._present().items()
+            if about["nthreads"] == 1 and address not in self._avoided
+        ]
+
     def _refuse_threads(self) -> None:
-        """Refuse workers that would carry out several calls in one process."""
+        """Refuse workers that would carry out several calls in one process; later ones refuse themselves."""
         for address, about in self._present().items():
             if about["nthreads"] != 1:
-                raise InputError(
-                    f"the Dask worker {address} carries out {about['nthreads']} calls at once in one "
-                    "process; gbnbench needs one: dask worker ADDRESS --nthreads 1 --nworkers N"
-                )
+                raise InputError(several_threads(address, about["nthreads"]))
 
 
 def _started_here(jobs: int) -> Any:
@@ -207,8 +211,18 @@ def _silence() -> None:
             logging.getLogger(name).setLevel(logging.CRITICAL)
 
 
+def several_threads(address: str, threads: int) -> str:
+    """Say why a worker with several threads cannot serve."""
+    return (
+        f"the Dask worker {address} carries out {threads} calls at once in one process; gbnbench needs one: "
+        "dask worker ADDRESS --nthreads 1 --nworkers N"
+    )
+
+
 def at_worker(function: Callable[..., Any], *arguments: Any) -> Any:
     """Carry out a call in a Dask worker, whose address goes with its answer.
+
+    A worker with several threads, which came after the run began, answers that it cannot serve.
 
     Parameters
     ----------
@@ -224,5 +238,9 @@ def at_worker(function: Callable[..., Any], *arguments: Any) -> Any:
     """
     from distributed import get_worker
 
+    worker = get_worker()
+    if worker.state.nthreads != 1:
+        told = several_threads(worker.address, worker.state.nthreads)
+        return Answer(failure=told, again=True, unfit=True, worker=worker.address)
     answer = function(*arguments)
-    return replace(answer, worker=get_worker().address) if isinstance(answer, Answer) else answer
+    return replace(answer, worker=worker.address) if isinstance(answer, Answer) else answer
