@@ -9,7 +9,7 @@ import secrets
 import shutil
 import sys
 import time
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import IO
 
@@ -19,15 +19,15 @@ if sys.platform != "win32":
 YOUNG = 1.0  # seconds that a temporary file has to be locked after it was made
 
 
-def write_whole(path: Path, data: bytes, *, make_folder: bool = True) -> None:
+def write_whole(path: Path, data: bytes | Iterable[bytes], *, make_folder: bool = True) -> None:
     """Write a file so that a reader, a crash or a full disk sees the old content or the new, never a part.
 
     Parameters
     ----------
     path : Path
         Where it shall stand.
-    data : bytes
-        The whole content.
+    data : bytes or iterable of bytes
+        The whole content, or its parts in turn.
     make_folder : bool
         Make its folder where it is missing.
 
@@ -44,7 +44,7 @@ def write_whole(path: Path, data: bytes, *, make_folder: bool = True) -> None:
         with temporary.open("xb") as file:
             with contextlib.suppress(OSError):  # a file system without locks
                 _hold(file)
-            file.write(data)
+            file.writelines((data,) if isinstance(data, bytes) else data)
             file.flush()
             os.fsync(file.fileno())
             if sys.platform != "win32":  # still held, so that nobody takes it for a leftover

@@ -6,7 +6,7 @@ from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from gbnbench.core.errors import GbnbenchError, UnfinishedError
+from gbnbench.core.errors import GbnbenchError
 from gbnbench.execution.calls import Finished
 from gbnbench.execution.executor_choice import chosen_executor
 from gbnbench.execution.progress import Progress
@@ -24,6 +24,8 @@ class TaskRun:
         All of them; they are started in this order, so the longest first leave the least idle at the end.
     store : ResultStore, optional
         Where results are found and kept; without one nothing outlives the run.
+    hold : bool
+        Keep the results in memory too; else they are in the store only, and None stands for each.
 
     Attributes
     ----------
@@ -42,8 +44,8 @@ class TaskRun:
     A stored result is read once. What a task requires is read only if the task's own result is missing.
     """
 
-    def __init__(self, tasks: Sequence[Task], store: ResultStore | None = None) -> None:
-        self._store = store
+    def __init__(self, tasks: Sequence[Task], store: ResultStore | None = None, hold: bool = True) -> None:
+        self._store, self._hold = store, hold
         self._tasks = {task.key: task for task in tasks}
         self._required = {key for task in tasks for key in task.needs}
         self._results: dict[str, Any] = {}
@@ -146,11 +148,15 @@ class TaskRun:
         seen.add(task.key)
         result = self._store.read(task.key) if self._store else None
         if result is not None:
-            self._results[task.key] = result
+            self._results[task.key] = self._held(task.key, result)
             return
         for key in task.needs:
             self._find(self._tasks[key], seen)
         self.missing.append(task)
+
+    def _held(self, key: str, result: Any) -> Any:
+        """Give what is kept in memory of a result."""
+        return result if self._hold or key in self._required else None
 
     def _arguments(self, task: Task) -> tuple[Any, ...]:
         return (*task.arguments, self._known(task.requires)) if task.requires else task.arguments
@@ -169,7 +175,7 @@ class TaskRun:
         result = task.assemble(done.value, inputs) if task.assemble else done.value
         if self._store:
             self._store.write(task.key, result)
-        self._results[task.key] = result
+        self._results[task.key] = self._held(task.key, result)
         for key in self._users[task.key]:
             self._awaits[key].discard(task.key)
         for key in task.needs:
@@ -178,68 +184,6 @@ class TaskRun:
                 del self._results[key]
         progress.advance(task.done or task.label)
         return Finished(task.key, result)
-
-
-def run_tasks(
-    tasks: Sequence[Task],
-    store: ResultStore,
-    jobs: int,
-    progress: Progress,
-    doing: str = "",
-    meanwhile: Callable[[], None] | None = None,
-) -> TaskRun:
-    """Do the tasks whose results a store lacks, in worker processes.
-
-    Parameters
-    ----------
-    tasks : sequence of Task
-        All of them.
-    store : ResultStore
-        Where results are found and kept.
-    jobs : int
-        Most worker processes, each with one thread.
-    progress : Progress
-        Counts a step a task.
-    doing : str
-        What the progress says at first; by default the label of the first task.
-    meanwhile : callable, optional
-        Called in this process while a worker checks the OpenCL device.
-
-    Returns
-    -------
-    TaskRun
-        With every result.
-
-    Raises
-    ------
-    UnfinishedError
-        If tasks failed, the first named; every other result is kept.
-    DeviceError
-        If there is an OpenCL device and it cannot be used.
-    OSError
-        If a result cannot be kept.
-    """
-    run = TaskRun(tasks, store)
-    if not run.missing:
-        return run
-    if run.reused:
-        progress.say(f"resuming {store.path}: {run.reused} of {len(tasks)} pieces are there")
-    labels = {task.key: task.label for task in run.missing}
-    failures = []
-    try:
-        for done in run.complete(jobs, progress, doing=doing, meanwhile=meanwhile):
-            if done.failure:
-                failures.append(f"{labels[str(done.key)]}: {done.failure}")
-                progress.say(failures[-1])
-    except UnfinishedError as error:
-        kept = f"what is finished is kept in {store.path}, and the same command goes on"
-        raise UnfinishedError(f"{error}; {kept}") from error
-    if failures:
-        raise UnfinishedError(
-            f"{len(failures)} of {len(run.missing)} pieces failed (what is finished is kept in {store.path}; "
-            f"the same command tries only the rest); the first: {failures[0]}"
-        )
-    return run
 
 
 def _call(task: Task, arguments: tuple[Any, ...]) -> Finished:
