@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import click
 
 from gbnbench.cli import options
-from gbnbench.cli.executor_option import executor
+from gbnbench.cli.executor_option import executor, workers_wanted
 from gbnbench.core.atomic_write import remove_leftovers_of
 from gbnbench.core.errors import InputError
 
@@ -89,7 +89,7 @@ def generate(
         return
     sets = f"{'1 set' if realizations == 1 else f'{realizations} sets'} of {n} points, d={d}"
     replaced = ", replacing what was there" if out.exists() else ""
-    if by_workers.wanted():
+    if workers_wanted():
         by_workers.check_alone()
         reused = by_workers.generate_by_workers(generator, n, d, realizations, seed, out, jobs, quiet)
         click.echo(f"wrote {out}: {sets}{replaced}{reused}")

@@ -16,12 +16,6 @@ if TYPE_CHECKING:
 ALONE = {"checkpoint": "--checkpoint", "trace": "--trace"}  # what one process keeps of one optimiser
 
 
-def wanted() -> bool:
-    """Whether the command line asks for workers."""
-    given = click.get_current_context().params
-    return any(given[name] is not None for name in ("jobs", "executor", "executor_config"))
-
-
 def check_alone() -> None:
     """Refuse options that are of a single process.
 

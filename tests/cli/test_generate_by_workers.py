@@ -1,4 +1,4 @@
-"""``gbnbench generate`` with ``--jobs``: the bytes of one process, refusals in words, pieces that are kept."""
+"""``gbnbench generate --jobs``: the bytes of one process, refusals in words, pieces that are kept."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def test_pieces_of_other_sets_are_refused_and_kept(here, capsys):
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
-        (("gbn", "-o", "x.txt", "--jobs", 2, "--checkpoint", "c"), "--checkpoint is of sets that one process"),
+        (("gbn", "-o", "x.txt", "--jobs", 2, "--checkpoint", "c"), "--checkpoint is of sets that one"),
         (("gbn", "-o", "x.txt", "--executor", "local", "--trace", "t.csv"), "--trace is of sets that one"),
         (("gbn", "-o", "x.txt", "--executor", "cloud"), "no executor is named 'cloud'"),
         (("grid", "-n", "17", "-o", "x.txt", "--jobs", 1), "n must be"),

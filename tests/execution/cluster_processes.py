@@ -82,9 +82,7 @@ def cluster(folder: Path) -> Iterator[Cluster]:
             process.wait()
 
 
-def spread(
-    address: str, out: Path, *options: object, asked: Sequence[str] = ASKED
-) -> subprocess.Popen[str]:
+def spread(address: str, out: Path, *options: object, asked: Sequence[str] = ASKED) -> subprocess.Popen[str]:
     """Begin a command by the workers of a scheduler, a comparison unless another is asked for."""
     config = out.parent / "dask.toml"
     config.write_text("[dask]\nwait_seconds = 8\n")
