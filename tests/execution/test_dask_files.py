@@ -1,4 +1,4 @@
-"""Sets and stipplings by a real Dask scheduler: the files of one process, also after kill -9 of the driver."""
+"""Sets and stipplings by a real Dask scheduler: the files of one process, also after kill -9."""
 
 from __future__ import annotations
 
