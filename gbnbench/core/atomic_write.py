@@ -9,13 +9,14 @@ import secrets
 import shutil
 import sys
 import time
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import IO
 
 if sys.platform != "win32":
     import fcntl
 
+Writer = Callable[[IO[bytes]], object]
 YOUNG = 1.0  # seconds that a temporary file has to be locked after it was made
 
 
@@ -60,15 +61,15 @@ def write_whole(path: Path, data: bytes | Iterable[bytes], *, make_folder: bool 
     _sync_folder(path.parent)
 
 
-def write_folder_whole(path: Path, files: Mapping[str, bytes]) -> None:
+def write_folder_whole(path: Path, files: Mapping[str, bytes | Writer]) -> None:
     """Write a folder of files under a temporary name and rename it: all of it appears at once or none.
 
     Parameters
     ----------
     path : Path
         The folder; one that is there is replaced.
-    files : mapping of str to bytes
-        Names and contents.
+    files : mapping of str to bytes or callable
+        Names and contents, or what writes them into an open file.
 
     Raises
     ------
@@ -132,9 +133,12 @@ def _hold(file: IO[bytes]) -> None:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
 
-def _write_synced(path: Path, data: bytes) -> None:
+def _write_synced(path: Path, data: bytes | Writer) -> None:
     with path.open("xb") as file:
-        file.write(data)
+        if isinstance(data, bytes):
+            file.write(data)
+        else:
+            data(file)
         file.flush()
         os.fsync(file.fileno())
 

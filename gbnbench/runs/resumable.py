@@ -11,6 +11,7 @@ from gbnbench.execution.calls import Finished
 from gbnbench.execution.executor_choice import chosen_executor
 from gbnbench.execution.progress import Progress
 from gbnbench.runs.device_proof import prove_device_if_any, proven_calls
+from gbnbench.runs.held_results import HeldResults
 from gbnbench.runs.result_store import ResultStore
 from gbnbench.runs.task import Task
 
@@ -49,6 +50,7 @@ class TaskRun:
         self._tasks = {task.key: task for task in tasks}
         self._required = {key for task in tasks for key in task.needs}
         self._results: dict[str, Any] = {}
+        self._inputs = HeldResults(store)
         self.failures: dict[str, str] = {}
         self.missing: list[Task] = []
         seen: set[str] = set()
@@ -122,7 +124,7 @@ class TaskRun:
             progress.start(len(self._tasks), self.reused, doing)  # the time of the check is not counted
             ready = deque(task for task in self.missing if not self._awaits[task.key])
             while ready or pool.pending:
-                if not ready:
+                if not ready or (pool.enough and not ready[0].here):
                     settled = self._settle(pool.next(), progress)
                     while pool.left_out:
                         progress.say(f"left out: {pool.left_out.pop()}")
@@ -131,7 +133,8 @@ class TaskRun:
                 else:
                     pool.submit(task.key, task.function, *self._arguments(task))
                     continue
-                ready.extend(self._released(str(settled.key)))
+                # What is released is next, so that what it needs is soon let go.
+                ready.extendleft(reversed(self._released(str(settled.key))))
                 yield settled
 
     def _done_here(self, task: Task, progress: Progress) -> Finished:
@@ -148,21 +151,25 @@ class TaskRun:
         seen.add(task.key)
         result = self._store.read(task.key) if self._store else None
         if result is not None:
-            self._results[task.key] = self._held(task.key, result)
+            self._keep(task.key, result)
             return
         for key in task.needs:
             self._find(self._tasks[key], seen)
         self.missing.append(task)
 
-    def _held(self, key: str, result: Any) -> Any:
-        """Give what is kept in memory of a result."""
-        return result if self._hold or key in self._required else None
+    def _keep(self, key: str, result: Any) -> None:
+        """Keep a result for the tasks that need it, or for the caller."""
+        if key in self._required:
+            self._inputs[key] = result
+        else:
+            self._results[key] = result if self._hold else None
 
     def _arguments(self, task: Task) -> tuple[Any, ...]:
-        return (*task.arguments, self._known(task.requires)) if task.requires else task.arguments
-
-    def _known(self, keys: Sequence[str]) -> list[Any]:
-        return [self._results[key] for key in keys]
+        """Give the arguments of a call; a worker is sent what it requires, here that is read as it goes."""
+        if not task.requires:
+            return task.arguments
+        required = self._inputs.several(task.requires)
+        return (*task.arguments, required if task.here else list(required))
 
     def _settle(self, done: Finished, progress: Progress) -> Finished:
         """Keep a result, tell the progress, and let go of what nobody needs any more."""
@@ -171,17 +178,17 @@ class TaskRun:
             self.failures[task.key] = done.failure
             progress.advance(f"failed: {task.label}")
             return done
-        inputs = self._known(task.collects or task.requires) if task.assemble else []
+        inputs = self._inputs.several(task.collects or task.requires)
         result = task.assemble(done.value, inputs) if task.assemble else done.value
         if self._store:
             self._store.write(task.key, result)
-        self._results[task.key] = self._held(task.key, result)
+        self._keep(task.key, result)
         for key in self._users[task.key]:
             self._awaits[key].discard(task.key)
         for key in task.needs:
             self._users[key].remove(task.key)
             if not self._users[key]:
-                del self._results[key]
+                del self._inputs[key]
         progress.advance(task.done or task.label)
         return Finished(task.key, result)
 

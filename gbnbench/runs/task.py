@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -41,7 +41,7 @@ class Task:
     function: Callable[..., Any]
     arguments: tuple[Any, ...] = ()
     requires: tuple[str, ...] = ()
-    assemble: Callable[[Any, list[Any]], Any] | None = None
+    assemble: Callable[[Any, Sequence[Any]], Any] | None = None
     done: str = ""
     collects: tuple[str, ...] = ()
     here: bool = False

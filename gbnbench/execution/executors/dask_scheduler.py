@@ -9,15 +9,17 @@ import warnings
 from collections.abc import Callable
 from concurrent.futures import Future
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any, ClassVar
 
 from gbnbench.core.errors import InputError, UnfinishedError
 from gbnbench.core.readable_text import in_one_line
 from gbnbench.execution.executors.extra import require
 from gbnbench.execution.remote_call import Answer
-from gbnbench.execution.worker_pool import ONE_THREAD
+from gbnbench.execution.worker_pool import BACKLOG, ONE_THREAD
 
 LOCAL = "local"
+COUNTED_SECONDS = 5.0  # between counts of the workers
 ORPHANED_SECONDS = "20s"  # after which workers end whose driver, and scheduler with it, is gone
 
 
@@ -87,6 +89,7 @@ class DaskWorkers:
         self._executor = self._client.get_executor(pure=False)
         self._avoided: set[str] = set()
         self._alone_since: float | None = None
+        self._backlog, self._counted = 0, float("-inf")
         try:
             if target is not settings.address:
                 self._client.wait_for_workers(jobs, timeout=settings.connect_seconds)
@@ -99,6 +102,13 @@ class DaskWorkers:
     def count(self) -> int:
         """Workers that are there now."""
         return max(1, len(self._present()))
+
+    @property
+    def backlog(self) -> int:
+        """Calls to be given out at a time; workers that come later are counted within seconds."""
+        if time.monotonic() - self._counted >= COUNTED_SECONDS:
+            self._backlog, self._counted = BACKLOG * self.count, time.monotonic()
+        return self._backlog
 
     def submit(self, fn: Callable[..., Any], /, *args: Any) -> Future[Any]:
         """Queue a call with the scheduler.
@@ -124,10 +134,9 @@ class DaskWorkers:
 
     def shutdown(self) -> None:
         """Cancel what is not finished and close the client, and the scheduler that was started."""
-        with contextlib.suppress(Exception):
-            self._executor.shutdown(wait=False)
-        with contextlib.suppress(Exception):
-            self._stack.close()
+        for close in (partial(self._executor.shutdown, wait=False), self._stack.close):
+            with contextlib.suppress(Exception):
+                close()
 
     def trouble(self) -> str:
         """Say whether the scheduler is gone, or there has been no worker for too long."""
@@ -168,11 +177,8 @@ class DaskWorkers:
 
     def _fit(self) -> list[str]:
         """Addresses of the workers of one thread that have not been found unfit."""
-        return [
-            address
-            for address, about in self._present().items()
-            if about["nthreads"] == 1 and address not in self._avoided
-        ]
+        present = self._present().items()
+        return [at for at, about in present if about["nthreads"] == 1 and at not in self._avoided]
 
     def _refuse_threads(self) -> None:
         """Refuse workers that would carry out several calls in one process; later ones refuse themselves."""
