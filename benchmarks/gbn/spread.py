@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 import shutil
 from dataclasses import asdict
 from pathlib import Path
@@ -55,7 +57,12 @@ def run_by_workers(out: Path, plan: FloorBenchmark, jobs: int, progress: Progres
     """
     if out.exists() and not out.is_dir():
         raise InputError(f"--out must be a folder; {out} is a file")
-    identity = {"gbnbench": __version__, "device": needed_device(jobs), "plan": asdict(plan)}
+    identity = {
+        "gbnbench": __version__,
+        "device": needed_device(jobs),
+        "cases": [f"{case.title} to {case.gradients} gradients" for case in plan.cases],
+        "plan": {"sha256": hashlib.sha256(json.dumps(asdict(plan)).encode()).hexdigest()},
+    }
     races = [(case, k) for case in plan.cases for k in range(case.sets)]
     tasks = [
         Task(_race_key(case, k), f"{case.title}, set {k + 1}", timed_race, (case, k)) for case, k in races
