@@ -20,6 +20,7 @@ from gbnbench.analysis.spectral_scalars import spectral_scalars
 from gbnbench.analysis.spectrum.listed_shells import shell_sizes
 from gbnbench.analysis.standard_errors import Estimate, mean_over_sets
 from gbnbench.core.errors import RefusalError, ShortSpectrumError
+from gbnbench.core.large_arrays import RowFiller
 from gbnbench.core.results.measures import Measures
 from gbnbench.core.results.radial import RadialPower
 from gbnbench.core.results.spectrum import Spectrum
@@ -58,12 +59,19 @@ class Scalars:
         self._pieces: list[Arrays] = []  # without the powers
         near = PowersMerger(plan.near, plan.group, plan.n, plan.realizations)
         far: PowersMerger | None = None
+        self._rows: dict[str, RowFiller] = {}
         for piece in pieces:  # each is looked at once, and may then be let go
             near.add(within(piece, "near"))
             if plan.far is not None and (farther := within(piece, "far")):
                 far = far or PowersMerger(plan.far, plan.group, plan.n, plan.realizations)
                 far.add(farther)
-            self._pieces.append({name: array for name, array in piece.items() if "/" not in name})
+            others = {name: array for name, array in piece.items() if "/" not in name}
+            if not is_refused(others["psa"]):  # many numbers a set
+                if "psa" not in self._rows:
+                    self._rows["psa"] = RowFiller((plan.realizations, others["psa"].shape[1]))
+                self._rows["psa"].add(others["psa"])
+                others["psa"] = others["psa"][:0]
+            self._pieces.append(others)
         self.near = near.merged()
         self.far = None if far is None else far.merged()
         self._spectral = spectral_scalars(self.near)
@@ -155,7 +163,8 @@ class Scalars:
         """Measures of each set, averaged."""
 
         def psa() -> list[Estimate]:
-            statistics = statistics_of(np.concatenate(self.outcomes("psa")), self._plan.n)
+            self.outcomes("psa")  # raises the refusal of the first piece that has one
+            statistics = statistics_of(self._rows["psa"].whole(), self._plan.n)
             return [
                 (
                     statistics.effective_nyquist,
