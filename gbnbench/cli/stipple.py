@@ -120,7 +120,7 @@ def stipple(
     dots: Literal["equal", "tone"], dot_mm: float | None, dpi: float | None, order: str, progressive: bool,
     frames: int | None, gcode_template: Path | None, preview: bool, seed: int, jobs: int | None, quiet: bool,
 ) -> None:  # fmt: skip
-    """Draw an image by dots whose density follows its tones, or each of several.
+    """Draw an image by dots whose density follows its tones.
 
     An IMAGE is a file (PNG, JPEG, TIFF and what else Pillow reads, or an array as .npy), or the name of an
     image of scikit-image's such as camera, coins or astronaut. Several are drawn into a folder by worker

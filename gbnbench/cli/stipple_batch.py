@@ -113,7 +113,19 @@ def _report(files: Mapping[str, Path], store: StippledFolder, failures: Sequence
 
 
 def in_words(image: str, why: str) -> str:
-    """Say what went wrong with an image, whose name comes first."""
+    """Say what went wrong with an image, whose name comes first.
+
+    Parameters
+    ----------
+    image : str
+        What it is called.
+    why : str
+        The fault, with or without the name.
+
+    Returns
+    -------
+    str
+    """
     return why if why.startswith(image) else f"{image}: {why}"
 
 

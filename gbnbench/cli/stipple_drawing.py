@@ -102,7 +102,7 @@ class PlannedImage:
     @property
     def columns(self) -> int:
         """Pixels along x."""
-        return next(iter(self.darkness.values())).values.shape[1]
+        return int(next(iter(self.darkness.values())).values.shape[1])
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,24 @@ def is_folder(out: str) -> bool:
 
 
 def file_of(out: str, file_format: str | None) -> Path:
-    """Give the one file that ``-o`` names; a click.UsageError refuses options of a folder beside it."""
+    """Give the one file that ``-o`` names.
+
+    Parameters
+    ----------
+    out : str
+        As the command takes it.
+    file_format : str or None
+        Likewise.
+
+    Returns
+    -------
+    Path
+
+    Raises
+    ------
+    click.UsageError
+        If options of a folder stand beside it.
+    """
     if file_format is not None:
         raise click.UsageError(
             f"--format is of the files in a folder: leave it out for {out}, or name a folder, {out}/"
@@ -31,7 +48,22 @@ def file_of(out: str, file_format: str | None) -> Path:
 
 
 def check(out: str, frames: int | None, *, preview: bool) -> None:
-    """Refuse options that are of one image, by a click.UsageError."""
+    """Refuse options that are of one image.
+
+    Parameters
+    ----------
+    out : str
+        The folder.
+    frames : int or None
+        As the command takes them.
+    preview : bool
+        Likewise.
+
+    Raises
+    ------
+    click.UsageError
+        If one is given.
+    """
     for option, given in (("--frames", frames is not None), ("--preview", preview)):
         if given:
             raise click.UsageError(f"{option} is of one image and one file; got the folder {out}")

@@ -23,7 +23,7 @@ class RowFiller:
     """
 
     def __init__(self, shape: tuple[int, ...]) -> None:
-        self._whole, self._row = _empty(shape), 0
+        self._whole, self._row = empty_array(shape), 0
 
     def add(self, part: FloatArray) -> None:
         """Copy the next rows."""
@@ -68,7 +68,18 @@ def filled(shape: tuple[int, ...], parts: Iterable[FloatArray]) -> FloatArray:
     return filler.whole()
 
 
-def _empty(shape: tuple[int, ...]) -> FloatArray:
+def empty_array(shape: tuple[int, ...]) -> FloatArray:
+    """Make an array without values; beyond the size it lies in a file that nobody sees.
+
+    Parameters
+    ----------
+    shape : tuple of int
+        Its shape.
+
+    Returns
+    -------
+    float64
+    """
     if 8 * math.prod(shape) <= IN_MEMORY:
         return np.empty(shape)
     with tempfile.TemporaryFile(prefix="gbnbench-") as file:  # the mapping keeps it

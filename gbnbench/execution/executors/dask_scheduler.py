@@ -184,7 +184,7 @@ class DaskWorkers:
         """Refuse workers that would carry out several calls in one process; later ones refuse themselves."""
         for address, about in self._present().items():
             if about["nthreads"] != 1:
-                raise InputError(several_threads(address, about["nthreads"]))
+                raise InputError(_several_threads(address, about["nthreads"]))
 
 
 def _started_here(jobs: int) -> Any:
@@ -217,18 +217,14 @@ def _silence() -> None:
             logging.getLogger(name).setLevel(logging.CRITICAL)
 
 
-def several_threads(address: str, threads: int) -> str:
+def _several_threads(address: str, threads: int) -> str:
     """Say why a worker with several threads cannot serve."""
-    return (
-        f"the Dask worker {address} carries out {threads} calls at once in one process; gbnbench needs one: "
-        "dask worker ADDRESS --nthreads 1 --nworkers N"
-    )
+    told = f"the Dask worker {address} carries out {threads} calls at once in one process"
+    return f"{told}; gbnbench needs one: dask worker ADDRESS --nthreads 1 --nworkers N"
 
 
 def at_worker(function: Callable[..., Any], *arguments: Any) -> Any:
-    """Carry out a call in a Dask worker, whose address goes with its answer.
-
-    A worker with several threads, which came after the run began, answers that it cannot serve.
+    """Carry out a call in a Dask worker; one with several threads, which came late, says it cannot serve.
 
     Parameters
     ----------
@@ -246,7 +242,7 @@ def at_worker(function: Callable[..., Any], *arguments: Any) -> Any:
 
     worker = get_worker()
     if worker.state.nthreads != 1:
-        told = several_threads(worker.address, worker.state.nthreads)
+        told = _several_threads(worker.address, worker.state.nthreads)
         return Answer(failure=told, again=True, unfit=True, worker=worker.address)
     answer = function(*arguments)
     return replace(answer, worker=worker.address) if isinstance(answer, Answer) else answer
