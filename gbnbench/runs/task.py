@@ -48,5 +48,5 @@ class Task:
 
     @property
     def needs(self) -> tuple[str, ...]:
-        """Keys of all tasks whose results must be there."""
-        return (*self.requires, *self.collects)
+        """Keys of all tasks whose results must be there, each once."""
+        return tuple(dict.fromkeys((*self.requires, *self.collects)))
