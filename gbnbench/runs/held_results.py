@@ -53,9 +53,9 @@ class HeldResults:
             return result
         found = self._store.read(key) if self._store else None
         if found is None:
-            where = "" if self._store is None else f" in {self._store.path}"
+            where = "" if self._store is None else f" of {self._store.path}"
             raise UnfinishedError(
-                f"the piece {key}{where} was there and is no more; the same command goes on"
+                f"the piece {key}{where} is no longer there; the same command makes it anew"
             )
         return found
 
