@@ -10,6 +10,7 @@ import click
 from gbnbench.cli import options
 from gbnbench.cli.executor_option import executor
 from gbnbench.cli.late_progress import late_progress
+from gbnbench.core.atomic_write import check_folder
 
 if TYPE_CHECKING:
     from gbnbench.cli.stipple_drawing import StippleOptions
@@ -164,7 +165,6 @@ def _stipple_one(
     """Draw one image in this process, and say what was drawn."""
     from gbnbench.api.stippled_frames import FormingDots
     from gbnbench.api.stippled_page import write_stippling
-    from gbnbench.cli.generate import check_folder
     from gbnbench.cli.stipple_drawing import drawn, planned
     from gbnbench.cli.stipple_frames import checked_frames, write_animation
 
