@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gbnbench.analysis.measuring_plan import MeasuringPlan
-from gbnbench.analysis.outcomes import Arrays, is_refused
+from gbnbench.analysis.outcomes import Arrays
 from gbnbench.analysis.piece_measures import measure_piece
 from gbnbench.analysis.radial.border_warning import border_warnings
 from gbnbench.analysis.scalars import Scalars
@@ -211,7 +211,7 @@ def merged_analysis(plan: MeasuringPlan, pieces: Sequence[Arrays]) -> AnalysisAr
         anisotropy=scalars.anisotropy(),
         rdf=_unless_refused(lambda: _mean_rdf(scalars.outcomes("rdf"), plan.realizations)),
         valence=_unless_refused(lambda: _mean_valence(scalars.outcomes("valence"), plan.realizations)),
-        zone_plate=None if is_refused(pieces[0]["zone_plate"]) else pieces[0]["zone_plate"],
+        zone_plate=scalars.zone_plate(),
         measures=scalars.measures(),
         warnings=border_warnings(scalars.spectrum, scalars.radial),
     )

@@ -71,22 +71,19 @@ def is_refused(found: NDArray[Any]) -> bool:
     return found.dtype.kind == "U"
 
 
-def within(pieces: Sequence[Arrays], name: str) -> list[dict[str, NDArray[Any]]]:
-    """Give the arrays of each piece whose names begin with ``name/``, without that beginning.
+def within(piece: Arrays, name: str) -> dict[str, NDArray[Any]]:
+    """Give the arrays of a piece whose names begin with ``name/``, without that beginning.
 
     Parameters
     ----------
-    pieces : sequence of mapping
-        Arrays by name, one mapping a piece.
+    piece : mapping of arrays
+        By name.
     name : str
         What the names begin with.
 
     Returns
     -------
-    list of dict
+    dict
     """
     start = f"{name}/"
-    return [
-        {key.removeprefix(start): array for key, array in piece.items() if key.startswith(start)}
-        for piece in pieces
-    ]
+    return {key.removeprefix(start): array for key, array in piece.items() if key.startswith(start)}

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from gbnbench.analysis.measuring_plan import MeasuringPlan
 from gbnbench.analysis.outcomes import outcome
 from gbnbench.analysis.radial.psa import excess_density
-from gbnbench.analysis.set_powers import SetPowers, measured_powers, merged_powers, one_set
+from gbnbench.analysis.set_powers import PowersMerger, SetPowers, measured_powers, one_set
 from gbnbench.analysis.spatial.bond_order import bond_order, psi6
 from gbnbench.analysis.spatial.delaunay import Neighbours, neighbours
 from gbnbench.analysis.spatial.discrepancy import DiscrepancyResult, measure_discrepancies
@@ -73,7 +73,9 @@ def needs_farther(powers: SetPowers) -> bool:
 
 def _powers_of(found: dict[str, NDArray[Any]], plan: MeasuringPlan) -> SetPowers:
     near = {name.removeprefix("near/"): array for name, array in found.items()}
-    return merged_powers([near], plan.near, plan.group, plan.n)
+    merger = PowersMerger(plan.near, plan.group, plan.n, len(near["rows"]))
+    merger.add(near)
+    return merger.merged()
 
 
 def _of_sets(points: FloatArray, plan: MeasuringPlan) -> dict[str, Callable[[], FloatArray]]:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from functools import cached_property, partial
+from collections.abc import Callable, Iterable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -12,17 +12,19 @@ from numpy.typing import NDArray
 
 from gbnbench.analysis.measure_definitions import DEFINITIONS
 from gbnbench.analysis.measuring_plan import MeasuringPlan
-from gbnbench.analysis.outcomes import Arrays, values_of, within
+from gbnbench.analysis.outcomes import Arrays, is_refused, values_of, within
 from gbnbench.analysis.radial.anisotropy import anisotropy_columns
 from gbnbench.analysis.radial.psa import statistics_of
-from gbnbench.analysis.set_powers import SetPowers, merged_powers
+from gbnbench.analysis.set_powers import PowersMerger, SetPowers
 from gbnbench.analysis.spectral_scalars import spectral_scalars
 from gbnbench.analysis.spectrum.listed_shells import shell_sizes
 from gbnbench.analysis.standard_errors import Estimate, mean_over_sets
 from gbnbench.core.errors import RefusalError, ShortSpectrumError
+from gbnbench.core.large_arrays import RowFiller
 from gbnbench.core.results.measures import Measures
 from gbnbench.core.results.radial import RadialPower
 from gbnbench.core.results.spectrum import Spectrum
+from gbnbench.core.torus import FloatArray
 
 NYQUIST_STEP = 0.005  # resolution of the effective Nyquist frequency, part of its error
 _Entry = tuple[tuple[str, ...], Callable[[], list[Estimate]]]
@@ -35,13 +37,15 @@ class Scalars:
     ----------
     plan : MeasuringPlan
         Of the source.
-    pieces : sequence of mapping
+    pieces : iterable of mapping
         As ``measure_piece`` returns them, all, in the order of the sets.
 
     Attributes
     ----------
     near : SetPowers
         Power of the sets: cubes where they are affordable, else the shells of a ball.
+    far : SetPowers or None
+        Shells beyond the end of a default cube, listed; None where they were not evaluated.
 
     Notes
     -----
@@ -50,23 +54,32 @@ class Scalars:
     ``piece_measures``.
     """
 
-    def __init__(self, plan: MeasuringPlan, pieces: Sequence[Arrays]) -> None:
-        self._plan, self._pieces = plan, pieces
-        self.near = merged_powers(within(pieces, "near"), plan.near, plan.group, plan.n)
+    def __init__(self, plan: MeasuringPlan, pieces: Iterable[Arrays]) -> None:
+        self._plan = plan
+        self._pieces: list[Arrays] = []  # without the powers
+        near = PowersMerger(plan.near, plan.group, plan.n, plan.realizations)
+        far: PowersMerger | None = None
+        self._rows: dict[str, RowFiller] = {}
+        for piece in pieces:  # each is looked at once, and may then be let go
+            near.add(within(piece, "near"))
+            if plan.far is not None and (farther := within(piece, "far")):
+                far = far or PowersMerger(plan.far, plan.group, plan.n, plan.realizations)
+                far.add(farther)
+            others = {name: array for name, array in piece.items() if "/" not in name}
+            if not is_refused(others["psa"]):  # many numbers a set
+                if "psa" not in self._rows:
+                    self._rows["psa"] = RowFiller((plan.realizations, others["psa"].shape[1]))
+                self._rows["psa"].add(others["psa"])
+                others["psa"] = others["psa"][:0]
+            self._pieces.append(others)
+        self.near = near.merged()
+        self.far = None if far is None else far.merged()
         self._spectral = spectral_scalars(self.near)
 
     @property
     def spectrum(self) -> Spectrum:
         """Mean power over the realizations."""
         return self.near.spectrum
-
-    @cached_property
-    def far(self) -> SetPowers | None:
-        """Shells beyond the end of a default cube, listed; None where they were not evaluated."""
-        found = within(self._pieces, "far")
-        if self._plan.far is None or not found[0]:
-            return None
-        return merged_powers(found, self._plan.far, self._plan.group, self._plan.n)
 
     @property
     def radial(self) -> RadialPower:
@@ -94,6 +107,11 @@ class Scalars:
     def outcomes(self, name: str) -> list[NDArray[Any]]:
         """Give what each piece has under a name; raises RefusalError where it is undefined."""
         return values_of([piece[name] for piece in self._pieces])
+
+    def zone_plate(self) -> FloatArray | None:
+        """Return the picture of the first set; None where it means nothing."""
+        found = self._pieces[0]["zone_plate"]
+        return None if is_refused(found) else found
 
     def measures(self) -> Measures:
         """Assemble values, standard errors and reasons in the order of ``DEFINITIONS``."""
@@ -145,7 +163,8 @@ class Scalars:
         """Measures of each set, averaged."""
 
         def psa() -> list[Estimate]:
-            statistics = statistics_of(np.concatenate(self.outcomes("psa")), self._plan.n)
+            self.outcomes("psa")  # raises the refusal of the first piece that has one
+            statistics = statistics_of(self._rows["psa"].whole(), self._plan.n)
             return [
                 (
                     statistics.effective_nyquist,

@@ -16,6 +16,7 @@ from gbnbench.analysis.radial.profile_measures import evacuated_energy, evacuate
 from gbnbench.analysis.radial.radial_power import mean_over_groups
 from gbnbench.analysis.spectrum.power_of_each import averaged
 from gbnbench.analysis.spectrum.shells import Shells
+from gbnbench.core.large_arrays import RowFiller
 from gbnbench.core.results.radial import RadialPower, ShellSpectrum
 from gbnbench.core.results.spectrum import Spectrum
 from gbnbench.core.torus import FloatArray
@@ -91,7 +92,7 @@ class SetPowers:
 
 
 def measured_powers(points: FloatArray, region: FrequencyRegion, group: int) -> dict[str, NDArray[Any]]:
-    """Evaluate the power of the sets of a piece, and keep what ``merged_powers`` needs of it.
+    """Evaluate the power of the sets of a piece, and keep what ``PowersMerger`` needs of it.
 
     Parameters
     ----------
@@ -122,50 +123,64 @@ def measured_powers(points: FloatArray, region: FrequencyRegion, group: int) -> 
     return kept | {name: np.asarray(getattr(first, name)) for name in OF_SPECTRUM}
 
 
-def merged_powers(pieces: Sequence[Arrays], region: FrequencyRegion, group: int, n: int) -> SetPowers:
-    """Put together what was kept of the pieces of a source.
+class PowersMerger:
+    """What was kept of the pieces of a source put together, piece by piece.
 
     Parameters
     ----------
-    pieces : sequence of mapping
-        As ``measured_powers`` returns them, in the order of the sets.
     region : FrequencyRegion
-        The same.
+        The frequencies.
     group : int
-        The same.
-    n : int
-        Points of a set.
+        Sets of a group.
+    n, realizations : int
+        Points of a set, and sets of all pieces together.
 
-    Returns
-    -------
-    SetPowers
-        The same bits wherever and whenever the pieces were made: sums are taken in their order.
+    Notes
+    -----
+    The same bits come out wherever and whenever the pieces were made: sums are taken in their order.
     """
-    rows = np.concatenate([piece["rows"] for piece in pieces])
-    groups = _grouped(pieces, group)
-    first = Spectrum(
-        groups[0],
-        n=n,
-        d=region.d,
-        realizations=1,
-        fmax=int(pieces[0]["fmax"]),
-        frequencies=region.frequencies,
-        precision=_words(pieces, "precision"),
-        method=_words(pieces, "method"),
-        device=_words(pieces, "device"),
-        error_rms=max(float(piece["error_rms"]) for piece in pieces),
-        error_bound=max(float(piece["error_bound"]) for piece in pieces),
-        sides=region.sides,
-    )
-    return SetPowers(
-        region=region,
-        spectrum=averaged(first, groups.sum(axis=0) / len(rows), len(rows)),
-        rows=rows,
-        full_rows=rows if region.sides is None else np.concatenate([piece["full_rows"] for piece in pieces]),
-        groups=groups,
-        group=group,
-        energies=tuple(piece["energies"] for piece in pieces),
-    )
+
+    def __init__(self, region: FrequencyRegion, group: int, n: int, realizations: int) -> None:
+        self._region, self._group, self._n, self._realizations = region, group, n, realizations
+        self._rows = RowFiller((realizations, region.shells.size))
+        self._full_rows = None if region.sides is None else RowFiller((realizations, region.full_shells.size))
+        self._groups = _Groups(group)
+        self._told: list[dict[str, NDArray[Any]]] = []
+
+    def add(self, piece: Arrays) -> None:
+        """Take the next piece, as ``measured_powers`` returns it, in the order of the sets."""
+        self._rows.add(piece["rows"])
+        if self._full_rows is not None:
+            self._full_rows.add(piece["full_rows"])
+        self._groups.add(piece)
+        self._told.append({name: piece[name] for name in (*OF_SPECTRUM, "energies")})
+
+    def merged(self) -> SetPowers:
+        """Return the powers of all pieces."""
+        told, region, rows, groups = self._told, self._region, self._rows.whole(), self._groups.all()
+        first = Spectrum(
+            groups[0],
+            n=self._n,
+            d=region.d,
+            realizations=1,
+            fmax=int(told[0]["fmax"]),
+            frequencies=region.frequencies,
+            precision=_words(told, "precision"),
+            method=_words(told, "method"),
+            device=_words(told, "device"),
+            error_rms=max(float(piece["error_rms"]) for piece in told),
+            error_bound=max(float(piece["error_bound"]) for piece in told),
+            sides=region.sides,
+        )
+        return SetPowers(
+            region=region,
+            spectrum=averaged(first, groups.sum(axis=0) / len(rows), len(rows)),
+            rows=rows,
+            full_rows=rows if self._full_rows is None else self._full_rows.whole(),
+            groups=groups,
+            group=self._group,
+            energies=tuple(piece["energies"] for piece in told),
+        )
 
 
 def one_set(powers: SetPowers) -> SetPowers:
@@ -179,18 +194,33 @@ def _words(pieces: Sequence[Arrays], name: str) -> str:
     return ", ".join(dict.fromkeys(str(piece[name]) for piece in pieces))
 
 
-def _grouped(pieces: Sequence[Arrays], group: int) -> FloatArray:
-    """List the groups; where a group is larger than a piece, consecutive pieces are its parts."""
-    size = len(pieces[0]["rows"])
-    if group <= size:
-        return np.concatenate([piece["groups"] for piece in pieces])
-    many = group // size
-    return np.stack(
-        [
-            np.sum([piece["groups"][0] for piece in pieces[k : k + many]], axis=0)
-            for k in range(0, len(pieces), many)
-        ]
-    )
+class _Groups:
+    """Sums of groups of sets; where a group is larger than a piece, consecutive pieces are its parts."""
+
+    def __init__(self, group: int) -> None:
+        self._group, self._many = group, 0
+        self._sums: list[FloatArray] = []
+        self._parts: list[FloatArray] = []
+
+    def add(self, piece: Arrays) -> None:
+        """Take the groups, or the part of one, that are in a piece."""
+        self._many = self._many or max(1, self._group // len(piece["rows"]))
+        if self._many == 1:
+            self._sums.extend(piece["groups"])
+            return
+        self._parts.append(piece["groups"][0])
+        if len(self._parts) == self._many:
+            self._close()
+
+    def all(self) -> FloatArray:
+        """List the groups."""
+        if self._parts:
+            self._close()
+        return np.stack(self._sums)
+
+    def _close(self) -> None:
+        self._sums.append(np.sum(self._parts, axis=0))
+        self._parts = []
 
 
 def _energy(power: FloatArray, region: FrequencyRegion, n: int, d: int) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -164,12 +165,14 @@ def statistics_of(excess: FloatArray, n: int) -> SpectralStatistics:
     while True:
         frequency: FloatArray = np.arange(rows, dtype=np.float64) * (0.5 * n / total)
         power = windowed_power(density, frequency, n, total)
-        curves = [power.mean(axis=0), *power, *_left_out(power)]
-        if rows == total or all(_suffices(curve, frequency, n) for curve in curves):
+        if rows == total or all(_suffices(curve, frequency, n) for curve in _curves(power)):
             break
         rows = total
-    nyquist = np.array([_effective_nyquist(curve, frequency, n) for curve in curves])
-    omega = np.array([_oscillations(curve, frequency, n) for curve in curves])
+    found = [
+        (_effective_nyquist(curve, frequency, n), _oscillations(curve, frequency, n))
+        for curve in _curves(power)
+    ]
+    nyquist, omega = (np.array(column) for column in zip(*found, strict=True))
     last = len(excess) + 1
     return SpectralStatistics(
         effective_nyquist=float(nyquist[0]),
@@ -183,10 +186,12 @@ def statistics_of(excess: FloatArray, n: int) -> SpectralStatistics:
     )
 
 
-def _left_out(power: FloatArray) -> FloatArray:
-    """Mean power of all sets but one, for each; nothing for a single set."""
-    sets = len(power)
-    return np.array(list(left_out_sums(power))) / (sets - 1) if sets > 1 else power[:0]
+def _curves(power: FloatArray) -> Iterator[FloatArray]:
+    """Give the mean power, that of each set, and that of all sets but one, for each if there are several."""
+    yield power.mean(axis=0)
+    yield from power
+    if len(power) > 1:
+        yield from (total / (len(power) - 1) for total in left_out_sums(power))
 
 
 def _jackknife(left_out: FloatArray) -> float:

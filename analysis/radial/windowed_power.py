@@ -10,9 +10,11 @@ import numpy as np
 from scipy.special import j0
 
 from gbnbench.analysis.radial.hankel_nodes import nodes_for, on_nodes, stride_for
+from gbnbench.core.large_arrays import empty_array
 from gbnbench.core.torus import FloatArray
 
 ROWS = 256  # of the Bessel matrix made at once: the lower their frequencies, the fewer radii carry the sum
+SETS = 256  # transformed at once: on its way to the nodes each takes some hundred kilobytes
 WIDEST = 0.25  # where the window ends for all frequencies from sqrt(n)/8 on
 KEPT = 1 << 22  # numbers of a matrix that is kept from call to call, in blocks
 KEPT_BLOCKS = 16
@@ -42,11 +44,14 @@ def windowed_power(density: FloatArray, frequency: FloatArray, n: int, total: in
     kept = sum((end - start) * nodes_for(bins, stride) for start, end, stride in blocks) <= KEPT
     kernel = _kept_kernel if kept else _kernel
     radii = np.arange(bins, dtype=np.float64) * (0.5 / total)
-    windowed = density * _window(radii, np.array(WIDEST))[:, None]
-    power = np.empty((density.shape[1], rows))
+    window = _window(radii, np.array(WIDEST))[:, None]
+    power = empty_array((density.shape[1], rows))
     for start, end, stride in blocks:
-        weights = on_nodes(windowed, stride) if start else density
-        power[:, start:end] = np.abs(1 + kernel(n, total, len(weights), start, end, stride) @ weights).T
+        matrix = kernel(n, total, nodes_for(bins, stride) if start else bins, start, end, stride)
+        for first in range(0, len(power), SETS):
+            some = density[:, first : first + SETS]
+            weights = on_nodes(some * window, stride) if start else some
+            power[first : first + SETS, start:end] = np.abs(1 + matrix @ weights).T
     return power
 
 

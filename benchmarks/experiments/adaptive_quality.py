@@ -3,7 +3,8 @@
     python -m gbnbench.benchmarks.experiments.adaptive_quality benchmarks/results/adaptive/quality.csv
     python -m gbnbench.benchmarks.experiments.adaptive_quality --table benchmarks/results/adaptive/quality.csv
 
-The first measures, set by set, and goes on where it was stopped; the second prints a table.
+The first measures, set by set, and goes on where it was stopped; with --jobs or --executor workers do it. The
+second prints a table.
 """
 
 from __future__ import annotations
@@ -11,6 +12,8 @@ from __future__ import annotations
 import argparse
 import itertools
 import time
+from collections.abc import Mapping
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -18,9 +21,12 @@ import pandas as pd
 from skimage import color, data
 
 from gbnbench.analysis.reconstruction.blurred_difference import blurred_difference
+from gbnbench.benchmarks.experiments.filled_table import add_workers, fill
+from gbnbench.benchmarks.timing.table_store import TableStore
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import as_density
 from gbnbench.generators.adaptive.registry import ADAPTIVE_GENERATORS, adaptive_points
+from gbnbench.runs.task import Task
 from gbnbench.studies.stippling_comparison.measured_set import BLUR, reconstruction_quality
 from gbnbench.studies.stippling_comparison.relative_variance import relative_variance
 
@@ -49,7 +55,7 @@ def darkness(name: str) -> FloatArray:
     return dark
 
 
-def measured(image: str, method: str, n: int, seed: int) -> list[object]:
+def measured(image: str, method: str, n: int, seed: int) -> list[dict[str, object]]:
     """Draw one set and measure it.
 
     Parameters
@@ -61,9 +67,10 @@ def measured(image: str, method: str, n: int, seed: int) -> list[object]:
 
     Returns
     -------
-    list
+    list of one dict
         A row of the table.
     """
+    build_kernels()
     dark = darkness(image)
     density = as_density(dark)
     begun = time.process_time()
@@ -71,10 +78,39 @@ def measured(image: str, method: str, n: int, seed: int) -> list[object]:
     cost = time.process_time() - begun
     authors, mirrored = (reconstruction_quality(x, dark, reflected=mirror)[1] for mirror in (False, True))
     variance, blurred = relative_variance(x, density), blurred_difference(x, density.values, BLUR)
-    return [
+    row = [
         image, method, n, seed, cost, variance, blurred,
         authors.psnr, authors.ssim, mirrored.psnr, mirrored.ssim,
     ]  # fmt: skip
+    return [dict(zip(COLUMNS, row, strict=True))]
+
+
+@cache
+def build_kernels() -> None:
+    """Build the kernels of Gaussian blue noise before anything is timed, once a process."""
+    adaptive_points("gbn[gradients=1]", as_density(np.ones((64, 64))), 100)
+
+
+def tasks_of(seeds: int, n: int = POINTS) -> list[Task]:
+    """List a task a set: every picture and generator, seed by seed.
+
+    Parameters
+    ----------
+    seeds : int
+        Sets of each.
+    n : int
+        Points of a set.
+
+    Returns
+    -------
+    list of Task
+    """
+    return [
+        Task(key := f"{image} {method} {seed}", key, measured, (image, method, n, seed))
+        for seed in range(seeds)
+        for image in IMAGES
+        for method in ADAPTIVE_GENERATORS
+    ]
 
 
 def markdown(table: pd.DataFrame) -> str:
@@ -113,22 +149,19 @@ def main() -> None:
     parser.add_argument("out", type=Path)
     parser.add_argument("--table", action="store_true")
     parser.add_argument("--seeds", type=int, default=SEEDS)
+    add_workers(parser)
     given = parser.parse_args()
     if given.table:
         print(markdown(pd.read_csv(given.out)))
         return
-    done = pd.read_csv(given.out) if given.out.exists() else pd.DataFrame(columns=COLUMNS)
-    given.out.parent.mkdir(parents=True, exist_ok=True)
-    adaptive_points("gbn[gradients=1]", as_density(np.ones((64, 64))), 100)  # kernels are built
-    for seed in range(given.seeds):
-        for image in IMAGES:
-            for method in ADAPTIVE_GENERATORS:
-                if ((done["image"] == image) & (done["method"] == method) & (done["seed"] == seed)).any():
-                    continue
-                row = pd.DataFrame([measured(image, method, POINTS, seed)], columns=COLUMNS)
-                done = row if done.empty else pd.concat([done, row])
-                done.to_csv(given.out, index=False, float_format="%.4g")
-                print(row.to_string(index=False, header=False), flush=True)
+    tasks = tasks_of(given.seeds)
+    store = TableStore(given.out, COLUMNS, key_of, [task.key for task in tasks])
+    fill(tasks, store, given)
+
+
+def key_of(row: Mapping[str, str]) -> str:
+    """Name the task of a row."""
+    return f"{row['image']} {row['method']} {row['seed']}"
 
 
 if __name__ == "__main__":

@@ -1,24 +1,25 @@
 """Depth against order of deep sets over c and the edge, from starts of several lengths, with GBN beside them.
 
 python -m gbnbench.benchmarks.experiments.depth_order benchmarks/results/deep/depth_order.csv
+
+Goes on where it was stopped; with --jobs or --executor workers make the sets.
 """
 
 from __future__ import annotations
 
-import csv
+import argparse
 import json
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Self
+from typing import Any
 
-from gbnbench.benchmarks.experiments.depth_order_row import COLUMNS, KEY, key_text
+from gbnbench.benchmarks.experiments.depth_order_row import COLUMNS, KEY
 from gbnbench.benchmarks.experiments.depth_order_tasks import Map, Start, tasks_of
-from gbnbench.benchmarks.timing.machine import Rows, describe
+from gbnbench.benchmarks.experiments.filled_table import add_workers, fill
+from gbnbench.benchmarks.timing.machine import describe
+from gbnbench.benchmarks.timing.table_store import TableStore
 from gbnbench.core.atomic_write import write_whole
-from gbnbench.core.errors import GbnbenchError
-from gbnbench.execution.progress import Progress
-from gbnbench.runs.resumable import TaskRun
 
 MAPS = (
     Map(
@@ -32,50 +33,34 @@ MAPS = (
 )  # fmt: skip
 
 
-class RowStore:
-    """The table of a map as a store of results: a line a set. Starts are not kept.
+class RowStore(TableStore):
+    """The table of a map, a line a set. Starts are not kept.
 
     Parameters
     ----------
     path : Path
         Of the table; it need not exist.
+    order : sequence of str
+        Keys of the tasks.
     """
 
-    def __init__(self, path: Path) -> None:
-        self.path = path
-        earlier: list[dict[str, str]] = []
-        if path.exists():
-            with path.open(newline="", encoding="utf-8") as file:
-                earlier = list(csv.DictReader(file))
-        self._earlier = {" ".join(line[name] for name in KEY): line for line in earlier}
+    def __init__(self, path: Path, order: Sequence[str]) -> None:
+        super().__init__(
+            path, COLUMNS, lambda row: " ".join(row[name] for name in KEY), order, digits=6, missing="nan"
+        )
 
-    def __enter__(self) -> Self:
-        """Open the table and write what it held before."""
-        self._rows = Rows(self.path, COLUMNS).__enter__()
-        for line in self._earlier.values():
-            self._rows.add(line)
-        return self
-
-    def __exit__(self, *exception: object) -> None:
-        """Close the table; the rows are there already."""
-        self._rows.__exit__(None, None, None)
-
-    def read(self, key: str) -> Mapping[str, Any] | None:
-        """Return the row that an earlier run left."""
-        return self._earlier.get(key)
-
-    def write(self, key: str, result: Mapping[str, Any] | Start) -> None:  # noqa: ARG002 - the row holds it
+    def write(self, key: str, result: Mapping[str, Any] | Start) -> None:  # type: ignore[override]
         """Write a row.
 
         Parameters
         ----------
         key : str
-            The row's, which it holds itself.
+            The task's.
         result : mapping or Start
             The row; a start is not kept.
         """
         if not isinstance(result, Start):
-            self._rows.add(result)
+            super().write(key, [result])
 
 
 def main(arguments: list[str], maps: tuple[Map, ...] = MAPS) -> None:
@@ -83,8 +68,8 @@ def main(arguments: list[str], maps: tuple[Map, ...] = MAPS) -> None:
 
     Parameters
     ----------
-    arguments : list of one str
-        The file.
+    arguments : list of str
+        The file, and options of workers.
     maps : tuple of Map
         What is drawn.
 
@@ -93,18 +78,17 @@ def main(arguments: list[str], maps: tuple[Map, ...] = MAPS) -> None:
     GbnbenchError
         If a set cannot be made or measured.
     """
-    path = Path(arguments[0])
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("out", type=Path)
+    add_workers(parser)
+    given = parser.parse_args(arguments)
+    path = given.out
     path.parent.mkdir(parents=True, exist_ok=True)
     write_whole(path.with_name("machine.json"), (json.dumps(describe(), indent=1) + "\n").encode())
-    with RowStore(path) as store:
-        for done in TaskRun([task for plan in maps for task in tasks_of(plan)], store).complete(
-            None, Progress()
-        ):
-            if done.failure:
-                raise GbnbenchError(f"{done.key} failed: {done.failure}")
-            if not isinstance(done.value, Start):
-                shown = tuple(done.value[name] for name in (*KEY, "converged", "noise_floor"))
-                print(*key_text(shown), flush=True)
+    tasks = [task for plan in maps for task in tasks_of(plan)]
+    fill(tasks, RowStore(path, [task.key for task in tasks]), given)
 
 
 if __name__ == "__main__":

@@ -3,14 +3,15 @@
     python -m gbnbench.benchmarks.experiments.window_coverage benchmarks/results/window/coverage.csv
     python -m gbnbench.benchmarks.experiments.window_coverage --table benchmarks/results/window/coverage.csv
 
-The first makes the table, process by process, and goes on where it was stopped; the second prints it for
-docs/windows.md.
+The first makes the table, process by process, and goes on where it was stopped; with --jobs or --executor
+workers do it. The second prints it for docs/windows.md.
 """
 
 from __future__ import annotations
 
 import argparse
 import math
+from operator import itemgetter
 from pathlib import Path
 
 import numpy as np
@@ -18,8 +19,11 @@ import pandas as pd
 
 from gbnbench.analysis.window.estimates import WindowEstimates, in_window
 from gbnbench.analysis.window.gamma_regression import NORMAL_95
+from gbnbench.benchmarks.experiments.filled_table import add_workers, fill
 from gbnbench.benchmarks.experiments.window_processes import PROCESSES, Process
+from gbnbench.benchmarks.timing.table_store import TableStore
 from gbnbench.core.torus import FloatArray
+from gbnbench.runs.task import Task
 
 SETS, SEED = 100, 12
 FEWEST_PAIRS = 10  # of a bin of g, from which its error is close to normal
@@ -146,18 +150,36 @@ def main() -> None:
     parser.add_argument("out", type=Path)
     parser.add_argument("--sets", type=int, default=SETS)
     parser.add_argument("--table", action="store_true")
+    add_workers(parser)
     given = parser.parse_args()
     if given.table:
         print(markdown(pd.read_csv(given.out)))
         return
-    done = pd.read_csv(given.out) if given.out.exists() else pd.DataFrame(columns=COLUMNS)
-    given.out.parent.mkdir(parents=True, exist_ok=True)
-    for process in PROCESSES:
-        if process.name not in set(done["process"]):
-            rows = coverage(process, given.sets)
-            done = rows if done.empty else pd.concat([done, rows])
-            done.to_csv(given.out, index=False, float_format="%.4g")
-            print(rows.to_string(index=False), flush=True)
+    tasks = [
+        Task(process.name, process.name, rows_of, (number, given.sets))
+        for number, process in enumerate(PROCESSES)
+    ]
+    order = [task.key for task in tasks]
+    fill(tasks, TableStore(given.out, COLUMNS, itemgetter("process"), order), given)
+
+
+def rows_of(number: int, sets: int) -> list[dict[str, object]]:
+    """Measure one of ``PROCESSES``, in a worker.
+
+    Parameters
+    ----------
+    number : int
+        Which.
+    sets : int
+        Of it.
+
+    Returns
+    -------
+    list of dict
+        Rows of the table.
+    """
+    table = coverage(PROCESSES[number], sets)
+    return [dict(zip(COLUMNS, row, strict=True)) for row in table.itertuples(index=False, name=None)]
 
 
 if __name__ == "__main__":

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -14,7 +14,7 @@ from gbnbench.benchmarks.gbn.cutoffs import FORCES, forces
 from gbnbench.benchmarks.gbn.floor_cases import FloorBenchmark
 from gbnbench.benchmarks.gbn.floor_time import FLOOR_TIME, race
 from gbnbench.benchmarks.gbn.speedups import speedup
-from gbnbench.benchmarks.timing.machine import Rows, describe
+from gbnbench.benchmarks.timing.machine import Row, Rows, describe
 from gbnbench.benchmarks.timing.threads import one_blas_thread
 from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.errors import InputError
@@ -82,6 +82,37 @@ def run(out: Path, plan: FloorBenchmark, progress: Progress) -> FloorTables:
                 for row in race(case, progress.advance):
                     file.add(row)
             floors = pd.DataFrame(file.kept, columns=FLOOR_TIME)
+    return FloorTables(machine, floors, by_cutoff, _speedups(out, floors))
+
+
+def written(
+    out: Path, machine: Mapping[str, Any], floors: Sequence[Row], by_cutoff: Sequence[Row]
+) -> FloorTables:
+    """Write the tables of rows that were measured elsewhere, as ``run`` does.
+
+    Parameters
+    ----------
+    out : Path
+        The folder.
+    machine : mapping
+        Where they were measured.
+    floors, by_cutoff : sequence of dict
+        Rows of ``FLOOR_TIME`` and ``FORCES``.
+
+    Returns
+    -------
+    FloorTables
+    """
+    write_whole(out / "machine.json", (json.dumps(machine, indent=2) + "\n").encode())
+    for name, columns, rows in (("forces", FORCES, by_cutoff), ("floor_time", FLOOR_TIME, floors)):
+        with Rows(out / f"{name}.csv", columns) as file:
+            for row in rows:
+                file.add(row)
+    table = pd.DataFrame(floors, columns=FLOOR_TIME)
+    return FloorTables(machine, table, pd.DataFrame(by_cutoff, columns=FORCES), _speedups(out, table))
+
+
+def _speedups(out: Path, floors: pd.DataFrame) -> pd.DataFrame:
     speedups = speedup(floors)
     write_whole(out / "speedup.csv", speedups.to_csv(index=False, float_format="%.6g").encode())
-    return FloorTables(machine, floors, by_cutoff, speedups)
+    return speedups

@@ -83,6 +83,11 @@ class FloorCase:
         """All gradients of all curves and sets."""
         return self.sets * sum(curve.gradients for curve in self.curves)
 
+    @property
+    def cost(self) -> float:
+        """Gradients of one set times its coordinates: about in proportion to its time."""
+        return float(self.n * self.d * sum(curve.gradients for curve in self.curves))
+
 
 @dataclass(frozen=True)
 class FloorBenchmark:

@@ -51,16 +51,38 @@ def race(case: FloorCase, advance: Callable[[str, int], object] = lambda *_: Non
     CPU time is over all threads, of the optimiser alone: from its construction, the kernels being built
     already, to the stop. What the points are like is measured in double beside the clock.
     """
-    curves = [c for c in case.curves if c.precision == "float" or runtime().device.has_double]
     for k in range(case.sets):
-        start = realization_rng(0, k).random((1, case.n, case.d))
-        runners = [_Runner(case, curve, start) for curve in curves]
-        for stop in sorted({stop for curve in curves for stop in curve.stops()}):
-            for runner in runners:
-                if stop not in runner.curve.stops():
-                    continue
-                advance(f"{case.title}, set {k + 1}: {runner.curve.title}", runner.advance(stop))
-                yield {**runner.row(), "set": k}
+        yield from race_of_set(case, k, advance)
+
+
+def race_of_set(
+    case: FloorCase, k: int, advance: Callable[[str, int], object] = lambda *_: None
+) -> Iterator[Row]:
+    """Run every curve of a case on one of its sets, in turn.
+
+    Parameters
+    ----------
+    case : FloorCase
+        The size and the curves.
+    k : int
+        Number of the set.
+    advance : callable
+        As ``race`` takes it.
+
+    Returns
+    -------
+    iterator of dict
+        One row for each stop, as soon as it is reached.
+    """
+    curves = [c for c in case.curves if c.precision == "float" or runtime().device.has_double]
+    start = realization_rng(0, k).random((1, case.n, case.d))
+    runners = [_Runner(case, curve, start) for curve in curves]
+    for stop in sorted({stop for curve in curves for stop in curve.stops()}):
+        for runner in runners:
+            if stop not in runner.curve.stops():
+                continue
+            advance(f"{case.title}, set {k + 1}: {runner.curve.title}", runner.advance(stop))
+            yield {**runner.row(), "set": k}
 
 
 class _Runner:

@@ -143,13 +143,35 @@ def write_stippling(
     suffix = path.suffix.lower()
     if suffix in ANIMATIONS:
         raise InputError(f"{path}: gbnbench.api.stippled_frames.write_frames writes moving pictures")
+    write_atomically(path, encoded(suffix, layers, style, dpi=dpi, template=template))
+
+
+def encoded(
+    suffix: str,
+    layers: Mapping[str, Stippling],
+    style: PageStyle = DEFAULT_STYLE,
+    *,
+    dpi: float = 300.0,
+    template: GcodeTemplate | None = None,
+) -> bytes:
+    """Make the bytes of a file.
+
+    Parameters
+    ----------
+    suffix : str
+        One of ``SUFFIXES``.
+    layers, style, dpi, template
+        As ``write_stippling`` takes them.
+
+    Returns
+    -------
+    bytes
+    """
     if suffix in TEXTS:
-        write_atomically(path, text_of(layers, suffix))
-        return
+        return text_of(layers, suffix)
     page = page_of(layers, style)
     if suffix == ".png":
-        write_atomically(path, png(page, dpi))
-    elif suffix == ".gcode":
-        write_atomically(path, gcode(page, template or GcodeTemplate()))
-    else:
-        write_atomically(path, PICTURES[suffix](page))
+        return png(page, dpi)
+    if suffix == ".gcode":
+        return gcode(page, template or GcodeTemplate())
+    return PICTURES[suffix](page)

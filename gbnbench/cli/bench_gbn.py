@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from gbnbench.cli import options
+from gbnbench.cli.executor_option import executor, workers_wanted
 from gbnbench.cli.json_text import json_text
 from gbnbench.core.text_table import aligned, number
 
@@ -34,15 +35,23 @@ FORCE_HEAD = ("case", "precision", "kernel", "sigmas", "CPU ms", "median", "rms 
 @options.quick_or_full(
     "--quick takes under half a minute, --full under five; fewer sizes and steps.", default="full"
 )
+@click.option(
+    "--jobs", type=click.IntRange(1),
+    help="Share the sets out among so many processes, each of which times whole races; the same command goes "
+    "on where it was stopped.  [default: all in turn in this process]",
+)  # fmt: skip
+@executor
 @options.json
 @options.quiet
 @options.device
-def gbn(out: Path, quick: bool, as_json: bool, quiet: bool) -> None:
+def gbn(out: Path, quick: bool, jobs: int | None, as_json: bool, quiet: bool) -> None:
     """Noise floor against CPU time: Nesterov's method and the paper's descent, float and double, cut-offs.
 
     The optimisers take turns in one process on one thread; each is stopped at a ladder of gradient counts
     and its points are measured in double beside the clock. Forces are timed and checked at every cut-off
     from 3 to 9 sigma. Tables are kept as they come, so a run that is stopped leaves what it has measured.
+    Workers of --jobs and --executor time a set of a size each, with all its optimisers; their machines must
+    have the same device, and seconds of different workers compare as far as these are alike.
     """
     from gbnbench.execution.worker_pool import ONE_THREAD
 
@@ -50,14 +59,18 @@ def gbn(out: Path, quick: bool, as_json: bool, quiet: bool) -> None:
         os.environ.setdefault(variable, ONE_THREAD[variable])
     from gbnbench.benchmarks.gbn import floor_cases
     from gbnbench.benchmarks.gbn.benchmark import run
+    from gbnbench.benchmarks.gbn.spread import run_by_workers
     from gbnbench.execution import progress
 
     plan = floor_cases.quick() if quick else floor_cases.full()
     try:
         with progress.choose(quiet) as teller:
-            outcome = run(out, plan, teller)
-    except KeyboardInterrupt:
-        raise KeyboardInterrupt(f"what was measured is in {out}") from None
+            if workers_wanted():
+                outcome = run_by_workers(out, plan, jobs or os.cpu_count() or 1, teller)
+            else:
+                outcome = run(out, plan, teller)
+    except KeyboardInterrupt as stopped:
+        raise KeyboardInterrupt(str(stopped) or f"what was measured is in {out}") from None
     draw(outcome, out)
     if as_json:
         tables = {"floors": outcome.floors, "speedups": outcome.speedups, "forces": outcome.forces}

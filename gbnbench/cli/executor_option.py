@@ -32,3 +32,9 @@ def executor(command: F) -> F:
         "--executor", metavar="NAME",
         help="Who does the work: local, dask:tcp://HOST:PORT, dask:local, mpi or slurm.  [default: local]",
     )(decorated)  # fmt: skip
+
+
+def workers_wanted() -> bool:
+    """Whether the command line asks for workers, by ``--jobs``, ``--executor`` or ``--executor-config``."""
+    given = click.get_current_context().params
+    return any(given[name] is not None for name in ("jobs", "executor", "executor_config"))

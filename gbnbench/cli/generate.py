@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import click
 
 from gbnbench.cli import options
+from gbnbench.cli.executor_option import executor, workers_wanted
 from gbnbench.core.atomic_write import check_folder, remove_leftovers_of
 from gbnbench.core.errors import InputError
 
@@ -42,16 +43,24 @@ PATIENCE = 1.0  # seconds before progress is shown
 @click.option("--explain", is_flag=True, help="Say how the energy would be found, at what cost; do nothing.")
 @options.realizations(1)
 @options.seed
+@click.option(
+    "--jobs", type=click.IntRange(1),
+    help="Draw by so many processes of one thread each, piece by piece; the same command goes on where it "
+    "was stopped.  [default: this process moves all sets together]",
+)  # fmt: skip
+@executor
 @options.quiet
 @options.device
 def generate(
     name: str, n: int, d: int, realizations: int, seed: int, out: Path, checkpoint: Path | None,
-    trace: Path | None, spectra_at: tuple[int, ...], explain: bool, quiet: bool,
+    trace: Path | None, spectra_at: tuple[int, ...], explain: bool, jobs: int | None, quiet: bool,
 ) -> None:  # fmt: skip
     """Make point sets and write them to a file.
 
-    NAME is one of "gbnbench generators", such as gbn or 'gbn[iterations=1000]'.
+    NAME is one of "gbnbench generators", such as gbn or 'gbn[iterations=1000]'. With --jobs or --executor
+    workers draw the sets; they are the same, however many draw them.
     """
+    from gbnbench.cli import generate_by_workers as by_workers
     from gbnbench.generators.gbn.generator import GaussianBlueNoise
     from gbnbench.generators.monitor import Trace
     from gbnbench.generators.registry import find
@@ -77,13 +86,18 @@ def generate(
     if explain:
         click.echo(gbn.explain(n, d, realizations) if gbn else f"{generator.name}: {generator.summary}")
         return
+    sets = f"{'1 set' if realizations == 1 else f'{realizations} sets'} of {n} points, d={d}"
+    replaced = ", replacing what was there" if out.exists() else ""
+    if workers_wanted():
+        by_workers.check_alone()
+        reused = by_workers.generate_by_workers(generator, n, d, realizations, seed, out, jobs, quiet)
+        click.echo(f"wrote {out}: {sets}{replaced}{reused}")
+        return
     kept = None if trace is None else Trace(keep_at=spectra_at)
     with _monitored(kept, checkpoint, quiet) as monitor:
         x = draw(name, n=n, d=d, seed=seed, realizations=realizations, monitor=monitor)
-    replaced = ", replacing what was there" if out.exists() else ""
     save(out, x)
-    sets = "1 set" if realizations == 1 else f"{realizations} sets"
-    click.echo(f"wrote {out}: {sets} of {n} points, d={d}{replaced}")
+    click.echo(f"wrote {out}: {sets}{replaced}")
     if trace is not None and kept is not None:
         write_atomically(trace, kept.to_frame().to_csv(index=False).encode())
         click.echo(f"wrote {trace}: {len(kept.rows)} rows")

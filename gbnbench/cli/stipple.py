@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import click
 
 from gbnbench.cli import options
+from gbnbench.cli.executor_option import executor
 from gbnbench.cli.late_progress import late_progress
 from gbnbench.core.atomic_write import check_folder
+
+if TYPE_CHECKING:
+    from gbnbench.cli.stipple_drawing import StippleOptions
 
 EPILOG = """\b
 Examples:
@@ -20,21 +23,25 @@ Examples:
   gbnbench stipple photo.jpg -o photo.svg --palette '#d00,#08c,#000'
   gbnbench stipple camera -o camera.gif --progressive             dot by dot
   gbnbench stipple moon -o moon.png --invert                      white dots on black
+  gbnbench stipple photos/*.jpg -o dots/ --format svg             each into the folder, by all cores
 """
 
 
 @click.command(cls=options.Command, epilog=EPILOG)
-@click.argument("image")
+@click.argument("images", metavar="IMAGE...", nargs=-1, required=True)
 @click.option(
     "-n",
     "n",
     type=click.IntRange(1),
     help="Dots.  [default: one for 2.5 x 2.5 pixels of black, 20,000 at most; with --dot-mm by coverage]",
 )
-@options.out_file(
-    "File to write, replacing any: .png, .svg, .pdf, .eps, .gcode; .txt and .csv with amplitudes; "
-    ".gif and .mp4 of how it forms.",
-    required=True,
+@click.option(
+    "-o", "--out", metavar="FILE", required=True,
+    help="File to write, replacing any: .png, .svg, .pdf, .eps, .gcode; .txt and .csv with amplitudes; .gif "
+    "and .mp4 of how it forms. Of several images a folder.",
+)  # fmt: skip
+@click.option(
+    "--format", "file_format", metavar="SUFFIX", help="Kind of the files in a folder.  [default: png]"
 )
 @click.option("--method", default="gbn", show_default=True, help="Generator, such as 'gbn[sigma=0.85]'.")
 @click.option("--invert", is_flag=True, help="Light is dense; dots are white on black.")
@@ -103,85 +110,83 @@ Examples:
 )
 @click.option("--preview", is_flag=True, help="Show the dots in the terminal, as Braille.")
 @options.seed
+@options.jobs
+@executor
 @options.quiet
 @options.device
 def stipple(
-    image: str, n: int | None, out: Path, method: str, invert: bool, gamma: float, white_cutoff: float | None,
-    toroidal: bool, colour: str | None, palette: str | None, width_mm: float, margin_mm: float | None,
-    paper: str | None, ink: str | None, dots: Literal["equal", "tone"], dot_mm: float | None,
-    dpi: float | None, order: str, progressive: bool, frames: int | None, gcode_template: Path | None,
-    preview: bool, seed: int, quiet: bool,
+    images: tuple[str, ...], n: int | None, out: str, file_format: str | None, method: str, invert: bool,
+    gamma: float, white_cutoff: float | None, toroidal: bool, colour: str | None, palette: str | None,
+    width_mm: float, margin_mm: float | None, paper: str | None, ink: str | None,
+    dots: Literal["equal", "tone"], dot_mm: float | None, dpi: float | None, order: str, progressive: bool,
+    frames: int | None, gcode_template: Path | None, preview: bool, seed: int, jobs: int | None, quiet: bool,
 ) -> None:  # fmt: skip
     """Draw an image by dots whose density follows its tones.
 
-    IMAGE is a file (PNG, JPEG, TIFF and what else Pillow reads, or an array as .npy), or the name of an image
-    of scikit-image's such as camera, coins or astronaut.
+    An IMAGE is a file (PNG, JPEG, TIFF and what else Pillow reads, or an array as .npy), or the name of an
+    image of scikit-image's such as camera, coins or astronaut. Several are drawn into a folder by worker
+    processes; one that cannot be drawn costs only itself, and the same command goes on where it was stopped.
     """
-    from gbnbench.api.drawing import draw_inks, in_progressive_order
-    from gbnbench.api.page_style import PageStyle, page_of
-    from gbnbench.api.stippled_frames import FormingDots
-    from gbnbench.api.stippled_page import in_tour_order, write_stippling
-    from gbnbench.cli import stipple_input
-    from gbnbench.cli.stipple_frames import checked_frames, write_animation
+    from gbnbench.cli import stipple_files, stipple_input
+    from gbnbench.cli.stipple_batch import stipple_folder
+    from gbnbench.cli.stipple_drawing import StippleOptions
     from gbnbench.generators.adaptive.registry import adaptive_generator
     from gbnbench.reports.stippling.gcode import read_template
-    from gbnbench.reports.stippling.page import Page
-    from gbnbench.reports.stippling.png import picture_size
     from gbnbench.studies.stippling.darkness import ToneCurve
-    from gbnbench.studies.stippling.inks import shared_out
 
-    given = stipple_input.PageOptions(width_mm, margin_mm, dots, dot_mm, dpi, paper, ink)
-    stipple_input.check(
-        image, out, given, inks=colour is not None or palette is not None, order=order,
-        progressive=progressive, template=gcode_template,
-    )  # fmt: skip
-    check_folder(out)
+    page = stipple_input.PageOptions(width_mm, margin_mm, dots, dot_mm, dpi, paper, ink)
+    many = len(images) > 1 or stipple_files.is_folder(out)
+    if many:
+        files = stipple_files.files_of(images, out, file_format)
+        stipple_files.check(out, frames, preview=preview)
+    else:
+        files = {images[0]: stipple_files.file_of(out, file_format)}
+    for image, file in files.items():
+        stipple_input.check(
+            image, file, page, inks=colour is not None or palette is not None, order=order,
+            progressive=progressive, template=gcode_template,
+        )  # fmt: skip
     template = None if gcode_template is None else read_template(gcode_template)
     generator = adaptive_generator(method)
     curve = ToneCurve(invert, gamma, white_cutoff)
-    on, layer = stipple_input.colours(given, invert=invert)
-    darkness = stipple_input.darkness(image, curve, colour, palette, seed, layer)
-    for remark in dict.fromkeys(remark for one in darkness.values() for remark in one.remarks):
-        click.echo(f"gbnbench: {remark}", err=True)
-    rows, columns = next(iter(darkness.values())).values.shape
-    sheet = Page(width_mm, width_mm * rows / columns, ())
-    style = PageStyle(width_mm, 0.0 if toroidal and margin_mm is None else margin_mm, dots, dot_mm, on)
-    counts = shared_out(darkness, n if n is not None else stipple_input.default_n(darkness, style))
-    moving = checked_frames(out, frames, sheet, dpi, generator, counts, progressive=progressive)
-    if out.suffix.lower() == ".png":
-        picture_size(sheet, 300 if dpi is None else dpi)
-    kept = FormingDots(moving.steps, moving.frames) if moving is not None and moving.steps else None
-    wanted = {
-        name: dark if dots == "equal" else replace(dark, values=dark.values**0.5)
-        for name, dark in darkness.items()
-    }
-    with late_progress(quiet) as told:
-        drawn = draw_inks(
-            wanted, counts, method=generator, seed=seed, toroidal=toroidal, progress=told, seen=kept
-        )
-    lengths = {}
-    for name, made in drawn.items():
-        placed = replace(made, coverage=darkness[name].coverage)
-        if progressive:
-            with late_progress(quiet) as told:
-                placed = in_progressive_order(placed, told)
-        elif order == "tour":
-            placed, lengths[name] = in_tour_order(placed)
-        drawn[name] = placed
-    replaced = ", replacing what was there" if out.exists() else ""
-    page = page_of(drawn, style)
-    mm = (page.width - 2 * page.margin) / columns
-    for name, length in lengths.items():
-        click.echo(f"tour of {name}: {length * mm / 1000:.4g} m")
-    if moving is None:
-        write_stippling(out, drawn, style, dpi=300 if dpi is None else dpi, template=template)
+    on, layer = stipple_input.colours(page, invert=invert)
+    given = StippleOptions(
+        n, generator, curve, toroidal, progressive, colour, palette, order, page, on, layer, template, seed
+    )
+    if many:
+        stipple_folder(files, given, jobs, quiet=quiet)
     else:
-        write_animation(out, page, moving, kept, mm, quiet=quiet)
+        _stipple_one(images[0], files[images[0]], given, frames, preview=preview, quiet=quiet)
+
+
+def _stipple_one(
+    image: str, out: Path, given: StippleOptions, frames: int | None, *, preview: bool, quiet: bool
+) -> None:
+    """Draw one image in this process, and say what was drawn."""
+    from gbnbench.api.stippled_frames import FormingDots
+    from gbnbench.api.stippled_page import write_stippling
+    from gbnbench.cli.stipple_drawing import drawn, planned
+    from gbnbench.cli.stipple_frames import checked_frames, write_animation
+
+    check_folder(out)
+    plan = planned(image, given, out.suffix.lower())
+    for remark in plan.remarks:
+        click.echo(f"gbnbench: {remark}", err=True)
+    moving = checked_frames(
+        out, frames, plan.sheet, given.page.dpi, given.generator, plan.counts, progressive=given.progressive
+    )
+    kept = FormingDots(moving.steps, moving.frames) if moving is not None and moving.steps else None
+    with late_progress(quiet) as told, late_progress(quiet) as ordering:
+        made = drawn(plan, given, told, kept, ordering)
+    for name, length in made.lengths.items():
+        click.echo(f"tour of {name}: {length:.4g} m")
+    replaced = ", replacing what was there" if out.exists() else ""
+    if moving is None:
+        write_stippling(out, made.layers, plan.style, dpi=given.dpi, template=given.template)
+    else:
+        write_animation(out, made.page, moving, kept, made.mm, quiet=quiet)
     if preview:
         from gbnbench.cli.braille import braille
 
-        click.echo(braille(drawn.values()))
-    said = ", ".join(f"{len(made.pixels):,} dots of {name}" for name, made in drawn.items())
-    sizes = sorted({round(2 * r, 3) for layer in page.layers for r in (layer.radii.min(), layer.radii.max())})
-    across = f"{sizes[0]:g}" if len(sizes) == 1 else f"{sizes[0]:g} to {sizes[-1]:g}"
-    click.echo(f"wrote {out}: {said}, {across} mm across, on {page.width:g} x {page.height:.4g} mm{replaced}")
+        click.echo(braille(made.layers.values()))
+    click.echo(f"wrote {out}: {made.summary}{replaced}")

@@ -9,7 +9,7 @@ import secrets
 import shutil
 import sys
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import IO
 
@@ -18,18 +18,19 @@ from gbnbench.core.errors import InputError
 if sys.platform != "win32":
     import fcntl
 
+Writer = Callable[[IO[bytes]], object]
 YOUNG = 1.0  # seconds that a temporary file has to be locked after it was made
 
 
-def write_whole(path: Path, data: bytes, *, make_folder: bool = True) -> None:
+def write_whole(path: Path, data: bytes | Iterable[bytes], *, make_folder: bool = True) -> None:
     """Write a file so that a reader, a crash or a full disk sees the old content or the new, never a part.
 
     Parameters
     ----------
     path : Path
         Where it shall stand.
-    data : bytes
-        The whole content.
+    data : bytes or iterable of bytes
+        The whole content, or its parts in turn.
     make_folder : bool
         Make its folder where it is missing.
 
@@ -46,7 +47,7 @@ def write_whole(path: Path, data: bytes, *, make_folder: bool = True) -> None:
         with temporary.open("xb") as file:
             with contextlib.suppress(OSError):  # a file system without locks
                 _hold(file)
-            file.write(data)
+            file.writelines((data,) if isinstance(data, bytes) else data)
             file.flush()
             os.fsync(file.fileno())
             if sys.platform != "win32":  # still held, so that nobody takes it for a leftover
@@ -83,15 +84,15 @@ def check_folder(path: Path | None) -> None:
         raise InputError(f"{path} cannot be written: permission denied; give another place")
 
 
-def write_folder_whole(path: Path, files: Mapping[str, bytes]) -> None:
+def write_folder_whole(path: Path, files: Mapping[str, bytes | Writer]) -> None:
     """Write a folder of files under a temporary name and rename it: all of it appears at once or none.
 
     Parameters
     ----------
     path : Path
         The folder; one that is there is replaced.
-    files : mapping of str to bytes
-        Names and contents.
+    files : mapping of str to bytes or callable
+        Names and contents, or what writes them into an open file.
 
     Raises
     ------
@@ -155,9 +156,12 @@ def _hold(file: IO[bytes]) -> None:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
 
-def _write_synced(path: Path, data: bytes) -> None:
+def _write_synced(path: Path, data: bytes | Writer) -> None:
     with path.open("xb") as file:
-        file.write(data)
+        if isinstance(data, bytes):
+            file.write(data)
+        else:
+            data(file)
         file.flush()
         os.fsync(file.fileno())
 

@@ -67,6 +67,11 @@ class Calls:
         """Calls submitted and not yet handed back."""
         return len(self._pending)
 
+    @property
+    def enough(self) -> bool:
+        """Whether so many calls are given out that no worker waits for more."""
+        return len(self._pending) >= self._workers.backlog
+
     def submit(self, key: Hashable, function: Callable[..., Any], *arguments: object) -> None:
         """Queue one call of a module-level function.
 

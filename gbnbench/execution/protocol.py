@@ -18,6 +18,11 @@ class Workers(Protocol):
         """How many calls are carried out at once, as far as is known."""
         ...
 
+    @property
+    def backlog(self) -> int:
+        """How many calls are given out at a time, so that no worker waits; each is held in memory."""
+        ...
+
     def submit(self, fn: Callable[..., Any], /, *args: Any) -> Future[Any]:
         """Queue a call of a function of a module; an exception of the future means a lost worker.
 

@@ -37,6 +37,8 @@ ONE_THREAD = {
     "MALLOC_MMAP_MAX_": "0",
 }
 
+BACKLOG = 8  # calls a worker that are given out at a time
+
 
 class LostWorkerError(Exception):
     """A process ended before it answered; the text says of what."""
@@ -71,6 +73,11 @@ class Pool(Executor):
         self._threads = [threading.Thread(target=self._attend, daemon=True) for _ in range(jobs)]
         for thread in self._threads:
             thread.start()
+
+    @property
+    def backlog(self) -> int:
+        """Calls to be given out at a time."""
+        return BACKLOG * self.count
 
     def submit(self, fn: Callable[..., Any], /, *args: Any) -> Future[Any]:  # type: ignore[override]
         """Queue one call of a module-level function.

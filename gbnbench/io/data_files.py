@@ -7,7 +7,7 @@ import json
 import zipfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import IO, TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -69,6 +69,15 @@ def to_npz(**arrays: NDArray[Any]) -> bytes:
     buffer = io.BytesIO()
     np.savez(buffer, allow_pickle=False, **arrays)
     return buffer.getvalue()
+
+
+def npz_writer(**arrays: NDArray[Any]) -> Callable[[IO[bytes]], None]:
+    """Return what writes the bytes of ``to_npz`` into an open file, without holding them."""
+
+    def write(file: IO[bytes]) -> None:
+        np.savez(file, allow_pickle=False, **arrays)
+
+    return write
 
 
 def read_npz(path: Path) -> dict[str, NDArray[Any]]:

@@ -6,11 +6,12 @@ from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from gbnbench.core.errors import GbnbenchError, UnfinishedError
+from gbnbench.core.errors import GbnbenchError
 from gbnbench.execution.calls import Finished
 from gbnbench.execution.executor_choice import chosen_executor
 from gbnbench.execution.progress import Progress
 from gbnbench.runs.device_proof import prove_device_if_any, proven_calls
+from gbnbench.runs.held_results import HeldResults
 from gbnbench.runs.result_store import ResultStore
 from gbnbench.runs.task import Task
 
@@ -24,6 +25,8 @@ class TaskRun:
         All of them; they are started in this order, so the longest first leave the least idle at the end.
     store : ResultStore, optional
         Where results are found and kept; without one nothing outlives the run.
+    hold : bool
+        Keep the results in memory too; else they are in the store only, and None stands for each.
 
     Attributes
     ----------
@@ -42,11 +45,12 @@ class TaskRun:
     A stored result is read once. What a task requires is read only if the task's own result is missing.
     """
 
-    def __init__(self, tasks: Sequence[Task], store: ResultStore | None = None) -> None:
-        self._store = store
+    def __init__(self, tasks: Sequence[Task], store: ResultStore | None = None, hold: bool = True) -> None:
+        self._store, self._hold = store, hold
         self._tasks = {task.key: task for task in tasks}
         self._required = {key for task in tasks for key in task.needs}
         self._results: dict[str, Any] = {}
+        self._inputs = HeldResults(store)
         self.failures: dict[str, str] = {}
         self.missing: list[Task] = []
         seen: set[str] = set()
@@ -120,7 +124,7 @@ class TaskRun:
             progress.start(len(self._tasks), self.reused, doing)  # the time of the check is not counted
             ready = deque(task for task in self.missing if not self._awaits[task.key])
             while ready or pool.pending:
-                if not ready:
+                if not ready or (pool.enough and not ready[0].here):
                     settled = self._settle(pool.next(), progress)
                     while pool.left_out:
                         progress.say(f"left out: {pool.left_out.pop()}")
@@ -129,7 +133,8 @@ class TaskRun:
                 else:
                     pool.submit(task.key, task.function, *self._arguments(task))
                     continue
-                ready.extend(self._released(str(settled.key)))
+                # What is released is next, so that what it needs is soon let go.
+                ready.extendleft(reversed(self._released(str(settled.key))))
                 yield settled
 
     def _done_here(self, task: Task, progress: Progress) -> Finished:
@@ -146,17 +151,25 @@ class TaskRun:
         seen.add(task.key)
         result = self._store.read(task.key) if self._store else None
         if result is not None:
-            self._results[task.key] = result
+            self._keep(task.key, result)
             return
         for key in task.needs:
             self._find(self._tasks[key], seen)
         self.missing.append(task)
 
-    def _arguments(self, task: Task) -> tuple[Any, ...]:
-        return (*task.arguments, self._known(task.requires)) if task.requires else task.arguments
+    def _keep(self, key: str, result: Any) -> None:
+        """Keep a result for the tasks that need it, or for the caller."""
+        if key in self._required:
+            self._inputs[key] = result
+        else:
+            self._results[key] = result if self._hold else None
 
-    def _known(self, keys: Sequence[str]) -> list[Any]:
-        return [self._results[key] for key in keys]
+    def _arguments(self, task: Task) -> tuple[Any, ...]:
+        """Give the arguments of a call; a worker is sent what it requires, here that is read as it goes."""
+        if not task.requires:
+            return task.arguments
+        required = self._inputs.several(task.requires)
+        return (*task.arguments, required if task.here else list(required))
 
     def _settle(self, done: Finished, progress: Progress) -> Finished:
         """Keep a result, tell the progress, and let go of what nobody needs any more."""
@@ -165,81 +178,19 @@ class TaskRun:
             self.failures[task.key] = done.failure
             progress.advance(f"failed: {task.label}")
             return done
-        inputs = self._known(task.collects or task.requires) if task.assemble else []
+        inputs = self._inputs.several(task.collects or task.requires)
         result = task.assemble(done.value, inputs) if task.assemble else done.value
         if self._store:
             self._store.write(task.key, result)
-        self._results[task.key] = result
+        self._keep(task.key, result)
         for key in self._users[task.key]:
             self._awaits[key].discard(task.key)
         for key in task.needs:
             self._users[key].remove(task.key)
             if not self._users[key]:
-                del self._results[key]
+                del self._inputs[key]
         progress.advance(task.done or task.label)
         return Finished(task.key, result)
-
-
-def run_tasks(
-    tasks: Sequence[Task],
-    store: ResultStore,
-    jobs: int,
-    progress: Progress,
-    doing: str = "",
-    meanwhile: Callable[[], None] | None = None,
-) -> TaskRun:
-    """Do the tasks whose results a store lacks, in worker processes.
-
-    Parameters
-    ----------
-    tasks : sequence of Task
-        All of them.
-    store : ResultStore
-        Where results are found and kept.
-    jobs : int
-        Most worker processes, each with one thread.
-    progress : Progress
-        Counts a step a task.
-    doing : str
-        What the progress says at first; by default the label of the first task.
-    meanwhile : callable, optional
-        Called in this process while a worker checks the OpenCL device.
-
-    Returns
-    -------
-    TaskRun
-        With every result.
-
-    Raises
-    ------
-    UnfinishedError
-        If tasks failed, the first named; every other result is kept.
-    DeviceError
-        If there is an OpenCL device and it cannot be used.
-    OSError
-        If a result cannot be kept.
-    """
-    run = TaskRun(tasks, store)
-    if not run.missing:
-        return run
-    if run.reused:
-        progress.say(f"resuming {store.path}: {run.reused} of {len(tasks)} pieces are there")
-    labels = {task.key: task.label for task in run.missing}
-    failures = []
-    try:
-        for done in run.complete(jobs, progress, doing=doing, meanwhile=meanwhile):
-            if done.failure:
-                failures.append(f"{labels[str(done.key)]}: {done.failure}")
-                progress.say(failures[-1])
-    except UnfinishedError as error:
-        kept = f"what is finished is kept in {store.path}, and the same command goes on"
-        raise UnfinishedError(f"{error}; {kept}") from error
-    if failures:
-        raise UnfinishedError(
-            f"{len(failures)} of {len(run.missing)} pieces failed (what is finished is kept in {store.path}; "
-            f"the same command tries only the rest); the first: {failures[0]}"
-        )
-    return run
 
 
 def _call(task: Task, arguments: tuple[Any, ...]) -> Finished:

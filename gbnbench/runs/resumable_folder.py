@@ -34,12 +34,13 @@ class ResumableFolder:
     """
 
     kind = "results"  # what it holds, in words
+    elsewhere = "choose another folder with --out"  # what to do where it holds something else
 
     def __init__(self, path: Path, identity: Mapping[str, Any]) -> None:
         self.path = path
         self.identity = {"format": FORMAT, **identity}
         if path.exists() and not path.is_dir():
-            raise InputError(f"{path} is a file; choose another folder with --out")
+            raise InputError(f"{path} is a file; {self.elsewhere}")
         self._check()
 
     def _check(self) -> None:
@@ -49,13 +50,11 @@ class ResumableFolder:
             if stored != self.identity:
                 raise InputError(
                     f"{self.path} holds a {self.kind} with other settings "
-                    f"({_difference(stored, self.identity)}); choose another folder with --out, or delete "
-                    "this one"
+                    f"({_difference(stored, self.identity)}); {self.elsewhere}, or delete this one"
                 )
         elif self.path.exists() and any(not _is_ours(entry.name) for entry in self.path.iterdir()):
             raise InputError(
-                f"{self.path} is not empty and is not a {self.kind} of gbnbench; choose another folder with "
-                "--out"
+                f"{self.path} is not empty and is not a {self.kind} of gbnbench; {self.elsewhere}"
             )
 
     @property

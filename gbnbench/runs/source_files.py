@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gbnbench.core.atomic_write import Writer
 from gbnbench.core.results.measures import Measures
 from gbnbench.core.results.radial import RadialPower
 from gbnbench.core.results.spectrum import Spectrum
@@ -42,7 +43,7 @@ ARRAYS = {"points": "points.npz", "zone_plate": "zone_plate.npz"}  # fields that
 EXTREMES = {"nan": math.nan, "inf": math.inf, "-inf": -math.inf}
 
 
-def encode(result: SourceResult) -> dict[str, bytes]:
+def encode(result: SourceResult) -> dict[str, bytes | Writer]:
     """Make the files of one source.
 
     Parameters
@@ -52,7 +53,7 @@ def encode(result: SourceResult) -> dict[str, bytes]:
 
     Returns
     -------
-    dict of bytes
+    dict of bytes, or of what writes them
         ``source.json`` (labels, measures), ``points.npz``, ``spectrum.npz``, ``radial.csv``,
         ``anisotropy.csv`` and, where the source has them, ``rdf.csv``, ``valence.csv``, ``zone_plate.npz``.
     """
@@ -79,7 +80,7 @@ def encode(result: SourceResult) -> dict[str, bytes]:
         "spectrum.npz": data_files.to_npz(**spectra),
         "radial.csv": data_files.to_csv(result.radial.to_frame()),
         **{f"{name}.csv": data_files.to_csv(table) for name, table in tables.items() if table is not None},
-        **{ARRAYS[name]: data_files.to_npz(**{name: x}) for name, x in arrays.items() if x is not None},
+        **{ARRAYS[name]: data_files.npz_writer(**{name: x}) for name, x in arrays.items() if x is not None},
     }
 
 

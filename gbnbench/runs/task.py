@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -41,12 +41,12 @@ class Task:
     function: Callable[..., Any]
     arguments: tuple[Any, ...] = ()
     requires: tuple[str, ...] = ()
-    assemble: Callable[[Any, list[Any]], Any] | None = None
+    assemble: Callable[[Any, Sequence[Any]], Any] | None = None
     done: str = ""
     collects: tuple[str, ...] = ()
     here: bool = False
 
     @property
     def needs(self) -> tuple[str, ...]:
-        """Keys of all tasks whose results must be there."""
-        return (*self.requires, *self.collects)
+        """Keys of all tasks whose results must be there, each once."""
+        return tuple(dict.fromkeys((*self.requires, *self.collects)))

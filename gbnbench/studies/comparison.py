@@ -20,8 +20,8 @@ from gbnbench.runs import comparison_folder
 from gbnbench.runs.baseline import Change, judge
 from gbnbench.runs.comparison_result import Run
 from gbnbench.runs.device_proof import needed_device
+from gbnbench.runs.every_task import run_tasks
 from gbnbench.runs.provenance import versions
-from gbnbench.runs.resumable import run_tasks
 from gbnbench.runs.resumable_folder import explain_interruption
 from gbnbench.runs.sources import Source
 from gbnbench.studies.comparison_tasks import comparison_tasks

@@ -7,12 +7,12 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.analysis.measures import AnalysisArrays, merged_analysis
 from gbnbench.analysis.measuring_plan import MeasuringPlan
 from gbnbench.analysis.piece_measures import measure_piece
+from gbnbench.core.large_arrays import filled
 from gbnbench.core.sides import as_sides
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.protocol import Generator, checked_draw, realization_rng
@@ -234,6 +234,7 @@ def source_result(
     told = (f"the file {NO_TORUS}",) if source.toroidal is False else ()
     analysis = arrays.analysis()
     drawn = realizations if source.sets is None else ()
+    costs = [(one.cpu_seconds, one.first) for one in drawn]
     return SourceResult(
         **{**vars(analysis), "warnings": (*told, *analysis.warnings)},
         key=source.key,
@@ -242,9 +243,10 @@ def source_result(
         d=source.d,
         realizations=source.realizations,
         points=_points(drawn) if source.sets is None else source.sets,
-        cpu_seconds=mean_cost([one.cpu_seconds for one in drawn], [one.first for one in drawn]),
+        cpu_seconds=mean_cost([cost for cost, _ in costs], [first for _, first in costs]),
     )
 
 
 def _points(realizations: Sequence[Realization]) -> FloatArray:
-    return np.stack([realization.x for realization in realizations])
+    """Put the points of sets together, which are looked at one after another."""
+    return filled((len(realizations), *realizations[0].x.shape), (each.x[None] for each in realizations))

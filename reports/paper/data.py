@@ -19,7 +19,7 @@ from gbnbench.generators.adaptive.density import as_density
 from gbnbench.io.points import ReadingOptions
 from gbnbench.reports.paper.averaged_pixels import averaged
 from gbnbench.runs.comparison_result import Run
-from gbnbench.runs.resumable import run_tasks
+from gbnbench.runs.every_task import run_tasks
 from gbnbench.runs.sources import DEFAULT_READING, resolve
 from gbnbench.runs.task import Task
 from gbnbench.runs.task_folder import Arrays, TaskFolder

@@ -7,7 +7,7 @@ import os
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -82,12 +82,12 @@ def cluster(folder: Path) -> Iterator[Cluster]:
             process.wait()
 
 
-def spread(address: str, out: Path, *options: object) -> subprocess.Popen[str]:
-    """Begin the comparison by the workers of a scheduler."""
+def spread(address: str, out: Path, *options: object, asked: Sequence[str] = ASKED) -> subprocess.Popen[str]:
+    """Begin a command by the workers of a scheduler, a comparison unless another is asked for."""
     config = out.parent / "dask.toml"
     config.write_text("[dask]\nwait_seconds = 8\n")
     return subprocess.Popen(
-        [*COMMAND, *ASKED, "--out", str(out), "--executor", f"dask:{address}",
+        [*COMMAND, *asked, "--out", str(out), "--executor", f"dask:{address}",
          "--executor-config", str(config), *map(str, options)],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
     )  # fmt: skip

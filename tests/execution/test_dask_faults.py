@@ -117,6 +117,20 @@ def test_another_version_of_gbnbench_is_refused_in_words(tmp_path: Path) -> None
     assert not (tmp_path / "run").exists()
 
 
+def test_a_worker_with_threads_that_comes_later_is_left_out(tmp_path: Path) -> None:
+    out = tmp_path / "run"
+    with cluster(tmp_path / "dask") as workers:
+        workers.worker()
+        many = ["compare", "gbn[gradients=400]", "-n", "256", "--realizations", "300"]
+        process = spread(workers.address, out, asked=many)
+        until(lambda: finished_pieces(out) >= 1)
+        workers.worker("--nthreads", "2")
+        code, said = ended(process)
+    assert code == 0, said
+    assert "left out: the Dask worker" in said
+    assert "carries out 2 calls at once in one process" in said
+
+
 def test_workers_with_threads_and_a_scheduler_that_is_not_there_are_refused(tmp_path: Path) -> None:
     with cluster(tmp_path / "dask") as workers:
         workers.worker("--nthreads", "2")

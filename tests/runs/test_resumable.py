@@ -14,7 +14,8 @@ import pytest
 
 from gbnbench.core.errors import InputError, UnfinishedError
 from gbnbench.execution.progress import Progress
-from gbnbench.runs.resumable import TaskRun, run_tasks
+from gbnbench.runs.every_task import run_tasks
+from gbnbench.runs.resumable import TaskRun
 from gbnbench.runs.resumable_folder import ResumableFolder
 from gbnbench.runs.task import Task
 from gbnbench.runs.task_folder import TaskFolder

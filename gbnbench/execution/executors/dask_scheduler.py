@@ -9,15 +9,17 @@ import warnings
 from collections.abc import Callable
 from concurrent.futures import Future
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any, ClassVar
 
 from gbnbench.core.errors import InputError, UnfinishedError
 from gbnbench.core.readable_text import in_one_line
 from gbnbench.execution.executors.extra import require
 from gbnbench.execution.remote_call import Answer
-from gbnbench.execution.worker_pool import ONE_THREAD
+from gbnbench.execution.worker_pool import BACKLOG, ONE_THREAD
 
 LOCAL = "local"
+COUNTED_SECONDS = 5.0  # between counts of the workers
 ORPHANED_SECONDS = "20s"  # after which workers end whose driver, and scheduler with it, is gone
 
 
@@ -87,6 +89,7 @@ class DaskWorkers:
         self._executor = self._client.get_executor(pure=False)
         self._avoided: set[str] = set()
         self._alone_since: float | None = None
+        self._backlog, self._counted = 0, float("-inf")
         try:
             if target is not settings.address:
                 self._client.wait_for_workers(jobs, timeout=settings.connect_seconds)
@@ -99,6 +102,13 @@ class DaskWorkers:
     def count(self) -> int:
         """Workers that are there now."""
         return max(1, len(self._present()))
+
+    @property
+    def backlog(self) -> int:
+        """Calls to be given out at a time; workers that come later are counted within seconds."""
+        if time.monotonic() - self._counted >= COUNTED_SECONDS:
+            self._backlog, self._counted = BACKLOG * self.count, time.monotonic()
+        return self._backlog
 
     def submit(self, fn: Callable[..., Any], /, *args: Any) -> Future[Any]:
         """Queue a call with the scheduler.
@@ -114,10 +124,9 @@ class DaskWorkers:
         -------
         Future
         """
-        chosen = {}
-        if self._avoided:
-            fit = [worker for worker in self._present() if worker not in self._avoided]
-            chosen = {"workers": fit, "allow_other_workers": False}
+        chosen: dict[str, Any] = {}
+        if self._avoided:  # else the scheduler need not be asked, which takes as long as a call
+            chosen = {"workers": self._fit(), "allow_other_workers": False}
         with warnings.catch_warnings():
             warnings.filterwarnings("ignore", "Sending large graph")  # points and powers are large
             future: Future[Any] = self._executor.submit(at_worker, fn, *args, **chosen)
@@ -125,17 +134,16 @@ class DaskWorkers:
 
     def shutdown(self) -> None:
         """Cancel what is not finished and close the client, and the scheduler that was started."""
-        with contextlib.suppress(Exception):
-            self._executor.shutdown(wait=False)
-        with contextlib.suppress(Exception):
-            self._stack.close()
+        for close in (partial(self._executor.shutdown, wait=False), self._stack.close):
+            with contextlib.suppress(Exception):
+                close()
 
     def trouble(self) -> str:
         """Say whether the scheduler is gone, or there has been no worker for too long."""
         where = self._settings.address
         if self._client.status != "running":
             return f"the Dask scheduler at {where} is gone"
-        if set(self._present()) - self._avoided:
+        if self._fit():
             self._alone_since = None
             return ""
         self._alone_since = self._alone_since or time.monotonic()
@@ -161,20 +169,22 @@ class DaskWorkers:
             False if no other is left.
         """
         self._avoided.add(worker)
-        return bool(set(self._present()) - self._avoided)
+        return bool(self._fit())
 
     def _present(self) -> dict[str, Any]:
         present: dict[str, Any] = self._client.scheduler_info(n_workers=-1)["workers"]
         return present
 
+    def _fit(self) -> list[str]:
+        """Addresses of the workers of one thread that have not been found unfit."""
+        present = self._present().items()
+        return [at for at, about in present if about["nthreads"] == 1 and at not in self._avoided]
+
     def _refuse_threads(self) -> None:
-        """Refuse workers that would carry out several calls in one process."""
+        """Refuse workers that would carry out several calls in one process; later ones refuse themselves."""
         for address, about in self._present().items():
             if about["nthreads"] != 1:
-                raise InputError(
-                    f"the Dask worker {address} carries out {about['nthreads']} calls at once in one "
-                    "process; gbnbench needs one: dask worker ADDRESS --nthreads 1 --nworkers N"
-                )
+                raise InputError(_several_threads(address, about["nthreads"]))
 
 
 def _started_here(jobs: int) -> Any:
@@ -207,8 +217,14 @@ def _silence() -> None:
             logging.getLogger(name).setLevel(logging.CRITICAL)
 
 
+def _several_threads(address: str, threads: int) -> str:
+    """Say why a worker with several threads cannot serve."""
+    told = f"the Dask worker {address} carries out {threads} calls at once in one process"
+    return f"{told}; gbnbench needs one: dask worker ADDRESS --nthreads 1 --nworkers N"
+
+
 def at_worker(function: Callable[..., Any], *arguments: Any) -> Any:
-    """Carry out a call in a Dask worker, whose address goes with its answer.
+    """Carry out a call in a Dask worker; one with several threads, which came late, says it cannot serve.
 
     Parameters
     ----------
@@ -224,5 +240,9 @@ def at_worker(function: Callable[..., Any], *arguments: Any) -> Any:
     """
     from distributed import get_worker
 
+    worker = get_worker()
+    if worker.state.nthreads != 1:
+        told = _several_threads(worker.address, worker.state.nthreads)
+        return Answer(failure=told, again=True, unfit=True, worker=worker.address)
     answer = function(*arguments)
-    return replace(answer, worker=get_worker().address) if isinstance(answer, Answer) else answer
+    return replace(answer, worker=worker.address) if isinstance(answer, Answer) else answer

@@ -10,6 +10,7 @@ from typing import Any, ClassVar
 
 from gbnbench.core.errors import InputError
 from gbnbench.execution.executors.extra import require
+from gbnbench.execution.worker_pool import BACKLOG
 
 START = "mpiexec -n 9 python -m mpi4py.futures -m gbnbench compare ... --executor mpi"
 
@@ -68,6 +69,11 @@ class RankWorkers:
 
         self.count = count
         self._executor = MPIPoolExecutor(count, initializer=one_thread)
+
+    @property
+    def backlog(self) -> int:
+        """Calls to be given out at a time."""
+        return BACKLOG * self.count
 
     def submit(self, fn: Callable[..., Any], /, *args: Any) -> Future[Any]:
         """Queue a call.

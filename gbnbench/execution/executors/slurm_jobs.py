@@ -118,6 +118,11 @@ class JobWorkers:
         """Most jobs at a time."""
         return self._settings.jobs
 
+    @property
+    def backlog(self) -> int:
+        """Calls to be given out at a time: those of all jobs, and as many that wait for a free one."""
+        return 2 * self._settings.jobs * self._settings.calls_a_job
+
     def submit(self, fn: Callable[..., Any], /, *args: Any) -> Future[Any]:
         """Queue a call for the next job.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import bz2
 import gzip
 import lzma
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import cast
 
@@ -139,15 +139,15 @@ def check_suffix(path: Path) -> None:
         raise InputError(f"{path}: points are written as {known}; got extension {suffix_of(path)!r}")
 
 
-def write_atomically(path: Path, data: bytes) -> None:
+def write_atomically(path: Path, data: bytes | Iterable[bytes]) -> None:
     """Write a file whole or not at all, and say what is wrong with its place.
 
     Parameters
     ----------
     path : Path
         A regular file or nothing yet; a link is followed.
-    data : bytes
-        The whole content.
+    data : bytes or iterable of bytes
+        The whole content, or its parts in turn.
 
     Raises
     ------

@@ -14,11 +14,10 @@ from gbnbench.analysis.integration.integrands.protocol import Family, Integrand
 from gbnbench.analysis.integration.spectral_variance import FourierSeries, fourier_series, predicted_variance
 from gbnbench.core.settings import specification
 from gbnbench.core.torus import FloatArray, wrap
-from gbnbench.generators.monitor import Monitor, MonitoredGenerator
-from gbnbench.generators.protocol import Generator, checked_draw, realization_rng
-from gbnbench.generators.third_parties.faults import faults_in_words
+from gbnbench.generators.protocol import Generator
 from gbnbench.runs.sources import Source
 from gbnbench.runs.task import Task
+from gbnbench.studies.drawn_sets import realizations_of
 
 INSTANCE, SHIFT = 2**31 + 1, 2**31 + 2  # first words of spawn keys, far from any realization's number
 BLOCK_POINTS, BLOCK_SETS = 16_384, 32  # of a block; fixed, so that blocks do not depend on the machine
@@ -149,15 +148,7 @@ def estimate_block(
         integrals; where its spectrum is known ``... foretold``, (instances, count) variances, and
         ``... beyond``.
     """
-    if isinstance(origin, np.ndarray):
-        sets = origin
-    else:
-        rngs = [realization_rng(seed, first + k) for k in range(count)]
-        with faults_in_words(type(origin), f"drawing n={n}, d={d}"):
-            if isinstance(origin, MonitoredGenerator):
-                sets = origin.draw(n, d, rngs, Monitor())
-            else:
-                sets = np.stack([checked_draw(origin, origin(n, d, rng), n, d) for rng in rngs])
+    sets = origin if isinstance(origin, np.ndarray) else realizations_of(origin, n, d, first, count, seed)
     found: dict[str, NDArray[Any]] = {}
     for family in families:
         text = specification(family)

@@ -21,8 +21,8 @@ from gbnbench.core.sides import as_sides
 from gbnbench.execution.progress import Progress
 from gbnbench.runs import comparison_folder
 from gbnbench.runs.device_proof import run_device
+from gbnbench.runs.every_task import run_tasks
 from gbnbench.runs.provenance import versions
-from gbnbench.runs.resumable import run_tasks
 from gbnbench.runs.resumable_folder import explain_interruption
 from gbnbench.runs.sources import Source, resolve
 from gbnbench.studies.drawing import failure_of
