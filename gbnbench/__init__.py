@@ -11,6 +11,7 @@ The names below load their modules when first used, so that importing gbnbench c
 - ``reconstruct(points, shape=)``: the picture that points draw, from them alone;
 - ``compare_stipplings(image, sources)``: stipplers and stipplings by anybody side by side, as a
   ``StipplingComparison``;
+- ``ready_set(name, n=, d=, realization=)``: a set that was made before; ``ready_sets()``: all there are;
 - ``load(path)``, ``save(path, x)``: point-set files;
 - ``wrap(x)``, ``scale(x, low, high)``: points brought onto the unit torus [0, 1)^d;
 - ``periodogram(x, fmax)``: exact power at every integer frequency; ``radial(spectrum)``: its radial mean;
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
     from gbnbench.api.compare import compare
     from gbnbench.api.comparison import Comparison
     from gbnbench.api.integration import Integration, integrate
+    from gbnbench.api.ready_sets import ready_set, ready_sets
     from gbnbench.api.reconstruct import reconstruct
     from gbnbench.api.stipple import stipple
     from gbnbench.api.stippling import Stippling
@@ -73,6 +75,8 @@ __all__ = [
     "periodogram",
     "plan",
     "radial",
+    "ready_set",
+    "ready_sets",
     "reconstruct",
     "save",
     "scale",
@@ -102,6 +106,8 @@ _MODULES = {
     "periodogram": "gbnbench.analysis.spectrum.periodogram",
     "plan": "gbnbench.analysis.spectrum.plan",
     "radial": "gbnbench.analysis.radial.radial_power",
+    "ready_set": "gbnbench.api.ready_sets",
+    "ready_sets": "gbnbench.api.ready_sets",
     "reconstruct": "gbnbench.api.reconstruct",
     "save": "gbnbench.io.points",
     "scale": "gbnbench.core.torus",
