@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -68,6 +68,16 @@ class Manifest:
         wanted = (generator, n, d)
         return next((e for e in (*self.files, *self.refused) if (e.generator, e.n, e.d) == wanted), None)
 
+    def with_entries(self, entries: Iterable[ReadySets | RefusedSets]) -> Manifest:
+        """Return it with further entries, which take the place of those of the same generator, n and d."""
+        every = {_order(entry): entry for entry in (*self.files, *self.refused, *entries)}
+        ordered = [every[key] for key in sorted(every)]
+        return replace(
+            self,
+            files=tuple(entry for entry in ordered if isinstance(entry, ReadySets)),
+            refused=tuple(entry for entry in ordered if isinstance(entry, RefusedSets)),
+        )
+
     def record(self) -> dict[str, Any]:
         """Return it as JSON has it."""
         return {
@@ -78,8 +88,8 @@ class Manifest:
             "seed": self.seed,
             "device": self.device,
             "versions": dict(self.versions),
-            "files": [entry.record() for entry in sorted(self.files, key=_order)],
-            "refused": [asdict(entry) for entry in sorted(self.refused, key=_order)],
+            "files": [entry.record() for entry in self.files],
+            "refused": [asdict(entry) for entry in self.refused],
         }
 
     def to_frame(self) -> pd.DataFrame:
@@ -93,7 +103,7 @@ class Manifest:
                 **{name: entry.measures.get(name, float("nan")) for name in self._measures()},
                 "sha256": entry.sha256,
             }
-            for entry in sorted(self.files, key=_order)
+            for entry in self.files
         ]  # fmt: skip
         head = ["file", "generator", "n", "d", "realizations", "cpu_seconds", *self._measures(), "sha256"]
         return pd.DataFrame(rows, columns=head)

@@ -1,17 +1,16 @@
-"""The CPU time of making ready sets, from costs that were measured: itself, or extrapolated in n."""
+"""The CPU time of making ready sets, from costs that were measured at some n."""
 
 from __future__ import annotations
 
 import csv
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:  # a worker loads the generators that it draws from, not all of them
-    from gbnbench.studies.library.request import RequestedSets
+from gbnbench.studies.library.operations import draw_operations
+from gbnbench.studies.library.request import RequestedSets
 
 COSTS = "measured_costs.csv"
 MEASURING = "measuring"  # its name for the measures of eight sets
@@ -27,7 +26,7 @@ class CostEstimate:
     seconds : float
         nan where nothing of the kind was measured.
     measured : bool
-        Whether this very size was measured; otherwise the law between or beyond the nearest sizes is used.
+        Whether this very size was measured; otherwise it is carried over from others.
     """
 
     seconds: float
@@ -56,43 +55,6 @@ class TotalCost:
         return self.measured + self.extrapolated
 
 
-def set_cost(name: str, n: int, d: int) -> CostEstimate:
-    """Estimate the cost of one set.
-
-    Parameters
-    ----------
-    name : str
-        A generator without settings, or ``"measuring"`` for the measures of eight sets.
-    n, d : int
-        Points and dimension.
-
-    Returns
-    -------
-    CostEstimate
-
-    Notes
-    -----
-    Between two measured sizes, and beyond the last, the cost is taken for a power of n: that of the two
-    nearest measured sizes that are a factor of four apart or more, and linear at least beyond the last.
-    """
-    rows = _rows().get((name, d), [])
-    for size, seconds in rows:
-        if size == n:
-            return CostEstimate(seconds, True)
-    if len(rows) < 2:
-        return CostEstimate(math.nan, False)
-    above = next((k for k, (size, _) in enumerate(rows) if size > n), None)
-    if above == 0:
-        return CostEstimate(rows[0][1], False)  # smaller than any that was measured: no dearer
-    if above is not None:
-        (n0, c0), (n1, c1) = rows[above - 1], rows[above]
-        return CostEstimate(c0 * (n / n0) ** (math.log(c1 / c0) / math.log(n1 / n0)), False)
-    last, cost = rows[-1]
-    size, before = next((row for row in reversed(rows) if row[0] * 4 <= last), rows[0])
-    exponent = max(1.0, math.log(cost / before) / math.log(last / size))
-    return CostEstimate(cost * (n / last) ** exponent, False)
-
-
 def file_cost(sets: RequestedSets) -> tuple[CostEstimate, CostEstimate]:
     """Estimate the cost of one set of a file, and that of measuring all of them.
 
@@ -104,10 +66,22 @@ def file_cost(sets: RequestedSets) -> tuple[CostEstimate, CostEstimate]:
     Returns
     -------
     set, measuring : CostEstimate
+
+    Notes
+    -----
+    A cost that was measured is taken at another n in the ratio of the operations that the generator's own
+    plan counts (``operations``), from the nearest measured size. Where nobody counts them it is taken for a
+    power of n, which goes through the two nearest measured sizes, beyond the largest through sizes a factor
+    of four apart and no less than linear.
     """
-    measuring = set_cost(MEASURING, sets.n, sets.d)
+
+    def operations(n: int) -> float | None:
+        return draw_operations(sets.generator, n, sets.d)
+
+    measuring = _estimate(_rows().get((MEASURING, sets.d), []), sets.n, lambda _: None)
     share = sets.realizations / MEASURED_SETS
-    return set_cost(sets.text, sets.n, sets.d), CostEstimate(measuring.seconds * share, measuring.measured)
+    one = _estimate(_rows().get((sets.text, sets.d), []), sets.n, operations)
+    return one, CostEstimate(measuring.seconds * share, measuring.measured)
 
 
 def total_cost(requested: Sequence[RequestedSets]) -> TotalCost:
@@ -138,6 +112,36 @@ def total_cost(requested: Sequence[RequestedSets]) -> TotalCost:
 def cost_machine() -> str:
     """Return the machine on which costs were measured."""
     return next((line[1:].strip() for line in _lines() if line.startswith("#")), "")
+
+
+def _estimate(
+    rows: Sequence[tuple[int, float]], n: int, operations: Callable[[int], float | None]
+) -> CostEstimate:
+    """Estimate the cost at n from pairs of n and CPU seconds, ascending."""
+    for size, seconds in rows:
+        if size == n:
+            return CostEstimate(seconds, True)
+    if len(rows) < 2:
+        return CostEstimate(math.nan, False)
+    nearest, cost = min(rows, key=lambda row: abs(math.log(n / row[0])))
+    wanted, known = operations(n), operations(nearest)
+    if wanted and known:
+        return CostEstimate(cost * wanted / known, False)
+    (n0, c0), (n1, c1) = _two_rows(rows, n)
+    exponent = math.log(c1 / c0) / math.log(n1 / n0)
+    if n > rows[-1][0]:
+        exponent = max(1.0, exponent)
+    return CostEstimate(cost * (n / nearest) ** exponent, False)
+
+
+def _two_rows(rows: Sequence[tuple[int, float]], n: int) -> tuple[tuple[int, float], tuple[int, float]]:
+    """Choose the rows that the law goes through."""
+    above = next((k for k, (size, _) in enumerate(rows) if size > n), None)
+    if above is not None:
+        k = max(above, 1)
+        return rows[k - 1], rows[k]
+    last = rows[-1]
+    return next((row for row in reversed(rows) if row[0] * 4 <= last[0]), rows[0]), last
 
 
 @cache

@@ -24,8 +24,8 @@ from gbnbench.runs.comparison_folder import Realization
 from gbnbench.runs.provenance import versions
 from gbnbench.runs.resumable_folder import SETTINGS, ResumableFolder
 from gbnbench.runs.task_folder import FOLDER
+from gbnbench.studies.library.draws import Draw, MeasuredSets, RefusedDraw
 from gbnbench.studies.library.request import RequestedSets
-from gbnbench.studies.library.tasks import Draw, MeasuredSets, RefusedDraw
 from gbnbench.studies.timed_draw import mean_cost
 
 Entry = ReadySets | RefusedSets
@@ -164,14 +164,7 @@ class LibraryFolder(ResumableFolder):
 
     def record(self, entries: Iterable[Entry]) -> None:
         """Name files, and what was refused, in the manifest, in place of what it said of the same before."""
-        new = {(entry.generator, entry.n, entry.d): entry for entry in entries}
-        old = {(e.generator, e.n, e.d): e for e in (*self.manifest.files, *self.manifest.refused)}
-        every = {**old, **new}.values()
-        self.manifest = replace(
-            self.manifest,
-            files=tuple(entry for entry in every if isinstance(entry, ReadySets)),
-            refused=tuple(entry for entry in every if isinstance(entry, RefusedSets)),
-        )
+        self.manifest = self.manifest.with_entries(entries)
         atomic_write.write_whole(self.path / MANIFEST, data_files.to_json(self.manifest.record()))
 
     def write_table(self) -> None:
@@ -182,8 +175,7 @@ class LibraryFolder(ResumableFolder):
 
     def names(self) -> list[str]:
         """List the files of the finished library, the manifest first, as an archive has them."""
-        files = sorted(entry.file for entry in self.manifest.files)
-        return [MANIFEST, TABLE, SETTINGS, *files]
+        return [MANIFEST, TABLE, SETTINGS, *(entry.file for entry in self.manifest.files)]
 
     def _piece(self, key: str) -> Path:
         return self.path / FOLDER / f"{key}.npz"

@@ -4,66 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from functools import partial
+from typing import Any
 
-import numpy as np
-
-from gbnbench.analysis.measures import measures
-from gbnbench.core.cpu_time import cpu_seconds
-from gbnbench.core.errors import RefusalError
-from gbnbench.core.results.measures import Measures
-from gbnbench.generators.protocol import Generator
-from gbnbench.runs.comparison_folder import Realization
 from gbnbench.runs.task import Task
 from gbnbench.runs.task_keys import realization_key
-from gbnbench.studies.comparison_tasks import draw_realization
 from gbnbench.studies.library.costs import file_cost
-
-if TYPE_CHECKING:  # a worker loads the generators that it draws from, not all of them
-    from gbnbench.studies.library.request import RequestedSets
+from gbnbench.studies.library.draws import Draw, MeasuredSets, draw_or_refusal, measured_sets
+from gbnbench.studies.library.request import RequestedSets
 
 UNKNOWN = 1.0  # CPU seconds that progress takes a step for whose cost nobody knows
+Keep = Callable[[RequestedSets, MeasuredSets, Sequence[Draw]], Any]
 
 
-@dataclass(frozen=True)
-class RefusedDraw:
-    """A realization that its generator could not make.
-
-    Attributes
-    ----------
-    reason : str
-        In its words.
-    """
-
-    reason: str
-
-
-Draw = Realization | RefusedDraw
-
-
-@dataclass(frozen=True)
-class MeasuredSets:
-    """The measures of the sets of a file.
-
-    Attributes
-    ----------
-    measures : Measures or None
-        None where there are no sets.
-    cpu_seconds : float
-        What they cost, one thread.
-    """
-
-    measures: Measures | None
-    cpu_seconds: float
-
-
-def library_tasks(
-    requested: Sequence[RequestedSets],
-    seed: int,
-    jobs: int,
-    keep: Callable[[RequestedSets, MeasuredSets, Sequence[Draw]], Any],
-) -> list[Task]:
+def library_tasks(requested: Sequence[RequestedSets], seed: int, jobs: int, keep: Keep) -> list[Task]:
     """List the tasks of files, the dearest sets first.
 
     Parameters
@@ -99,7 +53,7 @@ def library_tasks(
             f"{row}, measured",
             measured_sets,
             requires=tuple(draw.key for draw in draws),
-            assemble=_keeping(sets, keep),
+            assemble=partial(keep, sets),
         )
         tasks += [*draws, measuring]
     return tasks
@@ -126,57 +80,6 @@ def step_costs(tasks: Sequence[Task], requested: Sequence[RequestedSets]) -> dic
         one, measuring = costs[task.key if task.requires else task.key.rpartition("/")[0]]
         found[task.label] = _known(measuring.seconds if task.requires else one.seconds)
     return found
-
-
-def draw_or_refusal(generator: Generator, n: int, d: int, seed: int, k: int, redraw: bool) -> Draw:
-    """Draw realization k in a worker.
-
-    Parameters
-    ----------
-    generator : Generator
-        What draws it.
-    n, d : int
-        Points and dimension.
-    seed, k : int
-        It draws from ``SeedSequence(seed, spawn_key=(k,))``.
-    redraw : bool
-        As in ``timed_draw``.
-
-    Returns
-    -------
-    Realization or RefusedDraw
-        The second where the generator found no set, which is a result too: it would not find one again.
-    """
-    try:
-        return draw_realization(generator, n, d, seed, k, redraw)
-    except RefusalError as refusal:
-        return RefusedDraw(str(refusal))
-
-
-def measured_sets(draws: Sequence[Draw]) -> MeasuredSets:
-    """Measure the sets that were made, together, in a worker.
-
-    Parameters
-    ----------
-    draws : sequence of Realization or RefusedDraw
-        All of a file.
-
-    Returns
-    -------
-    MeasuredSets
-    """
-    points = [draw.x for draw in draws if isinstance(draw, Realization)]
-    if not points:
-        return MeasuredSets(None, 0.0)
-    began = cpu_seconds()
-    found = measures(np.stack(points))
-    return MeasuredSets(found, cpu_seconds() - began)
-
-
-def _keeping(
-    sets: RequestedSets, keep: Callable[[RequestedSets, MeasuredSets, Sequence[Draw]], Any]
-) -> Callable[[Any, list[Any]], Any]:
-    return lambda measured, draws: keep(sets, measured, draws)
 
 
 def _known(seconds: float) -> float:
