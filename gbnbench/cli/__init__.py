@@ -35,8 +35,7 @@ BAD, STOPPED, PIPE = 2, 130, 141  # exit codes; 0 is done, 1 is worse than a bas
 
 TASKS: dict[str, tuple[click.Command, ...]] = {
     "Start here": (compare, spectrum, analyze, generate, library, generators, stipple, reconstruct, convert),
-    "Studies": (integrate, figures, report),
-    "This machine": (check, bench, devices, doctor),
+    "Studies, and this machine": (integrate, figures, report, check, bench, devices, doctor),
 }
 
 

@@ -44,7 +44,7 @@ def library(
     out: Path | None, dry_run: bool, listed: str | None, checked: str | None, unpacked: str | None,
     jobs: int | None, quiet: bool,
 ) -> None:  # fmt: skip
-    """Ready point sets, in files with a manifest of seeds, measures and checksums.
+    """Ready point sets in files, with measures and checksums.
 
     GENERATORS are those of "gbnbench generators", by default gbn, deep, stealthy and bnot. Stopped in any
     way, the same command goes on where it was, to the same bits. A LIBRARY is a folder, an archive, or

@@ -28,20 +28,20 @@ COMMANDS = dict(every_command())
 # Which command has which of the options that several have; report waits for little, and analyze.
 BENCHES = "bench periodogram, bench gbn"
 SHARED = {
-    "--out": "compare spectrum analyze generate generators stipple reconstruct convert integrate figures "
-    f"report, {BENCHES}",
+    "--out": "compare spectrum analyze generate library generators stipple reconstruct convert "
+    f"integrate figures report, {BENCHES}",
     "--json": f"compare spectrum analyze generators reconstruct integrate check devices doctor, {BENCHES}",
-    "--quiet": "compare spectrum generate generators stipple reconstruct integrate figures check doctor, "
-    f"{BENCHES}",
+    "--quiet": "compare spectrum generate library generators stipple reconstruct integrate figures "
+    f"check doctor, {BENCHES}",
     "--quick": f"figures check doctor, {BENCHES}",
     "--full": f"figures check doctor, {BENCHES}",
-    "--seed": "compare generate generators stipple integrate figures",
-    "--jobs": "compare generators integrate figures check",
+    "--seed": "compare generate library generators stipple integrate figures",
+    "--jobs": "compare library generators integrate figures check",
     "--family": "compare generators integrate",
     "--preset": "compare integrate",
-    "--realizations": "compare spectrum generate generators integrate",
-    "--device": "compare spectrum analyze generate generators stipple reconstruct integrate figures check "
-    f"devices doctor, {BENCHES}",
+    "--realizations": "compare spectrum generate library generators integrate",
+    "--device": "compare spectrum analyze generate library generators stipple reconstruct integrate "
+    f"figures check devices doctor, {BENCHES}",
 }
 
 
