@@ -98,8 +98,7 @@ def make_library(
     folder = working_folder(out)
     identity: dict[str, Any] = {"gbnbench": __version__, "seed": seed, "device": run_device(jobs)}
     if folder != out and out.exists() and not folder.exists():
-        with open_place(out) as place:
-            unpack(place, folder, [SETTINGS])
+        _unpack(out, folder, identity)
     store = LibraryFolder(folder, identity, request.sets)
     with store.lock(), explain_interruption(folder):
         store = LibraryFolder(folder, identity, request.sets)  # as the last holder of the lock left it
@@ -155,6 +154,21 @@ def finished_files(request: LibraryRequest, out: Path) -> list[RequestedSets]:
         manifest = manifest_of(place)
     entries = ((sets, manifest.entry(sets.text, sets.n, sets.d)) for sets in request.sets)
     return [sets for sets, entry in entries if entry is not None and entry.tried >= sets.realizations]
+
+
+def _unpack(archive: Path, folder: Path, identity: dict[str, Any]) -> None:
+    temporary = folder.with_name(f".{folder.name}.tmp")  # what a killed process left is of no use
+    temporary = folder.with_name(f".{folder.name}.tmp")  # what a killed process left there is no use
+    shutil.rmtree(temporary, ignore_errors=True)
+    try:
+        with open_place(archive) as place:
+            unpack(place, temporary, [SETTINGS])
+        LibraryFolder(temporary, identity, ())
+        temporary.replace(folder)
+    except InputError as error:
+        raise InputError(str(error).replace(str(temporary), str(archive))) from None
+    finally:
+        shutil.rmtree(temporary, ignore_errors=True)
 
 
 def _make(

@@ -134,6 +134,19 @@ def test_an_archive_holds_the_same_files_and_can_be_added_to(whole, tmp_path):
         assert {entry.file: place.read(entry.file) for entry in done.manifest.files} == contents(whole.place)
 
 
+def test_an_archive_of_another_seed_or_one_that_is_damaged_is_refused_and_left_alone(tmp_path):
+    archive = tmp_path / "sets.zip"
+    made(archive, ("random",), (16,), (2,))
+    whole = archive.read_bytes()
+    with pytest.raises(InputError, match=r"sets\.zip holds a library .*seed is 0 there, 1 here"):
+        made(archive, ("random",), (16,), (2,), seed=1)
+    assert archive.read_bytes() == whole
+    archive.write_bytes(whole[: len(whole) // 2])
+    with pytest.raises(InputError, match=r"sets\.zip: is no archive that can be read"):
+        made(archive, ("random",), (16,), (2,))
+    assert [path.name for path in tmp_path.iterdir()] == ["sets.zip"]
+
+
 @dataclass(frozen=True)
 class Moody:
     """Random points, but none from the streams that begin below a half."""
