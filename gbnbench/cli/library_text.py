@@ -1,4 +1,4 @@
-"""What ``gbnbench library`` says: the plan of the files to be made, and the list of those that are there."""
+"""The text of ``gbnbench library``: the plan of the files to be made, and the list of those there are."""
 
 from __future__ import annotations
 
@@ -18,7 +18,19 @@ HEADS = ("noise floor", "P(|f|=1)", "peak", "min dist", "psi6")
 
 
 def count(number_of: int, what: str) -> str:
-    """Write a number of things: ``1 file``, ``1,584 files``."""
+    """Write a number of things, such as ``1 file`` and ``1,584 files``.
+
+    Parameters
+    ----------
+    number_of : int
+        How many.
+    what : str
+        One of them.
+
+    Returns
+    -------
+    str
+    """
     return f"{number_of:,} {what}{'' if number_of == 1 else 's'}"
 
 
