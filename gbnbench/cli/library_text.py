@@ -67,8 +67,8 @@ def plan_lines(request: LibraryRequest, there: Sequence[RequestedSets]) -> Itera
     realizations = sum(sets.realizations for sets in missing)
     megabytes = sum(sets.bytes for sets in missing) / 1e6
     beside = f", {len(there):,} there already" if there else ""
-    files, sets = count(len(missing), "file"), count(realizations, "set")
-    yield f"{files} to be made{beside}: {sets}, {megabytes:.3g} MB"
+    drawn = count(realizations, "set")
+    yield f"{count(len(missing), 'file')} to be made{beside}: {drawn}, {megabytes:.3g} MB"
     yield from _refused_lines(request)
     cost = total_cost(missing)
     if not missing or cost.unknown == len(missing):

@@ -38,7 +38,8 @@ class NumberRanges(WholeNumbers):
             if found is None:
                 numbers.extend(super().convert(word, param, ctx))
                 continue
-            numbers.extend(self._between(word.strip(), *map(int, found.groups()), param, ctx))
+            low, high = int(found[1]), int(found[2])
+            numbers.extend(self._between(word.strip(), low, high, param, ctx))
         return tuple(dict.fromkeys(numbers))
 
     def _between(

@@ -65,8 +65,8 @@ class Manifest:
         ReadySets or RefusedSets or None
             None where the library knows nothing of it.
         """
-        wanted = (generator, n, d)
-        return next((e for e in (*self.files, *self.refused) if (e.generator, e.n, e.d) == wanted), None)
+        entries: tuple[ReadySets | RefusedSets, ...] = (*self.files, *self.refused)
+        return next((e for e in entries if (e.generator, e.n, e.d) == (generator, n, d)), None)
 
     def with_entries(self, entries: Iterable[ReadySets | RefusedSets]) -> Manifest:
         """Return it with further entries, which take the place of those of the same generator, n and d."""

@@ -30,8 +30,8 @@ def draw_operations(generator: Generator, n: int, d: int) -> float | None:
         if (generator.domain, generator.projections, generator.kernel) != ("torus", "none", "gaussian"):
             return None
         precision = "float" if generator.precision == "float" else "double"
-        limits = {"cutoff": generator.cutoff or None, "edge": generator.edge or None}
-        plan = plan_energy(n, d, generator.sigma, precision, **limits)
+        cutoff, edge = generator.cutoff or None, generator.edge or None
+        plan = plan_energy(n, d, generator.sigma, precision, cutoff=cutoff, edge=edge)
         return generator.steps * plan.chosen.effort
     if isinstance(generator, Deep):
         start = draw_operations(GaussianBlueNoise(gradients=generator.gradients), n, d)
