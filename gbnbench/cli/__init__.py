@@ -17,6 +17,7 @@ from gbnbench.cli.check import check
 from gbnbench.cli.compare import compare
 from gbnbench.cli.convert import convert
 from gbnbench.cli.devices import devices, doctor
+from gbnbench.cli.export import export
 from gbnbench.cli.figures import figures
 from gbnbench.cli.generate import generate
 from gbnbench.cli.generators import generators
@@ -34,7 +35,18 @@ from gbnbench.core.memory import memory_limit, too_little
 BAD, STOPPED, PIPE = 2, 130, 141  # exit codes; 0 is done, 1 is worse than a baseline or a failed check
 
 TASKS: dict[str, tuple[click.Command, ...]] = {
-    "Start here": (compare, spectrum, analyze, generate, library, generators, stipple, reconstruct, convert),
+    "Start here": (
+        compare,
+        spectrum,
+        analyze,
+        generate,
+        library,
+        generators,
+        stipple,
+        reconstruct,
+        convert,
+        export,
+    ),
     "Studies, and this machine": (integrate, figures, report, check, bench, devices, doctor),
 }
 

@@ -28,19 +28,20 @@ COMMANDS = dict(every_command())
 # Which command has which of the options that several have; report waits for little, and analyze.
 BENCHES = "bench periodogram, bench gbn"
 SHARED = {
-    "--out": "compare spectrum analyze generate library generators stipple reconstruct convert "
+    "--out": "compare spectrum analyze generate library generators stipple reconstruct convert export "
     f"integrate figures report, {BENCHES}",
-    "--json": f"compare spectrum analyze generators reconstruct integrate check devices doctor, {BENCHES}",
-    "--quiet": "compare spectrum generate library generators stipple reconstruct integrate figures "
+    "--json": "compare spectrum analyze generators reconstruct export integrate check devices doctor, "
+    f"{BENCHES}",
+    "--quiet": "compare spectrum generate library generators stipple reconstruct export integrate figures "
     f"check doctor, {BENCHES}",
     "--quick": f"figures check doctor, {BENCHES}",
     "--full": f"figures check doctor, {BENCHES}",
-    "--seed": "compare generate library generators stipple integrate figures",
+    "--seed": "compare generate library generators stipple export integrate figures",
     "--jobs": "compare library generators integrate figures check",
     "--family": "compare generators integrate",
     "--preset": "compare integrate",
-    "--realizations": "compare spectrum generate library generators integrate",
-    "--device": "compare spectrum analyze generate library generators stipple reconstruct integrate "
+    "--realizations": "compare spectrum generate library generators export integrate",
+    "--device": "compare spectrum analyze generate library generators stipple reconstruct export integrate "
     f"figures check devices doctor, {BENCHES}",
 }
 
