@@ -11,6 +11,7 @@ The names below load their modules when first used, so that importing gbnbench c
 - ``reconstruct(points, shape=)``: the picture that points draw, from them alone;
 - ``compare_stipplings(image, sources)``: stipplers and stipplings by anybody side by side, as a
   ``StipplingComparison``;
+- ``ready_set(name, n=, d=, realization=)``: a set that was made before; ``ready_sets()``: all there are;
 - ``load(path)``, ``save(path, x)``: point-set files;
 - ``export_sets(path, source)``, ``export_mask(path, shape)``, ``dither_mask(shape)``: files for renderers;
 - ``wrap(x)``, ``scale(x, low, high)``: points brought onto the unit torus [0, 1)^d;
@@ -40,6 +41,7 @@ if TYPE_CHECKING:
     from gbnbench.api.exports import ExportedMask, ExportedSets
     from gbnbench.api.integration import Integration, integrate
     from gbnbench.api.mask_export import export_mask
+    from gbnbench.api.ready_sets import ready_set, ready_sets
     from gbnbench.api.reconstruct import reconstruct
     from gbnbench.api.set_export import export_sets
     from gbnbench.api.stipple import stipple
@@ -83,6 +85,8 @@ __all__ = [
     "periodogram",
     "plan",
     "radial",
+    "ready_set",
+    "ready_sets",
     "reconstruct",
     "save",
     "scale",
@@ -117,6 +121,8 @@ _MODULES = {
     "periodogram": "gbnbench.analysis.spectrum.periodogram",
     "plan": "gbnbench.analysis.spectrum.plan",
     "radial": "gbnbench.analysis.radial.radial_power",
+    "ready_set": "gbnbench.api.ready_sets",
+    "ready_sets": "gbnbench.api.ready_sets",
     "reconstruct": "gbnbench.api.reconstruct",
     "save": "gbnbench.io.points",
     "scale": "gbnbench.core.torus",

@@ -39,14 +39,15 @@ def shell_sizes(d: int, most: int) -> list[int]:
     >>> shell_sizes(2, 5), shell_sizes(20, 3)
     ([1, 4, 4, 0, 4, 8], [1, 40, 760, 9120])
     """
-    sizes = [1, *[0] * most]
-    squares = [digit * digit for digit in range(1, math.isqrt(most) + 1)]
+    largest = (2 * math.isqrt(most) + 1) ** d  # no count is larger: beyond 64 bits Python's own integers
+    sizes = np.zeros(most + 1, dtype=np.int64 if largest < 1 << 62 else object)
+    sizes[0] = 1
     for _ in range(d):
-        sizes = [
-            sizes[k] + 2 * sum(sizes[k - square] for square in squares if square <= k)
-            for k in range(most + 1)
-        ]
-    return sizes
+        before = sizes.copy()
+        for digit in range(1, math.isqrt(most) + 1):
+            sizes[digit * digit :] += 2 * before[: most + 1 - digit * digit]
+    counted: list[int] = sizes.tolist()
+    return counted
 
 
 def half_ball(d: int, high: int, low: int = 1) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
@@ -139,6 +140,8 @@ def listed_count(d: int, low: int, high: int) -> int:
             f"shells of |f|^2 up to {high} in d={d} cannot be listed: with |f|^2 = {reached + 1} they are "
             f"{found:.3g} frequencies; {way_out}"
         )
+    if d == 1:
+        return math.isqrt(high) - math.isqrt(low - 1)
     return sum(shell_sizes(d, high)[low:]) // 2
 
 
@@ -155,6 +158,8 @@ def largest_square(d: int, most: int, wanted: int) -> int:
     int
         0 where even |f|^2 = 1 is too much.
     """
+    if d == 1:  # whose shells are few among many numbers: 2 isqrt(s) frequencies have |f|^2 <= s
+        return min(wanted, (most // 2 + 1) ** 2 - 1)
     counted = 16  # in high dimensions the first few shells are all there is
     while True:
         sizes = shell_sizes(d, min(counted, wanted))

@@ -22,6 +22,7 @@ from gbnbench.cli.figures import figures
 from gbnbench.cli.generate import generate
 from gbnbench.cli.generators import generators
 from gbnbench.cli.integrate import integrate
+from gbnbench.cli.library import library
 from gbnbench.cli.reconstruct import reconstruct
 from gbnbench.cli.report import report
 from gbnbench.cli.spectrum import spectrum
@@ -34,7 +35,18 @@ from gbnbench.core.memory import memory_limit, too_little
 BAD, STOPPED, PIPE = 2, 130, 141  # exit codes; 0 is done, 1 is worse than a baseline or a failed check
 
 TASKS: dict[str, tuple[click.Command, ...]] = {
-    "Start here": (compare, spectrum, analyze, generate, generators, stipple, reconstruct, convert, export),
+    "Start here": (
+        compare,
+        spectrum,
+        analyze,
+        generate,
+        library,
+        generators,
+        stipple,
+        reconstruct,
+        convert,
+        export,
+    ),
     "Studies, and this machine": (integrate, figures, report, check, bench, devices, doctor),
 }
 

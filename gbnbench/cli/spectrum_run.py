@@ -17,6 +17,7 @@ from gbnbench.cli.point_files import naming, read_torus
 from gbnbench.cli.spectrum_output import check_format, places, write
 from gbnbench.cli.spectrum_text import as_record, as_text
 from gbnbench.core.errors import InputError
+from gbnbench.core.number_text import duration
 from gbnbench.core.sides import Sides, as_sides
 from gbnbench.core.torus import FloatArray
 from gbnbench.execution import progress
@@ -167,7 +168,7 @@ def compute(
     weighing = _weights(weights, sets)
     seconds = sum(plan.seconds for plan in plans)
     if seconds > SLOW and not quiet:
-        click.echo(f"gbnbench: about {_duration(seconds)}: {plans[0].chosen.evaluator.label}", err=True)
+        click.echo(f"gbnbench: about {duration(seconds)}: {plans[0].chosen.evaluator.label}", err=True)
     paths = [] if out is None else places(out, len(sets), each=each)
     written, printed = 0, []
     try:
@@ -212,13 +213,6 @@ def _weights(path: Path | None, sets: Sequence[LabelledSets]) -> list[FloatArray
         raise InputError(f"weights are for sets of one size; these have n = {sorted(sizes)}")
     found = read_weights(path, sizes.pop(), len(sets))
     return list(found) if found.ndim == 2 else [found] * len(sets)
-
-
-def _duration(seconds: float) -> str:
-    for size, unit in ((86400, "days"), (3600, "hours"), (60, "minutes")):
-        if seconds >= 1.5 * size:
-            return f"{seconds / size:,.3g} {unit}"
-    return f"{seconds:.0f} s"
 
 
 def _worth_showing(elapsed: float, share: float) -> bool:

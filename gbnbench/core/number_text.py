@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 NOTHING = "–"
+UNITS = ((86400.0, "days"), (3600.0, "hours"), (60.0, "minutes"))
 
 
 def number(value: float) -> str:
@@ -59,3 +60,19 @@ def error_number(value: float, error: float) -> str:
         return "0"
     digits = max(digits, -math.floor(math.log10(error))) if error < 10.0**-digits else digits
     return f"{error:.{min(digits, 12)}f}" if digits <= 12 else f"{error:.0e}"
+
+
+def duration(seconds: float) -> str:
+    """Write a time in the largest unit of which there is one and a half; "–" for nan.
+
+    Examples
+    --------
+    >>> [duration(t) for t in (0.0312, 59.4, 150, 7200, 400000, float("nan"))]
+    ['0.031 s', '59 s', '2.5 minutes', '2 hours', '4.63 days', '–']
+    """
+    if math.isnan(seconds):
+        return NOTHING
+    for size, unit in UNITS:
+        if seconds >= 1.5 * size:
+            return f"{seconds / size:,.3g} {unit}"
+    return f"{seconds:.2g} s" if seconds < 10 else f"{seconds:.0f} s"

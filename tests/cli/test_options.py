@@ -28,25 +28,23 @@ COMMANDS = dict(every_command())
 # Which command has which of the options that several have; report waits for little, and analyze.
 BENCHES = "bench periodogram, bench gbn"
 SHARED = {
-    "--out": "compare spectrum analyze generate generators stipple reconstruct convert export integrate "
-    f"figures report, {BENCHES}",
+    "--out": "compare spectrum analyze generate library generators stipple reconstruct convert export "
+    f"integrate figures report, {BENCHES}",
     "--json": "compare spectrum analyze generators reconstruct export integrate check devices doctor, "
     f"{BENCHES}",
-    "--quiet": "compare spectrum generate generators stipple reconstruct export integrate figures check "
-    "doctor, "
-    f"{BENCHES}",
+    "--quiet": "compare spectrum generate library generators stipple reconstruct export integrate figures "
+    f"check doctor, {BENCHES}",
     "--quick": f"figures check doctor, {BENCHES}",
     "--full": f"figures check doctor, {BENCHES}",
-    "--seed": "compare generate generators stipple export integrate figures",
-    "--jobs": "compare generate generators stipple integrate figures check, bench gbn",
-    "--executor": "compare generate stipple integrate figures, bench gbn",
-    "--executor-config": "compare generate stipple integrate figures, bench gbn",
+    "--seed": "compare generate library generators stipple export integrate figures",
+    "--jobs": "compare generate library generators stipple integrate figures check, bench gbn",
+    "--executor": "compare generate library stipple integrate figures, bench gbn",
+    "--executor-config": "compare generate library stipple integrate figures, bench gbn",
     "--family": "compare generators integrate",
     "--preset": "compare integrate",
-    "--realizations": "compare spectrum generate generators export integrate",
-    "--device": "compare spectrum analyze generate generators stipple reconstruct export integrate figures "
-    "check "
-    f"devices doctor, {BENCHES}",
+    "--realizations": "compare spectrum generate library generators export integrate",
+    "--device": "compare spectrum analyze generate library generators stipple reconstruct export integrate "
+    f"figures check devices doctor, {BENCHES}",
 }
 
 

@@ -13,6 +13,7 @@ from gbnbench.analysis.spectrum.listed_shells import (
     default_shells,
     half_ball,
     largest_square,
+    listed_count,
     shell_sizes,
 )
 from gbnbench.analysis.spectrum.shell_spectrum import shells
@@ -47,6 +48,24 @@ def test_half_a_ball_holds_one_of_each_pair_in_the_order_of_shells(d: int, low: 
     assert 2 * len(f) == sum(shell_sizes(d, high)[low:])
     pairs = {tuple(row) for row in f.tolist()} | {tuple(row) for row in (-f).tolist()}
     assert len(pairs) == 2 * len(f)
+
+
+def test_on_a_line_the_shells_are_the_squares_however_many_points() -> None:
+    for most in range(20):
+        for wanted in (1, 3, 4, 40, 99):
+            within = np.cumsum(shell_sizes(1, wanted + 1)[1:])  # of |f|^2 = 1, 2, ...
+            affordable = [square for square in range(1, wanted + 1) if within[square - 1] <= most]
+            assert largest_square(1, most, wanted) == max(affordable, default=0)
+    assert listed_count(1, 4, 99) == 8  # |f| = 2 to 9
+    # of a million points 4,000 pairs of frequencies are affordable; numbers up to 4e12 are never listed
+    assert affordable_square(10**6, 1) == 4001**2 - 1
+
+
+def test_sizes_beyond_64_bits_are_exact() -> None:
+    sizes = shell_sizes(400, 12)
+    assert sizes[12] > 2**64
+    lower, upper = shell_sizes(199, 12), shell_sizes(201, 12)
+    assert sizes[12] == sum(lower[k] * upper[12 - k] for k in range(13))  # two factors of one power
 
 
 def test_what_is_affordable_is_just_below_what_is_not() -> None:

@@ -1,0 +1,1 @@
+"""Libraries of ready point sets: which are to be made, at what cost, and how they are made."""

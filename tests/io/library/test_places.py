@@ -1,0 +1,173 @@
+"""A library is read from a folder and from archives alike, and what is damaged is named, never trusted."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from gbnbench.core.errors import FormatError, InputError
+from gbnbench.io.library.archive import pack, unpack
+from gbnbench.io.library.manifest import Manifest
+from gbnbench.io.library.places import Folder, manifest_of, open_place
+from gbnbench.io.library.set_file import encoded, faults, read_sets
+from tests.io.library.small_library import small_library
+
+SUFFIXES = (".zip", ".tar", ".tar.gz", ".tgz")
+
+
+@pytest.fixture
+def library(tmp_path: Path) -> Path:
+    small_library(tmp_path / "sets")
+    return tmp_path / "sets"
+
+
+def packed(library: Path, suffix: str) -> Path:
+    path = library.parent / f"sets{suffix}"
+    names = [entry.file for entry in manifest_of(Folder(library)).files]
+    pack(library, ["manifest.json", *names], path)
+    return path
+
+
+@pytest.mark.parametrize("suffix", ["", *SUFFIXES])
+def test_every_place_gives_the_same_sets(library, suffix):
+    with open_place(packed(library, suffix) if suffix else library) as place:
+        manifest = manifest_of(place)
+        assert manifest.record() == manifest_of(Folder(library)).record()
+        assert not faults(place, manifest)
+        for entry in manifest.files:
+            x = read_sets(place, entry)
+            assert x.dtype == np.float64
+            assert np.array_equal(x, np.random.default_rng(entry.n).random((2, entry.n, entry.d)))
+
+
+def test_a_file_is_what_numpy_writes(library):
+    name = "random/3d/random-3d-8.npy"
+    assert encoded(np.load(library / name)) == (library / name).read_bytes()
+
+
+@pytest.mark.parametrize("suffix", SUFFIXES)
+def test_an_archive_is_the_same_bytes_whenever_it_is_packed(library, suffix, monkeypatch):
+    first = packed(library, suffix).read_bytes()
+    for path in library.rglob("*"):
+        if path.is_file():
+            path.touch()
+    monkeypatch.setattr("time.time", lambda: 2e9)
+    assert packed(library, suffix).read_bytes() == first
+    assert sorted(path.name for path in library.parent.iterdir()) == ["sets", f"sets{suffix}"]
+
+
+@pytest.mark.parametrize("suffix", SUFFIXES)
+def test_unpacked_it_is_the_folder_again(library, suffix):
+    before = {p.relative_to(library): p.read_bytes() for p in library.rglob("*") if p.is_file()}
+    new = library.parent / "new"
+    with open_place(packed(library, suffix)) as place:
+        assert unpack(place, new) == 2
+        with pytest.raises(InputError, match="new is not an empty folder"):
+            unpack(place, new)
+    assert {p.relative_to(new): p.read_bytes() for p in new.rglob("*") if p.is_file()} == before
+
+
+def test_a_file_that_is_missing_or_changed_is_named(library):
+    place, manifest = Folder(library), manifest_of(Folder(library))
+    first, second = manifest.files
+    (library / first.file).unlink()
+    data = bytearray((library / second.file).read_bytes())
+    data[200] ^= 1
+    (library / second.file).write_bytes(data)
+    assert faults(place, manifest) == {
+        first.file: "is missing",
+        second.file: "was changed: its SHA-256 is not that of the manifest",
+    }
+    with pytest.raises(FormatError, match=f"{first.file}: is missing"):
+        read_sets(place, first)
+
+
+def read_all(path: Path) -> list[str]:
+    """Read everything of a library; what is wrong with its files."""
+    with open_place(path) as place:
+        return list(faults(place, manifest_of(place)).values())
+
+
+@pytest.mark.parametrize("suffix", SUFFIXES)
+def test_half_an_archive_is_told(library, suffix):
+    path = packed(library, suffix)
+    data = path.read_bytes()
+    path.write_bytes(data[: len(data.rstrip(b"\0")) // 2])  # a .tar ends in zeros
+    try:
+        found = read_all(path)
+    except FormatError as error:  # where the manifest itself is beyond the end
+        found = [str(error)]
+    assert "read" in found[-1] or found[-1] == "is missing"
+
+
+@pytest.mark.parametrize("suffix", SUFFIXES)
+def test_an_empty_file_is_no_archive(library, suffix):
+    path = packed(library, suffix)
+    path.write_bytes(b"")
+    with pytest.raises(InputError, match=path.name):
+        read_all(path)
+
+
+def test_a_flipped_bit_in_a_zip_is_a_fault_of_its_file(library):
+    path = packed(library, ".zip")
+    data = bytearray(path.read_bytes())
+    data[data.index(b"random-3d-8.npy") + 60] ^= (
+        16  # within the first copy: the packed content behind the name
+    )
+    path.write_bytes(data)
+    with open_place(path) as place:
+        assert set(faults(place, manifest_of(place))) == {"random/3d/random-3d-8.npy"}
+
+
+def damaged(library: Path, change: Callable[[dict[str, Any]], object]) -> Path:
+    record = json.loads((library / "manifest.json").read_text())
+    change(record)
+    (library / "manifest.json").write_text(json.dumps(record))
+    return library
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        (lambda r: r.update(format=2), "has format 2; this version reads 1"),
+        (lambda r: r.update(kind="run"), "is not the manifest of a library"),
+        (lambda r: r["files"][0].update(file="../../etc/passwd"), "names no file below a library"),
+        (lambda r: r["files"][0].update(file="/etc/passwd"), "names no file below a library"),
+        (lambda r: r["files"][0].update(shape=[3, 16, 2]), "of shape"),
+        (lambda r: r["files"][0].pop("sha256"), "KeyError"),
+        (lambda r: r.update(files=None), "TypeError"),
+    ],
+)
+def test_a_manifest_that_is_something_else_is_refused(library, change, says):
+    with pytest.raises(FormatError, match=says):
+        manifest_of(Folder(damaged(library, change)))
+
+
+def test_a_manifest_that_is_no_json_is_refused(library):
+    (library / "manifest.json").write_bytes(b"\xff{")
+    with pytest.raises(FormatError, match=r"manifest\.json: is not what gbnbench wrote"):
+        manifest_of(Folder(library))
+
+
+def test_what_is_no_library_is_refused(library):
+    with pytest.raises(
+        InputError, match=r"there is no folder or archive nothing; gbnbench library -o nothing"
+    ):
+        read_all(Path("nothing"))
+    text = library.parent / "sets.txt"
+    text.write_text("0.5 0.5\n")
+    with pytest.raises(InputError, match="a library is a folder or an archive"):
+        read_all(text)
+    with pytest.raises(InputError, match=r"is not a library of gbnbench: it has no manifest\.json"):
+        manifest_of(Folder(library / "random"))
+
+
+def test_an_entry_takes_the_place_of_that_of_the_same_sets():
+    empty = Manifest("0.0", 0, None)
+    assert empty.entry("random", 16, 2) is None
+    assert empty.to_frame().empty
