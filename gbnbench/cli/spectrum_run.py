@@ -97,7 +97,8 @@ def read_sets(files: Sequence[Path], reading: ReadingOptions, *, each: bool) -> 
                 f"{name} has n={len(x)}, d={x.shape[1]}; --each gives a spectrum of each"
             )
     more = f" and {len(files) - 1} more" if len(files) > 1 else ""
-    return [LabelledSets(f"{files[0]}{more}", tuple(names), np.stack(sets), boxes[0])]
+    stacked = np.stack(sets) if len(sets) > 1 else sets[0][None]  # a single set may be mapped from its file
+    return [LabelledSets(f"{files[0]}{more}", tuple(names), stacked, boxes[0])]
 
 
 def explain(settings: SpectrumSettings, sets: Sequence[LabelledSets], weights: Path | None) -> None:
