@@ -127,10 +127,8 @@ def excess_density(sets: FloatArray, sides: Sides | None = None) -> FloatArray:
         raise RefusalError(f"PSA's spectral statistics are defined in the plane; got d={d}")
     if n < 2:
         raise RefusalError("PSA's spectral statistics are made of pairs and need n >= 2; got n=1")
-    if n > MOST_POINTS:
-        raise RefusalError(
-            f"PSA's spectral statistics count n^2/10 pairs; n must be at most {MOST_POINTS}, got n={n}"
-        )
+    if (reason := too_many_points(n, d)) is not None:
+        raise RefusalError(reason)
     total = int(100 * math.sqrt(n))
     if (total // 2 + 1) * (0.5 / total) > 0.5 * shortest_side(sides):
         raise RefusalError(
@@ -143,6 +141,13 @@ def excess_density(sets: FloatArray, sides: Sides | None = None) -> FloatArray:
     r = np.arange(bins) * width
     g = pair_density(sets, bins, width, sides)
     return np.asarray((2 * math.pi * n * width) * (g - 1) * r)
+
+
+def too_many_points(n: int, d: int) -> str | None:
+    """Say why ``spectral_statistics`` refuses so many points of the plane; None where it does not."""
+    if d != 2 or n <= MOST_POINTS:
+        return None
+    return f"PSA's spectral statistics count n^2/10 pairs; n must be at most {MOST_POINTS}, got n={n}"
 
 
 def statistics_of(excess: FloatArray, n: int) -> SpectralStatistics:

@@ -8,6 +8,7 @@ of the true torus lies in them either: these triangles are those of the whole se
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -64,12 +65,6 @@ class PlaneOrder:
         """Share of the points that have six neighbours."""
         return float(self.degrees[6]) / self.points if len(self.degrees) > 6 else 0.0
 
-    def shares(self) -> FloatArray:
-        """Degrees from the least to the largest that occur, and the shares of the points that have them."""
-        met = np.flatnonzero(self.degrees)
-        degree = np.arange(met[0], met[-1] + 1)
-        return np.stack([degree.astype(np.float64), self.degrees[degree] / self.points])
-
 
 def plane_order(x: FloatArray, sides: Sides | None = None, progress: Progress | None = None) -> PlaneOrder:
     """Add up the order of the neighbours in one set, in memory that does not grow with it.
@@ -123,6 +118,27 @@ def order_of(each: Neighbours, own: int | None = None) -> PlaneOrder:
         float(psi_of_points(each)[of].sum()),
         np.bincount(degree).astype(np.int64),
     )
+
+
+def summed_shares(orders: Sequence[PlaneOrder]) -> FloatArray:
+    """Sum over sets the shares of the points that have each degree.
+
+    Parameters
+    ----------
+    orders : sequence of PlaneOrder
+        One a set.
+
+    Returns
+    -------
+    (2, k) float64
+        The degrees from the least to the largest that occur, and the sums of their shares.
+    """
+    share = np.zeros(max(len(order.degrees) for order in orders))
+    for order in orders:
+        share[: len(order.degrees)] += order.degrees / order.points
+    met = np.flatnonzero(share)
+    degree = np.arange(met[0], met[-1] + 1)
+    return np.stack([degree.astype(np.float64), share[degree]])
 
 
 def _of_slab(x: FloatArray, part: Slab, sides: Sides | None) -> PlaneOrder:

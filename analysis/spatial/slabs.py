@@ -132,7 +132,7 @@ def slabs(x: FloatArray, around: float, progress: Progress | None = None) -> Ite
     around : float
         How far the surroundings of each reach.
     progress : callable, optional
-        Called with the share done after each.
+        Called with the share done before the first and after each.
 
     Yields
     ------
@@ -140,6 +140,8 @@ def slabs(x: FloatArray, around: float, progress: Progress | None = None) -> Ite
         Every point of the set is one slab's own; slabs without any are passed over.
     """
     ends = slab_ends(x)
+    if progress is not None:
+        progress(0.0)
     for k, (low, high) in enumerate(ends):
         made = slab(x, low, high, min(around, (WIDEST - (high - low)) / 2))
         if len(made.rows):

@@ -1,0 +1,23 @@
+"""Curves of a source as means over its sets, from the sums that its pieces have."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def mean_rdf(sums: Sequence[NDArray[Any]], realizations: int) -> dict[str, NDArray[Any]]:
+    """Give columns r, g, of the edges and sums of the pieces."""
+    return {"r": sums[0][0], "g": np.sum([piece[1] for piece in sums], axis=0) / realizations}
+
+
+def mean_valence(sums: Sequence[NDArray[Any]], realizations: int) -> dict[str, NDArray[Any]]:
+    """Give columns degree, share, of the degrees that occur in each piece and the sums of their shares."""
+    low, high = (int(end(end(piece[0]) for piece in sums)) for end in (min, max))
+    total = np.zeros(high - low + 1)
+    for degree, share in sums:
+        total[int(degree[0]) - low :][: len(degree)] += share
+    return {"degree": np.arange(low, high + 1, dtype=np.intp), "share": total / realizations}
