@@ -112,9 +112,9 @@ def _strip_windows(
             yield _windows_of(x[order], numbered, (first, first + own), 0, reach, box, strips)
             continue
         wanted = np.flatnonzero(((label >= first) & (label < end)) | (label < end - strips.count))
-        some, numbered = x[wanted], (label[wanted] - first) % strips.count
+        some, numbered = x[wanted], ((label[wanted] - first) % strips.count).astype(np.intp)
         order = np.lexsort((some[:, -1], numbered))
-        yield _windows_of(some[order], numbered[order].astype(np.intp), (0, own), first, reach, box, strips)
+        yield _windows_of(some[order], numbered[order], (0, own), first, reach, box, strips)
 
 
 def _windows_of(

@@ -143,7 +143,7 @@ def slabs(x: FloatArray, around: float, progress: Progress | None = None) -> Ite
     if progress is not None:
         progress(0.0)
     for k, (low, high) in enumerate(ends):
-        made = slab(x, low, high, min(around, (WIDEST - (high - low)) / 2))
+        made = slab(x, low, high, max(0.0, min(around, (WIDEST - (high - low)) / 2)))
         if len(made.rows):
             yield made
         if progress is not None:

@@ -77,13 +77,13 @@ def joined_shells(parts: Sequence[ShellSpectrum]) -> ShellSpectrum:
     first = parts[0]
     if len(parts) == 1:
         return first
-    arrays = {
-        name: np.concatenate([getattr(part, name) for part in parts])
-        for name in ("frequency", "nu", "power", "count", "deviation")
-    }
     return replace(
         first,
-        **arrays,
+        frequency=np.concatenate([part.frequency for part in parts]),
+        nu=np.concatenate([part.nu for part in parts]),
+        power=np.concatenate([part.power for part in parts]),
+        count=np.concatenate([part.count for part in parts]),
+        deviation=np.concatenate([part.deviation for part in parts]),
         fmax=max(part.fmax for part in parts),
         method=", ".join(dict.fromkeys(part.method for part in parts)),
         precision=", ".join(dict.fromkeys(part.precision for part in parts)),
