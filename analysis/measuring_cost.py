@@ -16,10 +16,10 @@ from gbnbench.analysis.spectrum.plan import plan as spectrum_plan
 from gbnbench.core.memory import PROCESS_BYTES
 
 CUBE_BYTES = 64  # for each frequency of a cube while its shells are told apart
-TREE_BYTES, DISTANCE_BYTES = 400, 16  # for each point of a slab, and of the set
-STAR_BYTES = 1700  # for each point of a slab that is triangulated
+TREE_BYTES, DISTANCE_BYTES = 400, 16  # for each point of a slab, and of the set whose distances are kept
+STAR_BYTES = 2400  # for each point of a slab that is triangulated
 PLANE_BYTES = 300  # for each point, to the next power of two, of a discrepancy in the plane
-GRID_SECONDS, TREE_SECONDS, STAR_SECONDS, PLANE_SECONDS = 1e-6, 2.5e-6, 2.5e-5, 1e-5  # a point, one core
+GRID_SECONDS, TREE_SECONDS, STAR_SECONDS, PLANE_SECONDS = 1e-6, 2.5e-6, 4e-5, 1e-5  # a point, one core
 
 
 @dataclass(frozen=True)
@@ -111,7 +111,9 @@ def measuring_cost(plan: MeasuringPlan) -> MeasuringCost:
     ]
     left_out = {}
     if d == 2:
-        found.append(MeasuringStage("neighbours", STAR_BYTES * min(n, SLAB_POINTS), STAR_SECONDS * n))
+        of_slab = n / -(-n // SLAB_POINTS)
+        nbytes = int(STAR_BYTES * of_slab) + DISTANCE_BYTES * n
+        found.append(MeasuringStage("neighbours", nbytes, STAR_SECONDS * n))
     reason = too_many_points(n, d)
     if reason is not None:
         left_out |= dict.fromkeys(("effective_nyquist", "oscillations"), reason)

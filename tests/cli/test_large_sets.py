@@ -149,6 +149,13 @@ def test_bands_come_again(capsys: pytest.CaptureFixture[str]) -> None:
     assert capsys.readouterr().out.count("shells: ") == 2
 
 
+@pytest.mark.usefixtures("small")
+def test_shells_far_out_are_few_rows(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["spectrum", "x.npy", "--band", "2100,2100", "-o", "s.csv"]) == 0  # |f|^2 = 4,410,000
+    assert len(Path("s.csv").read_text().splitlines()) == 2
+    assert capsys.readouterr().err == ""
+
+
 PEAK = """
 import resource, sys
 import numpy as np
