@@ -118,7 +118,7 @@ def analyze(
             for index, x in enumerate(read.sets):
                 with naming(path, index):
                     sides = as_sides(read.sides, x.shape[1])
-                    cost = cost_of_large(*x.shape, fmax, sides)
+                    cost = cost_of_large(x.shape[0], x.shape[1], fmax, sides)
                     tables = _tables(x, projections, box, sides)
                     with stages(cost, str(path), stopped, quiet) as tell:
                         found = measures(x, fmax, sides=sides, progress=tell)
