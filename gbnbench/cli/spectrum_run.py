@@ -24,6 +24,7 @@ from gbnbench.io.lists import read_weights
 from gbnbench.io.points import ReadingOptions
 
 SLOW = 3.0  # expected seconds that are said beforehand
+LARGE = 1 << 20  # points of a set whose memory is said beforehand
 
 
 @dataclass(frozen=True)
@@ -124,8 +125,11 @@ def explain(settings: SpectrumSettings, sets: Sequence[LabelledSets], weights: P
     for ((realizations, n, d), sides), same in alike.items():
         more = f" and {len(same) - 1} more, each" if len(same) > 1 else ""
         click.echo(f"{same[0].label}{more}:")
-        for plan in settings.plans(n, d, realizations, sides):
+        plans = settings.plans(n, d, realizations, sides)
+        for plan in plans:
             click.echo(plan)
+        if n > LARGE:
+            click.echo(f"  the process takes {_peak(same[:1], plans)}")
 
 
 def compute(
@@ -169,7 +173,7 @@ def compute(
             check_format(out, plan, shells=settings.shells)
     weighing = _weights(weights, sets)
     seconds = sum(plan.seconds for plan in every)
-    if seconds > SLOW and not quiet:
+    if (seconds > SLOW or any(one.x.shape[1] > LARGE for one in sets)) and not quiet:
         label = every[0].chosen.evaluator.label
         click.echo(f"gbnbench: about {duration(seconds)}, {_peak(sets, every)}: {label}", err=True)
     paths = [] if out is None else places(out, len(sets), each=each)
@@ -210,7 +214,7 @@ def compute(
 def _peak(sets: Sequence[LabelledSets], plans: Sequence[SpectrumPlan]) -> str:
     """Say how much memory the process takes at most: all points, and what the largest plan needs."""
     points = sum(one.x.nbytes for one in sets)
-    return f"{(PROCESS_BYTES + points + max(plan.bytes for plan in plans)) / 1e9:.2g} GB at most"
+    return f"{(PROCESS_BYTES + points + max(plan.bytes for plan in plans)) / 1e9:.2g} GB of memory at most"
 
 
 def _weights(path: Path | None, sets: Sequence[LabelledSets]) -> list[FloatArray | None]:

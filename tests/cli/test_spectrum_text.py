@@ -102,7 +102,7 @@ def test_long_work_is_said_beforehand_and_shows_how_far_it_is(
     monkeypatch.setattr("gbnbench.cli.share_progress.PATIENCE", 0.0)
     _, err = said("a.txt", "--shells", "--fmax", 30, "-o", "r.npz")
     frequencies = gbnbench.plan(40, 2, 30, shells=True).request.frequencies
-    said_first = r"gbnbench: about 0 s, 0\.\d+ GB at most: streamed two-group product in double"
+    said_first = r"gbnbench: about 0 s, 0\.\d+ GB of memory at most: streamed two-group product in double"
     assert re.fullmatch(said_first, err.splitlines()[0])
     assert err.splitlines()[-1].startswith(f"{frequencies}/{frequencies} frequencies")
     worth = share_progress.worth_showing
