@@ -144,7 +144,17 @@ def excess_density(sets: FloatArray, sides: Sides | None = None) -> FloatArray:
 
 
 def too_many_points(n: int, d: int) -> str | None:
-    """Say why ``spectral_statistics`` refuses so many points of the plane; None where it does not."""
+    """Say why ``spectral_statistics`` refuses so many points of the plane; None where it does not.
+
+    Parameters
+    ----------
+    n, d : int
+        Points of a set, and dimension.
+
+    Returns
+    -------
+    str or None
+    """
     if d != 2 or n <= MOST_POINTS:
         return None
     return f"PSA's spectral statistics count n^2/10 pairs; n must be at most {MOST_POINTS}, got n={n}"

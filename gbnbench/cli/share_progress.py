@@ -20,7 +20,19 @@ def duration(seconds: float) -> str:
 
 
 def worth_showing(elapsed: float, share: float) -> bool:
-    """Whether work has lasted a while and will last as long again, so that a bar does not just flash."""
+    """Whether work has lasted a while and will last as long again, so that a bar does not just flash.
+
+    Parameters
+    ----------
+    elapsed : float
+        Seconds that it has lasted.
+    share : float
+        The share done, from 0 to 1.
+
+    Returns
+    -------
+    bool
+    """
     return elapsed > PATIENCE and elapsed * (1 - share) >= PATIENCE * share
 
 

@@ -31,6 +31,7 @@ from gbnbench.core.torus import FloatArray
 
 BLOCK_ROWS, BLOCK_COLUMNS = 510, 1024  # frequencies of a block's two groups: 17 MB of amplitudes
 BIN_BYTES = 64 << 20  # of the moments of all strips
+SUMMED = 13  # times that a block's sums are held while those over blocks of points are added up
 STRIPS = 4  # strips of rows for each core
 
 Progress = Callable[[float], None]
@@ -56,7 +57,8 @@ class ShellProduct(DeviceEvaluator):
         held = 3 * (8 << 20) + TABLE_BYTES + BIN_BYTES
         if request.n <= POINTS:
             return device_cost(self.on_device, request, work, launches, held)
-        held += 6 * 64 * BLOCK_ROWS * BLOCK_COLUMNS  # sums over blocks of points, and their rest
+        rows, columns = min(BLOCK_ROWS, len(a.order)), min(BLOCK_COLUMNS, len(b.order))
+        held += SUMMED * 64 * rows * columns  # eight sums a pair of frequencies
         return device_cost(self.on_device, request, work, launches, held, points=POINTS)
 
     def expected_errors(self, request: SpectrumRequest) -> Errors:
