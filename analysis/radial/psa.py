@@ -15,8 +15,7 @@ from gbnbench.core.errors import RefusalError
 from gbnbench.core.sides import Sides, as_sides, shortest_side
 from gbnbench.core.torus import FloatArray, as_realizations
 
-# Frequencies evaluated first, in units of sqrt(n): the statistics of most sets need no more.
-FIRST_RANGE = 8.0
+FIRST_RANGE = 8.0  # sqrt(n) up to which frequencies are evaluated first; most sets need no more
 MOST_POINTS = 200_000  # some minutes on one core, where there is no OpenCL device
 
 
@@ -136,8 +135,7 @@ def excess_density(sets: FloatArray, sides: Sides | None = None) -> FloatArray:
             f"shorter side is {0.5 * shortest_side(sides):.3g} of it, and one side may be about four times "
             "the other at most"
         )
-    width = 0.5 / total
-    bins = total // 2 + 1
+    width, bins = 0.5 / total, total // 2 + 1
     r = np.arange(bins) * width
     g = pair_density(sets, bins, width, sides)
     return np.asarray((2 * math.pi * n * width) * (g - 1) * r)
