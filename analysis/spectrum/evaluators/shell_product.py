@@ -129,12 +129,12 @@ def shell_moments(
     out = p.runtime.upload(np.zeros(strips * bins * 2, p.sum))
     counts = p.runtime.upload(np.zeros(strips * bins, np.uint32))
     norms = p.runtime.upload(norms_of(weights, sets, n).astype(p.sum))
-    work, done = count_pairs(a, b, low, high), 0
+    work, done = (1 if progress is None else _pairs(p, a, b, low, high)), 0
     power = p.runtime.empty(2 * BLOCK_ROWS * BLOCK_COLUMNS * np.dtype(p.sum).itemsize)
     for rows, columns, bounds in blocks(a, b, low, high, tile_rows(p)):
         leading, trailing = Group(a.axes, a.order[rows]), Group(b.axes, b.order[columns])
         limits = p.runtime.upload(bounds)
-        pairs = int((bounds[:, 1] - bounds[:, 0]).sum()) * tile_rows(p)
+        pairs = int((bounds[:, 1] - bounds[:, 0]).sum())
 
         def tell(share: float, done: int = done, pairs: int = pairs) -> None:
             if progress is not None:
@@ -182,6 +182,12 @@ def shell_moments(
     parts = p.runtime.download(out, np.empty((strips, bins, 2), p.sum)).astype(np.float64)
     count = p.runtime.download(counts, np.empty((strips, bins), np.uint32))
     return merged(count.astype(np.int64), parts[..., 0], parts[..., 1], low), worst
+
+
+def _pairs(p: Precision, a: SortedGroup, b: SortedGroup, low: int, high: int) -> int:
+    """Count the columns that all row tiles take, wanted ones and others."""
+    each = blocks(a, b, low, high, tile_rows(p))
+    return sum(int(np.diff(bounds.astype(np.int64)).sum()) for *_, bounds in each)
 
 
 def blocks(
