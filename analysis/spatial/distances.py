@@ -56,7 +56,8 @@ def nearest_distances(
     Notes
     -----
     A k-d tree names candidates. Larger sets have a tree for each slab and what lies around it, so that memory
-    does not grow with n beyond the result; the distances are the same bits.
+    does not grow with n beyond the result. The distances are the same bits, unless several neighbours are
+    equally near up to rounding, of which either tree may name another.
     """
     sets = as_realizations(x)
     n, d = sets.shape[1:]

@@ -31,7 +31,7 @@ SHARED = {
     "--out": "compare spectrum analyze generate generators stipple reconstruct convert integrate figures "
     f"report, {BENCHES}",
     "--json": f"compare spectrum analyze generators reconstruct integrate check devices doctor, {BENCHES}",
-    "--quiet": "compare spectrum generate generators stipple reconstruct integrate figures check doctor, "
+    "--quiet": "compare spectrum analyze generate generators stipple reconstruct integrate figures check doctor, "
     f"{BENCHES}",
     "--quick": f"figures check doctor, {BENCHES}",
     "--full": f"figures check doctor, {BENCHES}",
