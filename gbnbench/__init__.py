@@ -12,6 +12,7 @@ The names below load their modules when first used, so that importing gbnbench c
 - ``compare_stipplings(image, sources)``: stipplers and stipplings by anybody side by side, as a
   ``StipplingComparison``;
 - ``load(path)``, ``save(path, x)``: point-set files;
+- ``export_sets(path, source)``, ``export_mask(path, shape)``, ``dither_mask(shape)``: files for renderers;
 - ``wrap(x)``, ``scale(x, low, high)``: points brought onto the unit torus [0, 1)^d;
 - ``periodogram(x, fmax)``: exact power at every integer frequency; ``radial(spectrum)``: its radial mean;
 - ``shells(x, fmax)``: radial power and anisotropy without the cube, in any dimension;
@@ -36,8 +37,11 @@ if TYPE_CHECKING:
     from gbnbench.analysis.window.estimates import WindowEstimates, in_window
     from gbnbench.api.compare import compare
     from gbnbench.api.comparison import Comparison
+    from gbnbench.api.exports import ExportedMask, ExportedSets
     from gbnbench.api.integration import Integration, integrate
+    from gbnbench.api.mask_export import export_mask
     from gbnbench.api.reconstruct import reconstruct
+    from gbnbench.api.set_export import export_sets
     from gbnbench.api.stipple import stipple
     from gbnbench.api.stippling import Stippling
     from gbnbench.api.stippling_comparison import StipplingComparison
@@ -46,6 +50,7 @@ if TYPE_CHECKING:
     from gbnbench.core.results.radial import ShellSpectrum
     from gbnbench.core.results.spectrum import Spectrum
     from gbnbench.core.torus import scale, wrap
+    from gbnbench.generators.kernel_based.dither_mask import dither_mask
     from gbnbench.generators.listing import generator_table
     from gbnbench.generators.registry import generate
     from gbnbench.io.points import load, save
@@ -54,6 +59,8 @@ __version__ = "0.1.0"
 
 __all__ = [
     "Comparison",
+    "ExportedMask",
+    "ExportedSets",
     "GbnbenchError",
     "Integration",
     "ShellSpectrum",
@@ -64,6 +71,9 @@ __all__ = [
     "WindowEstimates",
     "compare",
     "compare_stipplings",
+    "dither_mask",
+    "export_mask",
+    "export_sets",
     "generate",
     "generator_table",
     "in_window",
@@ -83,6 +93,8 @@ __all__ = [
 
 _MODULES = {
     "Comparison": "gbnbench.api.comparison",
+    "ExportedMask": "gbnbench.api.exports",
+    "ExportedSets": "gbnbench.api.exports",
     "GbnbenchError": "gbnbench.core.errors",
     "Integration": "gbnbench.api.integration",
     "ShellSpectrum": "gbnbench.core.results.radial",
@@ -93,6 +105,9 @@ _MODULES = {
     "WindowEstimates": "gbnbench.analysis.window.estimates",
     "compare": "gbnbench.api.compare",
     "compare_stipplings": "gbnbench.api.stipplings",
+    "dither_mask": "gbnbench.generators.kernel_based.dither_mask",
+    "export_mask": "gbnbench.api.mask_export",
+    "export_sets": "gbnbench.api.set_export",
     "generate": "gbnbench.generators.registry",
     "generator_table": "gbnbench.generators.listing",
     "in_window": "gbnbench.analysis.window.estimates",

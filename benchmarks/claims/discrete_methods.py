@@ -12,6 +12,7 @@ from gbnbench.benchmarks.claims.kernel_methods import draw
 from gbnbench.benchmarks.claims.profile import over
 from gbnbench.benchmarks.claims.sets import MILLION, PAPER, SEED, SetCache
 from gbnbench.generators.kernel_based.raster_energy import RasterEnergy
+from gbnbench.generators.kernel_based.raster_kernel import gaussian
 from gbnbench.generators.low_discrepancy.dyadic_net import GaussianEnergy, exchangeable_pairs
 from gbnbench.generators.registry import generate
 
@@ -99,7 +100,7 @@ def swap_gain(spec: str, sigma: float, n: int = 1024) -> float:
         In heights of the Gaussian, 0 where it would gain nothing.
     """
     side = round(math.sqrt(n) * sigma)
-    pattern = RasterEnergy(side, 2, sigma, np.random.default_rng(SEED))
+    pattern = RasterEnergy((side, side), gaussian((side, side), sigma), np.random.default_rng(SEED))
     x = generate(spec, n=n, seed=SEED)
     for column, row in np.floor(x * side).astype(int):
         pattern.add(int(column * side + row))

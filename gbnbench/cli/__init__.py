@@ -17,6 +17,7 @@ from gbnbench.cli.check import check
 from gbnbench.cli.compare import compare
 from gbnbench.cli.convert import convert
 from gbnbench.cli.devices import devices, doctor
+from gbnbench.cli.export import export
 from gbnbench.cli.figures import figures
 from gbnbench.cli.generate import generate
 from gbnbench.cli.generators import generators
@@ -33,9 +34,8 @@ from gbnbench.core.memory import memory_limit, too_little
 BAD, STOPPED, PIPE = 2, 130, 141  # exit codes; 0 is done, 1 is worse than a baseline or a failed check
 
 TASKS: dict[str, tuple[click.Command, ...]] = {
-    "Start here": (compare, spectrum, analyze, generate, generators, stipple, reconstruct, convert),
-    "Studies": (integrate, figures, report),
-    "This machine": (check, bench, devices, doctor),
+    "Start here": (compare, spectrum, analyze, generate, generators, stipple, reconstruct, convert, export),
+    "Studies, and this machine": (integrate, figures, report, check, bench, devices, doctor),
 }
 
 

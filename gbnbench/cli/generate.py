@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import os
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,7 +11,7 @@ from typing import TYPE_CHECKING
 import click
 
 from gbnbench.cli import options
-from gbnbench.core.atomic_write import remove_leftovers_of
+from gbnbench.core.atomic_write import check_folder, remove_leftovers_of
 from gbnbench.core.errors import InputError
 
 if TYPE_CHECKING:
@@ -96,16 +95,6 @@ def generate(
     if checkpoint is not None:
         checkpoint.unlink(missing_ok=True)
         remove_leftovers_of(checkpoint)
-
-
-def check_folder(path: Path | None) -> None:
-    """Refuse, before any work, a file that could not be written; None is no file."""
-    if path is None:
-        return
-    if not path.parent.is_dir():
-        raise InputError(f"{path} cannot be written: there is no folder {path.parent}; make it first")
-    if not os.access(path if path.exists() else path.parent, os.W_OK):
-        raise InputError(f"{path} cannot be written: permission denied; give another place")
 
 
 @contextlib.contextmanager

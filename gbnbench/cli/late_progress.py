@@ -40,3 +40,33 @@ def late_progress(quiet: bool) -> Iterator[Callable[[int, int, str], None]]:
             counted = done
 
         yield tell
+
+
+@contextlib.contextmanager
+def stages(quiet: bool) -> Iterator[Callable[[int, int, str], None]]:
+    """Give a function that is told of the steps of several works, one after the other, each in its own count.
+
+    Parameters
+    ----------
+    quiet : bool
+        Show nothing.
+
+    Yields
+    ------
+    callable
+        Takes (steps done, steps in all, what is being done), as ``late_progress`` does; another total, or
+        steps that begin anew, are another work.
+    """
+    with contextlib.ExitStack() as stack:
+        tell: Callable[[int, int, str], None] | None = None
+        last = (0, 0)
+
+        def told(done: int, total: int, doing: str) -> None:
+            nonlocal tell, last
+            if tell is None or total != last[1] or done < last[0]:
+                stack.close()
+                tell = stack.enter_context(late_progress(quiet))
+            tell(done, total, doing)
+            last = done, total
+
+        yield told

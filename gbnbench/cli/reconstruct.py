@@ -10,6 +10,7 @@ import click
 
 from gbnbench.cli import options
 from gbnbench.cli.late_progress import late_progress
+from gbnbench.core.atomic_write import check_folder
 from gbnbench.core.errors import FormatError, InputError
 
 if TYPE_CHECKING:
@@ -108,7 +109,6 @@ def reconstruct(
     """
     from gbnbench.analysis.reconstruction.image_quality import image_quality
     from gbnbench.api.reconstruct import density_of_points
-    from gbnbench.cli.generate import check_folder
     from gbnbench.cli.json_text import json_text
     from gbnbench.cli.point_files import naming
     from gbnbench.io.images.arrays import ARRAY_SUFFIX

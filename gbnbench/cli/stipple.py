@@ -10,6 +10,7 @@ import click
 
 from gbnbench.cli import options
 from gbnbench.cli.late_progress import late_progress
+from gbnbench.core.atomic_write import check_folder
 
 EPILOG = """\b
 Examples:
@@ -121,7 +122,6 @@ def stipple(
     from gbnbench.api.stippled_frames import FormingDots
     from gbnbench.api.stippled_page import in_tour_order, write_stippling
     from gbnbench.cli import stipple_input
-    from gbnbench.cli.generate import check_folder
     from gbnbench.cli.stipple_frames import checked_frames, write_animation
     from gbnbench.generators.adaptive.registry import adaptive_generator
     from gbnbench.reports.stippling.gcode import read_template

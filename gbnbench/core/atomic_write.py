@@ -13,6 +13,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import IO
 
+from gbnbench.core.errors import InputError
+
 if sys.platform != "win32":
     import fcntl
 
@@ -58,6 +60,27 @@ def write_whole(path: Path, data: bytes, *, make_folder: bool = True) -> None:
             raise OSError(error.errno, error.strerror, os.fspath(path)) from error
         raise
     _sync_folder(path.parent)
+
+
+def check_folder(path: Path | None) -> None:
+    """Refuse, before any work, a file that could not be written.
+
+    Parameters
+    ----------
+    path : Path or None
+        Where it shall stand; None is no file.
+
+    Raises
+    ------
+    InputError
+        If there is no such folder, or no permission.
+    """
+    if path is None:
+        return
+    if not path.parent.is_dir():
+        raise InputError(f"{path} cannot be written: there is no folder {path.parent}; make it first")
+    if not os.access(path if path.exists() else path.parent, os.W_OK):
+        raise InputError(f"{path} cannot be written: permission denied; give another place")
 
 
 def write_folder_whole(path: Path, files: Mapping[str, bytes]) -> None:

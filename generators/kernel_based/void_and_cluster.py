@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -10,6 +11,7 @@ import numpy as np
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.kernel_based.raster_energy import RasterEnergy, pixel_centres
+from gbnbench.generators.kernel_based.raster_kernel import RasterKernel, gaussian
 from gbnbench.generators.protocol import Family
 from gbnbench.generators.ranges import check_above, check_range, raise_refusal, too_many_axes
 
@@ -129,7 +131,8 @@ class VoidAndCluster:
         """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
         raise_refusal(self.refusal(n, d))
         side = self.side(n, d)
-        pattern = initial_binary_pattern(side, d, self.sigma, self.initial, rng)
+        shape = (side,) * d
+        pattern = initial_binary_pattern(shape, gaussian(shape, self.sigma), self.initial, rng)
         for _ in range(pattern.count - n):
             pattern.remove(pattern.tightest_cluster())
         for _ in range(n - pattern.count):
@@ -141,16 +144,16 @@ class VoidAndCluster:
 
 
 def initial_binary_pattern(
-    side: int, d: int, sigma: float, share: float, rng: np.random.Generator
+    shape: Sequence[int], kernel: RasterKernel, share: float, rng: np.random.Generator
 ) -> RasterEnergy:
     """Random ones, moved from the tightest cluster to the largest void until that lowers the energy no more.
 
     Parameters
     ----------
-    side, d : int
-        Pixels an axis and dimension.
-    sigma : float
-        Width of the Gaussian in pixels.
+    shape : sequence of int
+        Pixels on each axis.
+    kernel : RasterKernel
+        What a one gives to the pixels around it.
     share : float
         Of ones, of which there is at least one.
     rng : numpy.random.Generator
@@ -161,8 +164,9 @@ def initial_binary_pattern(
     RasterEnergy
         Whose every swap of its tightest cluster with the largest void is none or no gain.
     """
-    pattern = RasterEnergy(side, d, sigma, rng)
-    for pixel in rng.choice(side**d, size=max(round(share * side**d), 1), replace=False):
+    pattern = RasterEnergy(shape, kernel, rng)
+    pixels = len(pattern.ones)
+    for pixel in rng.choice(pixels, size=max(round(share * pixels), 1), replace=False):
         pattern.add(int(pixel))
     while True:  # ends: each turn lowers the energy, and there are finitely many patterns
         cluster = pattern.tightest_cluster()

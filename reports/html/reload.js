@@ -1,4 +1,5 @@
-// A page that is not whole reads itself again, unless it is being used or the reader says no.
+// A page that is not whole reads itself again, unless it is being used, the reader says no, or an hour brought
+// nothing new: a run that was killed cannot say that it ended.
 const reload = document.getElementById("reload");
 if (reload) {
   const wait = 1000 * Number(reload.dataset.seconds);
@@ -10,6 +11,10 @@ if (reload) {
     const stopped = reload.getAttribute("aria-pressed") === "false";
     reload.setAttribute("aria-pressed", String(stopped));
   });
+  if (Date.now() - Date.parse(document.lastModified) > 3600e3) {
+    reload.setAttribute("aria-pressed", "true");
+    reload.after(" Nothing was added for an hour, so it has stopped: the run may have ended. The same command goes on with it.");
+  }
   setInterval(() => {
     const stopped = reload.getAttribute("aria-pressed") === "true";
     if (!stopped && Date.now() - used >= wait) location.reload();

@@ -25,22 +25,25 @@ def every_command(group: click.Group = gbnbench, prefix: str = "") -> Iterator[t
 
 
 COMMANDS = dict(every_command())
-# Which command has which of the options that several have; report waits for little, and analyze.
+# Which command has which of the options that several have; report waits for little.
 BENCHES = "bench periodogram, bench gbn"
 SHARED = {
-    "--out": "compare spectrum analyze generate generators stipple reconstruct convert integrate figures "
-    f"report, {BENCHES}",
-    "--json": f"compare spectrum analyze generators reconstruct integrate check devices doctor, {BENCHES}",
-    "--quiet": "compare spectrum analyze generate generators stipple reconstruct integrate figures check doctor, "
+    "--out": "compare spectrum analyze generate generators stipple reconstruct convert export integrate "
+    f"figures report, {BENCHES}",
+    "--json": "compare spectrum analyze generators reconstruct export integrate check devices doctor, "
+    f"{BENCHES}",
+    "--quiet": "compare spectrum analyze generate generators stipple reconstruct export integrate figures "
+    "check doctor, "
     f"{BENCHES}",
     "--quick": f"figures check doctor, {BENCHES}",
     "--full": f"figures check doctor, {BENCHES}",
-    "--seed": "compare generate generators stipple integrate figures",
+    "--seed": "compare generate generators stipple export integrate figures",
     "--jobs": "compare generators integrate figures check",
     "--family": "compare generators integrate",
     "--preset": "compare integrate",
-    "--realizations": "compare spectrum generate generators integrate",
-    "--device": "compare spectrum analyze generate generators stipple reconstruct integrate figures check "
+    "--realizations": "compare spectrum generate generators export integrate",
+    "--device": "compare spectrum analyze generate generators stipple reconstruct export integrate figures "
+    "check "
     f"devices doctor, {BENCHES}",
 }
 

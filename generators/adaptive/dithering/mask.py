@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density
@@ -17,10 +16,9 @@ from gbnbench.generators.adaptive.dithering.pixel_density import (
 )
 from gbnbench.generators.adaptive.method import AdaptiveMethod
 from gbnbench.generators.adaptive.protocol import Told
-from gbnbench.generators.kernel_based.void_and_cluster import initial_binary_pattern
+from gbnbench.generators.kernel_based.dither_mask import mask_ranks
+from gbnbench.generators.kernel_based.raster_kernel import gaussian
 from gbnbench.generators.ranges import check_above, check_range
-
-INITIAL = 0.1  # share of ones in the initial binary pattern
 
 
 @dataclass(frozen=True)
@@ -79,44 +77,11 @@ class VoidAndClusterDither(AdaptiveMethod):
         """Draw one set, as ``AdaptiveMethod.one_set`` describes it."""
         parts = parts_for_dithering(density, n)
         wanted = density.finer(parts).values
-        ranks = mask_ranks(self.side, self.sigma, rng)
+        shape = (self.side, self.side)
+        ranks = mask_ranks(shape, gaussian(shape, self.sigma), rng)
         laid = np.tile(ranks, [-(-size // self.side) for size in wanted.shape])
         threshold = (laid[: wanted.shape[0], : wanted.shape[1]] + 0.5) / ranks.size
         ratio = (wanted / threshold).ravel()
         black = np.zeros(wanted.size, bool)
         black[np.argsort(-ratio, kind="stable")[:n]] = True
         return centres(black.reshape(wanted.shape), parts)
-
-
-def mask_ranks(side: int, sigma: float, rng: np.random.Generator) -> NDArray[np.int64]:
-    """Give the pixels of a toroidal square an order in which the first ones are spread evenly.
-
-    Parameters
-    ----------
-    side : int
-        Pixels.
-    sigma : float
-        Width of the Gaussian in pixels.
-    rng : numpy.random.Generator
-        Draws the initial binary pattern.
-
-    Returns
-    -------
-    (side, side) int64
-        A permutation of 0 .. side^2 - 1.
-    """
-    state = rng.bit_generator.state
-    pattern = initial_binary_pattern(side, 2, sigma, INITIAL, rng)
-    ranks = np.empty(side**2, np.int64)
-    first = pattern.count
-    for rank in range(first - 1, -1, -1):
-        pixel = pattern.tightest_cluster()
-        pattern.remove(pixel)
-        ranks[pixel] = rank
-    rng.bit_generator.state = state  # the same pattern once more, to be filled
-    pattern = initial_binary_pattern(side, 2, sigma, INITIAL, rng)
-    for rank in range(first, side**2):
-        pixel = pattern.largest_void()
-        pattern.add(pixel)
-        ranks[pixel] = rank
-    return ranks.reshape(side, side)

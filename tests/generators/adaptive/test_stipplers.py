@@ -8,7 +8,6 @@ from scipy.spatial import cKDTree
 
 from gbnbench.generators.adaptive.density import as_density
 from gbnbench.generators.adaptive.dithering.error_diffusion import diffuse
-from gbnbench.generators.adaptive.dithering.mask import mask_ranks
 from gbnbench.generators.adaptive.registry import adaptive_points
 from gbnbench.generators.adaptive.voronoi.weighted_cells import CellParts
 
@@ -59,17 +58,6 @@ def test_a_cell_splits_along_its_longest_axis():
     directions, deviations = CellParts(wide, 1).cells(np.array([[2.0, 20.0]])).main_axes()
     assert np.abs(directions[0]) == pytest.approx([0, 1], abs=1e-9)
     assert deviations[0] == pytest.approx(40 / np.sqrt(12), rel=1e-3)
-
-
-def test_a_mask_is_a_permutation_whose_every_level_is_blue():
-    ranks = mask_ranks(32, 1.5, np.random.default_rng(1))
-    assert sorted(ranks.ravel()) == list(range(1024))
-    for share in (0.1, 0.25, 0.5):
-        power = np.abs(np.fft.fft2(ranks < share * 1024)) ** 2 / (share * 1024)
-        f = np.fft.fftfreq(32) * 32
-        low = np.hypot(f[:, None], f) <= 4
-        low[0, 0] = False
-        assert power[low].mean() < 0.1
 
 
 def test_the_pixels_of_a_mask_are_those_above_its_thresholds():

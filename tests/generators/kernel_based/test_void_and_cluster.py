@@ -11,6 +11,7 @@ from gbnbench.analysis.measures import measures
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.kernel_based.raster_energy import RasterEnergy, pixel_centres
+from gbnbench.generators.kernel_based.raster_kernel import gaussian
 from gbnbench.generators.kernel_based.void_and_cluster import VoidAndCluster, initial_binary_pattern
 from gbnbench.generators.protocol import realization_rng
 from gbnbench.generators.registry import generate
@@ -28,7 +29,7 @@ def gaussian_sums(ones: FloatArray, side: int, d: int, sigma: float) -> FloatArr
 @pytest.mark.parametrize(("side", "d", "sigma"), [(40, 1, 1.5), (9, 2, 1.5), (30, 2, 1.2), (7, 3, 1.0)])
 def test_sums_are_those_of_all_images(side: int, d: int, sigma: float) -> None:
     rng = np.random.default_rng(1)
-    energy = RasterEnergy(side, d, sigma, rng)
+    energy = RasterEnergy((side,) * d, gaussian((side,) * d, sigma), rng)
     pixels = rng.choice(side**d, 12, replace=False)
     for pixel in pixels:
         energy.add(int(pixel))
@@ -43,7 +44,7 @@ def test_sums_are_those_of_all_images(side: int, d: int, sigma: float) -> None:
 
 def test_no_swap_betters_the_initial_pattern() -> None:
     side, sigma = 24, 1.5
-    pattern = initial_binary_pattern(side, 2, sigma, 0.1, realization_rng(0, 0))
+    pattern = initial_binary_pattern((side, side), gaussian((side, side), sigma), 0.1, realization_rng(0, 0))
     ones = pattern.ones.copy()
     cluster = np.flatnonzero(ones)[gaussian_sums(ones, side, 2, sigma)[ones].argmax()]
     ones[cluster] = False
@@ -61,7 +62,7 @@ def test_fewer_points_are_a_part_of_more() -> None:
 def test_phase_three_is_phase_two() -> None:
     """The tightest cluster of zeros is the largest void, since all ones together give a constant."""
     rng = np.random.default_rng(3)
-    energy = RasterEnergy(16, 2, 1.5, rng)
+    energy = RasterEnergy((16, 16), gaussian((16, 16), 1.5), rng)
     for pixel in rng.choice(256, 180, replace=False):
         energy.add(int(pixel))
     zeros = gaussian_sums(~energy.ones, 16, 2, 1.5)

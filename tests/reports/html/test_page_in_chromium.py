@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import io
+import os
+import time
 
 import numpy as np
 import pytest
@@ -125,4 +127,25 @@ def test_a_growing_page_reads_itself_again_until_it_is_whole(browser, run, tmp_p
     before = len(loads)
     page.wait_for_timeout(2500)
     assert len(loads) == before
+    context.close()
+
+
+def test_a_growing_page_that_got_nothing_new_for_an_hour_stands_still(browser, run, tmp_path, monkeypatch):
+    monkeypatch.setattr(growing_report, "RELOAD", 1)
+    path = tmp_path / "report.html"
+    write_report(
+        Run(run.manifest, run.sources[:1]),
+        path,
+        unfinished=Unfinished(1, 3, ("jittered", "grid"), "12:00:00"),
+    )
+    long_ago = time.time() - 4000
+    os.utime(path, (long_ago, long_ago))
+    context = browser.new_context()
+    page = context.new_page()
+    loads = []
+    page.on("load", lambda: loads.append(page.url))
+    page.goto(path.as_uri())
+    assert "Nothing was added for an hour" in page.locator("p.growing").inner_text()
+    page.wait_for_timeout(2500)
+    assert len(loads) == 1
     context.close()
