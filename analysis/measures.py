@@ -6,12 +6,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeVar
 
-import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gbnbench.analysis.mean_curves import mean_rdf, mean_valence
 from gbnbench.analysis.measuring_plan import MeasuringPlan
 from gbnbench.analysis.outcomes import Arrays
-from gbnbench.analysis.piece_measures import measure_piece
+from gbnbench.analysis.piece_measures import Progress, measure_piece
 from gbnbench.analysis.radial.border_warning import border_warnings
 from gbnbench.analysis.scalars import Scalars
 from gbnbench.core.errors import RefusalError
@@ -92,6 +92,7 @@ def measures(
     fmax: int | None = None,
     *,
     sides: ArrayLike | None = None,
+    progress: Progress | None = None,
     device: str | None = None,
 ) -> Measures:
     """Compute every scalar measure of one or several sets.
@@ -108,6 +109,8 @@ def measures(
     sides : (d,) array_like, optional
         Lengths of the torus's sides in any unit, whose ratios count; a cube if not given. Lengths and |k| are
         then those of the rectangle or box, in units of its volume^(1/d); discrepancies do not change.
+    progress : callable, optional
+        Called with the name of a stage and the share of it that is done, of sets of more than 2^20 points.
     device : str, optional
         Part of the name of the OpenCL device, or its position, as in ``GBNBENCH_DEVICE``, which it overrides.
 
@@ -131,6 +134,10 @@ def measures(
     ``gbnbench.analysis.measure_definitions.DEFINITIONS`` says what each measure is and whose definition it
     follows; formulas stand with the functions of ``gbnbench.analysis.radial`` and ``.spatial``.
 
+    Sets of more than a million points are measured in parts, and may stay in their file:
+    ``measures(numpy.load(FILE, mmap_mode="r"))``. ``gbnbench.analysis.measuring_cost`` tells beforehand what
+    that takes, and what is left out.
+
     Examples
     --------
     >>> import gbnbench
@@ -149,7 +156,7 @@ def measures(
     points = as_realizations(x)
     with use_device(device):
         plan = _plan(points, fmax, sides, curves=False)
-        return Scalars(plan, _pieces(points, plan)).measures()
+        return Scalars(plan, _pieces(points, plan, progress)).measures()
 
 
 def analyse(x: ArrayLike, fmax: int | None = None, sides: ArrayLike | None = None) -> Analysis:
@@ -209,8 +216,8 @@ def merged_analysis(plan: MeasuringPlan, pieces: Sequence[Arrays]) -> AnalysisAr
         spectrum=scalars.spectrum,
         radial=scalars.radial,
         anisotropy=scalars.anisotropy(),
-        rdf=_unless_refused(lambda: _mean_rdf(scalars.outcomes("rdf"), plan.realizations)),
-        valence=_unless_refused(lambda: _mean_valence(scalars.outcomes("valence"), plan.realizations)),
+        rdf=_unless_refused(lambda: mean_rdf(scalars.outcomes("rdf"), plan.realizations)),
+        valence=_unless_refused(lambda: mean_valence(scalars.outcomes("valence"), plan.realizations)),
         zone_plate=scalars.zone_plate(),
         measures=scalars.measures(),
         warnings=border_warnings(scalars.spectrum, scalars.radial),
@@ -224,22 +231,10 @@ def _plan(
     return MeasuringPlan(n, d, realizations, fmax, as_sides(sides, d), curves)
 
 
-def _pieces(points: FloatArray, plan: MeasuringPlan) -> list[dict[str, NDArray[Any]]]:
-    return [measure_piece(points[k : k + count], plan, k) for k, count in plan.pieces]
-
-
-def _mean_rdf(sums: Sequence[NDArray[Any]], realizations: int) -> dict[str, NDArray[Any]]:
-    """Columns r, g, of the edges and sums of the pieces."""
-    return {"r": sums[0][0], "g": np.sum([piece[1] for piece in sums], axis=0) / realizations}
-
-
-def _mean_valence(sums: Sequence[NDArray[Any]], realizations: int) -> dict[str, NDArray[Any]]:
-    """Columns degree, share, of the degrees that occur in each piece and the sums of their shares."""
-    low, high = (int(end(end(piece[0]) for piece in sums)) for end in (min, max))
-    total = np.zeros(high - low + 1)
-    for degree, share in sums:
-        total[int(degree[0]) - low :][: len(degree)] += share
-    return {"degree": np.arange(low, high + 1, dtype=np.intp), "share": total / realizations}
+def _pieces(
+    points: FloatArray, plan: MeasuringPlan, progress: Progress | None = None
+) -> list[dict[str, NDArray[Any]]]:
+    return [measure_piece(points[k : k + count], plan, k, progress) for k, count in plan.pieces]
 
 
 def _unless_refused(compute: Callable[[], Result]) -> Result | None:

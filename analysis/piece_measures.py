@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache
+from functools import cache, partial
 from typing import Any
 
 import numpy as np
@@ -18,17 +18,25 @@ from gbnbench.analysis.spatial.delaunay import Neighbours, neighbours
 from gbnbench.analysis.spatial.discrepancy import DiscrepancyResult, measure_discrepancies
 from gbnbench.analysis.spatial.discrepancy_kernels import Discrepancy
 from gbnbench.analysis.spatial.distances import nearest_distances
+from gbnbench.analysis.spatial.plane_order import PlaneOrder, plane_order, summed_shares
 from gbnbench.analysis.spatial.rdf import RadialDistribution, rdf
+from gbnbench.analysis.spatial.slabs import WHOLE
 from gbnbench.analysis.spatial.valence import Valence, valence, valence6
 from gbnbench.analysis.spatial.zone_plate import zone_plate
 from gbnbench.analysis.spectral_scalars import spectral_scalars
 from gbnbench.core.errors import RefusalError, ShortSpectrumError
+from gbnbench.core.sides import Sides
 from gbnbench.core.torus import FloatArray
 
 DISCREPANCIES: dict[str, Discrepancy] = {"discrepancy_wd": "WD", "discrepancy_star": "L2-star"}
 
 
-def measure_piece(points: FloatArray, plan: MeasuringPlan, first: int = 0) -> dict[str, NDArray[Any]]:
+Progress = Callable[[str, float], None]
+
+
+def measure_piece(
+    points: FloatArray, plan: MeasuringPlan, first: int = 0, progress: Progress | None = None
+) -> dict[str, NDArray[Any]]:
     """Measure the sets of a piece.
 
     Parameters
@@ -39,6 +47,8 @@ def measure_piece(points: FloatArray, plan: MeasuringPlan, first: int = 0) -> di
         Of the whole source.
     first : int
         The number of the first of them.
+    progress : callable, optional
+        Called with the name of a stage of ``measuring_cost`` and the share of it that is done, of large sets.
 
     Returns
     -------
@@ -51,12 +61,18 @@ def measure_piece(points: FloatArray, plan: MeasuringPlan, first: int = 0) -> di
     if plan.far is not None and needs_farther(_powers_of(found, plan)):
         farther = measured_powers(points, plan.far, plan.group)
         found |= {f"far/{name}": array for name, array in farther.items()}
-    found |= {name: outcome(compute) for name, compute in _of_sets(points, plan).items()}
+    tell = progress or _say_nothing
+    tell("spectrum", 1.0)
+    found |= {name: outcome(compute) for name, compute in _of_sets(points, plan, tell).items()}
     if plan.curves:
         found |= _curves(points, plan)
         if first == 0:
             found["zone_plate"] = outcome(lambda: zone_plate(points[:1], sides=plan.sides))
     return found
+
+
+def _say_nothing(stage: str, share: float) -> None:
+    """Take progress that nobody asked for."""
 
 
 def needs_farther(powers: SetPowers) -> bool:
@@ -78,13 +94,13 @@ def _powers_of(found: dict[str, NDArray[Any]], plan: MeasuringPlan) -> SetPowers
     return merger.merged()
 
 
-def _of_sets(points: FloatArray, plan: MeasuringPlan) -> dict[str, Callable[[], FloatArray]]:
+def _of_sets(points: FloatArray, plan: MeasuringPlan, tell: Progress) -> dict[str, Callable[[], FloatArray]]:
     """Measures of each set, and what those of the mean are made of."""
     sides = plan.sides
 
     @cache
     def nearest() -> FloatArray:
-        return nearest_distances(points, sides)
+        return nearest_distances(points, sides, progress=partial(tell, "distances"))
 
     @cache
     def beside() -> tuple[Neighbours, ...]:
@@ -92,7 +108,10 @@ def _of_sets(points: FloatArray, plan: MeasuringPlan) -> dict[str, Callable[[], 
 
     @cache
     def discrepancies() -> dict[Discrepancy, DiscrepancyResult]:
-        return measure_discrepancies(points, tuple(DISCREPANCIES.values()))  # they share most of their cost
+        tell("discrepancies", 0.0)
+        found = measure_discrepancies(points, tuple(DISCREPANCIES.values()))  # they share most of their cost
+        tell("discrepancies", 1.0)
+        return found
 
     def discrepancy(kind: Discrepancy) -> Callable[[], FloatArray]:
         def values() -> FloatArray:
@@ -109,15 +128,49 @@ def _of_sets(points: FloatArray, plan: MeasuringPlan) -> dict[str, Callable[[], 
         shares = found.share_by_set.sum(axis=0)
         return np.stack([found.degree.astype(np.float64), shares])
 
-    return {
-        "min_distance": lambda: np.asarray(nearest().min(axis=1)),
-        "mean_distance": lambda: np.asarray(nearest().mean(axis=1)),
+    of_neighbours: dict[str, Callable[[], FloatArray]] = {
         "bond_order": lambda: bond_order(beside()),
         "psi6": lambda: psi6(beside()),
         "valence6": lambda: valence6(beside()),
         "valence": degrees,
+    }
+    return {
+        "min_distance": lambda: np.asarray(nearest().min(axis=1)),
+        "mean_distance": lambda: np.asarray(nearest().mean(axis=1)),
+        **(_order_of_large(points, sides, tell) if plan.n > WHOLE else of_neighbours),
         "psa": lambda: excess_density(points, sides),
         **{name: discrepancy(kind) for name, kind in DISCREPANCIES.items()},
+    }
+
+
+def _order_of_large(
+    points: FloatArray, sides: Sides | None, tell: Progress
+) -> dict[str, Callable[[], FloatArray]]:
+    """Measures of the neighbours in sets that are too large to be triangulated whole, slab by slab."""
+    n, d = points.shape[1:]
+
+    @cache
+    def orders() -> tuple[PlaneOrder, ...]:
+        return tuple(plane_order(one, sides, partial(tell, "neighbours")) for one in points)
+
+    def of_plane(name: str, value: Callable[[PlaneOrder], float]) -> Callable[[], FloatArray]:
+        def values() -> FloatArray:
+            if d != 2:
+                raise RefusalError(f"{name} is defined in the plane; got d={d}")
+            return np.array([value(order) for order in orders()])
+
+        return values
+
+    def degrees() -> FloatArray:
+        if d != 2:
+            raise RefusalError(f"Delaunay neighbours in d={d} are made of at most {WHOLE} points; got n={n}")
+        return summed_shares(orders())
+
+    return {
+        "bond_order": of_plane("bond order", lambda order: order.bond_order),
+        "psi6": of_plane("psi6", lambda order: order.psi6),
+        "valence6": of_plane("the share of degree six", lambda order: order.valence6),
+        "valence": degrees,
     }
 
 

@@ -15,6 +15,7 @@ from gbnbench.opencl import Program, Runtime, devices_present, runtime
 
 SUM_POINTS = 128  # points that a lane sums in registers, at most, before these sums are added up in double
 SUM_BYTES = 4096  # of these in all lanes, so that they stay in the first cache
+ROWS = 1 << 20  # points that are rounded together
 PACKAGE = "gbnbench.analysis"
 PrecisionName = Literal["double", "float"]
 
@@ -102,6 +103,12 @@ class Precision:
             Fractions of a turn in units of 2^-64 or 2^-32; 0 beyond the last point.
         """
         sets, n, d = x.shape
+        if n > ROWS:
+            rows = np.zeros((sets, d, stride), self.turn)
+            for begin in range(0, n, ROWS):  # what rounding takes besides is that of a block
+                some = fixed_point(x[:, begin : begin + ROWS], rows.itemsize * 8)
+                rows[:, :, begin : begin + some.shape[1]] = some.transpose(0, 2, 1)
+            return rows
         if stride == n:
             return np.ascontiguousarray(fixed_point(x, 64 if self.double else 32).transpose(0, 2, 1))
         rows = np.zeros((sets, d, stride), self.turn)

@@ -16,8 +16,7 @@ from gbnbench.core.errors import RefusalError
 from gbnbench.core.sides import Sides, as_sides, shortest_side
 from gbnbench.core.torus import FloatArray, as_realizations
 
-# Frequencies evaluated first, in units of sqrt(n): the statistics of most sets need no more.
-FIRST_RANGE = 8.0
+FIRST_RANGE = 8.0  # sqrt(n) up to which frequencies are evaluated first; most sets need no more
 MOST_POINTS = 200_000  # some minutes on one core, where there is no OpenCL device
 
 
@@ -128,10 +127,8 @@ def excess_density(sets: FloatArray, sides: Sides | None = None) -> FloatArray:
         raise RefusalError(f"PSA's spectral statistics are defined in the plane; got d={d}")
     if n < 2:
         raise RefusalError("PSA's spectral statistics are made of pairs and need n >= 2; got n=1")
-    if n > MOST_POINTS:
-        raise RefusalError(
-            f"PSA's spectral statistics count n^2/10 pairs; n must be at most {MOST_POINTS}, got n={n}"
-        )
+    if (reason := too_many_points(n, d)) is not None:
+        raise RefusalError(reason)
     total = int(100 * math.sqrt(n))
     if (total // 2 + 1) * (0.5 / total) > 0.5 * shortest_side(sides):
         raise RefusalError(
@@ -139,11 +136,27 @@ def excess_density(sets: FloatArray, sides: Sides | None = None) -> FloatArray:
             f"shorter side is {0.5 * shortest_side(sides):.3g} of it, and one side may be about four times "
             "the other at most"
         )
-    width = 0.5 / total
-    bins = total // 2 + 1
+    width, bins = 0.5 / total, total // 2 + 1
     r = np.arange(bins) * width
     g = pair_density(sets, bins, width, sides)
     return np.asarray((2 * math.pi * n * width) * (g - 1) * r)
+
+
+def too_many_points(n: int, d: int) -> str | None:
+    """Say why ``spectral_statistics`` refuses so many points of the plane; None where it does not.
+
+    Parameters
+    ----------
+    n, d : int
+        Points of a set, and dimension.
+
+    Returns
+    -------
+    str or None
+    """
+    if d != 2 or n <= MOST_POINTS:
+        return None
+    return f"PSA's spectral statistics count n^2/10 pairs; n must be at most {MOST_POINTS}, got n={n}"
 
 
 def statistics_of(excess: FloatArray, n: int) -> SpectralStatistics:

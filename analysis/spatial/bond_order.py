@@ -40,12 +40,15 @@ def bond_order(x: ArrayLike | Sequence[Neighbours], sides: ArrayLike | None = No
     being the direction of the edge between consecutive Delaunay neighbours of the point (Heck, Schlömer &
     Deussen 2013, as in PSA).
     """
-    values = []
-    for each in plane_neighbours(x, "bond order", sides):
-        bond = _complex(each.vector)
-        edge = bond[_following(each.indptr)] - bond
-        values.append(np.abs(each.sum_over_points(_sixfold(edge))).sum() / len(bond))
+    values = [bond_sums(each).sum() / len(each.vector) for each in plane_neighbours(x, "bond order", sides)]
     return np.array(values, dtype=np.float64)
+
+
+def bond_sums(each: Neighbours) -> FloatArray:
+    """|sum of exp(6 i theta)| at every point, theta the direction of an edge between its neighbours: (n,)."""
+    bond = _complex(each.vector)
+    edge = bond[_following(each.indptr)] - bond
+    return np.asarray(np.abs(each.sum_over_points(_sixfold(edge))))
 
 
 def psi6(x: ArrayLike | Sequence[Neighbours], sides: ArrayLike | None = None) -> FloatArray:
@@ -74,11 +77,13 @@ def psi6(x: ArrayLike | Sequence[Neighbours], sides: ArrayLike | None = None) ->
     -----
     theta is the direction from the point to its Delaunay neighbour (Halperin & Nelson 1978).
     """
-    values = [
-        np.mean(np.abs(each.sum_over_points(_sixfold(_complex(each.vector)))) / each.degree)
-        for each in plane_neighbours(x, "psi6", sides)
-    ]
+    values = [np.mean(psi_of_points(each)) for each in plane_neighbours(x, "psi6", sides)]
     return np.array(values, dtype=np.float64)
+
+
+def psi_of_points(each: Neighbours) -> FloatArray:
+    """|mean of exp(6 i theta)| at every point, theta the direction of a neighbour: (n,)."""
+    return np.asarray(np.abs(each.sum_over_points(_sixfold(_complex(each.vector)))) / each.degree)
 
 
 def _complex(vector: FloatArray) -> NDArray[np.complex128]:

@@ -166,17 +166,8 @@ def measure_discrepancies(
     unknown = [kind for kind in kinds if kind not in KERNELS]
     if unknown:
         raise InputError(f"discrepancies are {', '.join(KERNELS)}; got {unknown[0]!r}")
-    if d == 2 and n > MOST_PLANE_POINTS:
-        raise RefusalError(
-            f"a discrepancy in the plane needs n of at most {MOST_PLANE_POINTS}; got n={n}: "
-            f"some {n * 1e-5:.0f} seconds of one core and {n / 4e6:.0f} GB"
-        )
-    if d > 2 and n * n * d > MOST_TERMS:
-        raise RefusalError(
-            f"a discrepancy sums over n^2 d terms; in d={d} n must be at most "
-            f"{math.isqrt(MOST_TERMS // d)}, got n={n}: "
-            f"some {n * n * d * SECONDS_PER_TERM:.0f} seconds of one core"
-        )
+    if (reason := too_many_terms(n, d)) is not None:
+        raise RefusalError(reason)
     method = "line" if d == 1 else "plane" if d == 2 and n >= PLANE_FROM else "pairs"
     each = [_of_set(points, kinds, method) for points in sets]
     results = {}
@@ -184,6 +175,33 @@ def measure_discrepancies(
         value, error, reasons = zip(*(found[kind] for found in each), strict=True)
         results[kind] = DiscrepancyResult(kind, METHODS[method], np.array(value), np.array(error), reasons)
     return results
+
+
+def too_many_terms(n: int, d: int) -> str | None:
+    """Say why ``measure_discrepancies`` refuses sets of this size, and what they would take.
+
+    Parameters
+    ----------
+    n, d : int
+        Points of a set, and dimension.
+
+    Returns
+    -------
+    str or None
+        None where it does not.
+    """
+    if d == 2 and n > MOST_PLANE_POINTS:
+        return (
+            f"a discrepancy in the plane needs n of at most {MOST_PLANE_POINTS}; got n={n}: "
+            f"some {n * 1e-5:.0f} seconds of one core and {n / 4e6:.0f} GB"
+        )
+    if d > 2 and n * n * d > MOST_TERMS:
+        return (
+            f"a discrepancy sums over n^2 d terms; in d={d} n must be at most "
+            f"{math.isqrt(MOST_TERMS // d)}, got n={n}: "
+            f"some {n * n * d * SECONDS_PER_TERM:.0f} seconds of one core"
+        )
+    return None
 
 
 def _of_set(points: FloatArray, kinds: Sequence[Discrepancy], method: str) -> dict[Discrepancy, _Found]:

@@ -16,6 +16,7 @@ from gbnbench.analysis.spatial.pair_counts_device import (
     device_counts,
     row_windows,
 )
+from gbnbench.analysis.spatial.slabs import Progress
 from gbnbench.core.errors import InputError
 from gbnbench.core.sides import Sides
 from gbnbench.core.torus import FloatArray
@@ -25,7 +26,13 @@ BLOCK = 1 << 16
 DEVICE_FROM = 256  # points from which a launch is worth its time
 
 
-def pair_counts(x: FloatArray, bins: int, width: float, sides: Sides | None = None) -> NDArray[np.int64]:
+def pair_counts(
+    x: FloatArray,
+    bins: int,
+    width: float,
+    sides: Sides | None = None,
+    progress: Progress | None = None,
+) -> NDArray[np.int64]:
     """Unordered pairs of one set by toroidal distance.
 
     Parameters
@@ -39,6 +46,8 @@ def pair_counts(x: FloatArray, bins: int, width: float, sides: Sides | None = No
         Width of a bin, > 0; bins * width is half the shortest side at most.
     sides : tuple of d floats, optional
         Sides of volume 1, as ``as_sides`` returns them; a cube if not given.
+    progress : callable, optional
+        Called with the share done now and then, of large sets.
 
     Returns
     -------
@@ -53,7 +62,8 @@ def pair_counts(x: FloatArray, bins: int, width: float, sides: Sides | None = No
     Notes
     -----
     Points are cut in strips and sorted along another axis, so that only pairs within a window are examined,
-    by the OpenCL device where there is one. Memory does not grow with their number.
+    by the OpenCL device where there is one. Memory does not grow with their number, and on the device hardly
+    with that of the points, whose windows are found a million at a time.
     """
     reach = bins * width
     box = (1.0,) * x.shape[1] if sides is None else sides
@@ -68,7 +78,14 @@ def pair_counts(x: FloatArray, bins: int, width: float, sides: Sides | None = No
     windows = row_windows(x, reach, box) if device else None
     if device is None or windows is None:
         return _numpy_counts(x, bins, reach, per_length, box)
-    return device_counts(device, windows, bins, per_length, box)
+    counts, done = np.zeros(bins, np.int64), 0
+    for some in windows:
+        if len(some.rows):
+            counts += device_counts(device, some, bins, per_length, box)
+        done += len(some.rows)
+        if progress is not None:
+            progress(done / len(x))
+    return counts
 
 
 def _numpy_counts(

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gbnbench.analysis.spatial.pair_counts import pair_counts
-from gbnbench.core.errors import RefusalError
+from gbnbench.analysis.spatial.slabs import Progress
+from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.sides import Sides, as_sides, shortest_side
 from gbnbench.core.torus import FloatArray, as_realizations, densest_spacing
 
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 RANGE = 8.0  # densest spacings
 MOST_DIMENSIONS = 8  # beyond, half a side is less than the densest spacing of thousands of points
 BINS_PER_POINT = 0.125
+MOST_BINS = 10_000_000
 
 
 @dataclass(frozen=True)
@@ -47,7 +49,14 @@ class RadialDistribution:
         return pd.DataFrame({"r": self.r, "g": self.g})
 
 
-def rdf(x: ArrayLike, sides: ArrayLike | None = None) -> RadialDistribution:
+def rdf(
+    x: ArrayLike,
+    sides: ArrayLike | None = None,
+    *,
+    reach: float = RANGE,
+    bins: int | None = None,
+    progress: Progress | None = None,
+) -> RadialDistribution:
     """Radial distribution function of each set and their mean.
 
     Parameters
@@ -56,17 +65,22 @@ def rdf(x: ArrayLike, sides: ArrayLike | None = None) -> RadialDistribution:
         Points on the unit torus, d <= 8.
     sides : (d,) array_like, optional
         Lengths of the torus's sides, whose ratios count; a cube if not given.
+    reach : float
+        Longest distance, in densest spacings; no pair beyond it is looked at.
+    bins : int, optional
+        Bins of equal width up to there; by default PSA's, int(0.125 n) over 8 densest spacings.
+    progress : callable, optional
+        Called with the share done now and then, of large sets.
 
     Returns
     -------
     RadialDistribution
-        int(0.125 n) bins over 0..8 densest spacings, without those that end beyond half the shortest side,
-        whose shells do not fit the torus.
+        Without the bins that end beyond half the shortest side, whose shells do not fit the torus.
 
     Raises
     ------
     InputError
-        If sides are not d lengths.
+        If sides are not d lengths, or reach or bins is not positive.
     RefusalError
         If d > 8, where half a side holds not even a spacing, or n is too small for one bin.
 
@@ -81,19 +95,35 @@ def rdf(x: ArrayLike, sides: ArrayLike | None = None) -> RadialDistribution:
     if d > MOST_DIMENSIONS:
         raise RefusalError(f"rdf is of d <= {MOST_DIMENSIONS}, where half a side holds a spacing; got d={d}")
     unit = densest_spacing(n, d)
-    planned = int(BINS_PER_POINT * n)
-    width = RANGE * unit / max(planned, 1)
-    bins = min(planned, math.floor(0.5 * shortest_side(lengths) / width))
-    if bins < 1:
-        raise RefusalError(
-            f"rdf has int({BINS_PER_POINT} n) bins, none of which fits the torus at n={n}, d={d}"
-        )
-    g = pair_density(sets, bins, width, lengths)
+    if not 0 < reach < math.inf:
+        raise InputError(f"reach must be a positive number of densest spacings; got {reach!r}")
+    if bins is None:
+        planned = int(BINS_PER_POINT * n * (reach / RANGE))
+    elif isinstance(bins, bool) or not isinstance(bins, (int, np.integer)) or not 1 <= bins <= MOST_BINS:
+        raise InputError(f"bins must be a whole number from 1 to {MOST_BINS:,}; got {bins!r}")
+    else:
+        planned = int(bins)
+    width = reach * unit / max(planned, 1)
+    count = min(planned, math.floor(0.5 * shortest_side(lengths) / width))
+    if count < 1:
+        raise RefusalError(_no_bin(n, d, bins))
+    g = pair_density(sets, count, width, lengths, progress)
     mean: FloatArray = g.mean(axis=0)
-    return RadialDistribution(np.arange(bins, dtype=np.float64) * (width / unit), mean, g)
+    return RadialDistribution(np.arange(count, dtype=np.float64) * (width / unit), mean, g)
 
 
-def pair_density(sets: FloatArray, bins: int, width: float, sides: Sides | None = None) -> FloatArray:
+def _no_bin(n: int, d: int, bins: int | None) -> str:
+    what = f"int({BINS_PER_POINT} n) bins" if bins is None else f"bins={bins}"
+    return f"rdf has {what}, none of which fits the torus at n={n}, d={d}"
+
+
+def pair_density(
+    sets: FloatArray,
+    bins: int,
+    width: float,
+    sides: Sides | None = None,
+    progress: Progress | None = None,
+) -> FloatArray:
     """Radial distribution function in bins of equal width from 0 on.
 
     Parameters
@@ -106,6 +136,8 @@ def pair_density(sets: FloatArray, bins: int, width: float, sides: Sides | None 
         Width of a bin; the box has volume 1.
     sides : tuple of d floats, optional
         Sides of volume 1, as ``as_sides`` returns them; a cube if not given.
+    progress : callable, optional
+        As in ``rdf``.
 
     Returns
     -------
@@ -124,4 +156,5 @@ def pair_density(sets: FloatArray, bins: int, width: float, sides: Sides | None 
     ball = math.pi ** (d / 2) / math.gamma(d / 2 + 1) * width**d
     shells = sum(math.comb(d, k) * index**k for k in range(d))  # (index + 1)^d - index^d
     expected = n * (n - 1) / 2 * ball * shells
-    return np.asarray(np.array([pair_counts(points, bins, width, sides) for points in sets]) / expected)
+    counts = np.array([pair_counts(points, bins, width, sides, progress) for points in sets])
+    return np.asarray(counts / expected)

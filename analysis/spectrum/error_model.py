@@ -20,6 +20,7 @@ COSINE = 5.0
 COMPLEX = math.sqrt(5.0)
 LEAST_SHARE = 0.01  # part of the squared typical error that does not average out over sets
 SETS_ROUNDING = 0.12  # typical rounding of a sum over sets, in units times the root of their number
+ROWS = 1 << 20  # points whose rounding is looked at together
 UNRELATED = math.sqrt(2 - math.pi / 2)  # rms difference of the roots of two independent exponential powers
 
 
@@ -107,6 +108,8 @@ def coordinates(x: FloatArray, precision: str, weights: FloatArray | None = None
     Coordinates
     """
     n = x.shape[1]
+    if n > ROWS:
+        return _of_blocks(x, precision, weights)
     if weights is None:
         share = math.sqrt(n)
     else:
@@ -131,6 +134,24 @@ def coordinates(x: FloatArray, precision: str, weights: FloatArray | None = None
     coherent = np.bincount(of_set, away, len(x)) / np.sqrt(norm)
     scattered = np.sqrt(np.bincount(of_set, away**2, len(x)) / norm)
     return Coordinates(float(coherent.max()), float(scattered.max()), share)
+
+
+def _of_blocks(x: FloatArray, precision: str, weights: FloatArray | None) -> Coordinates:
+    """Put together what blocks of points have, so that a large set is never held twice."""
+    worst = np.zeros(3)
+    for k, points in enumerate(x):
+        given = None if weights is None else weights[k if len(weights) > 1 else 0]
+        coherent = square = norm = size = 0.0
+        for begin in range(0, len(points), ROWS):
+            some = slice(begin, begin + ROWS)
+            own = np.ones(len(points[some])) if given is None else given[some]
+            if (mass := float((own**2).sum())) > 0:
+                part = coordinates(points[None, some], precision, None if given is None else own[None])
+                coherent += part.coherent * math.sqrt(mass)
+                square += part.scattered**2 * mass
+                norm, size = norm + mass, size + float(np.abs(own).sum())
+        worst = np.maximum(worst, np.array([coherent, math.sqrt(square), size]) / math.sqrt(norm))
+    return Coordinates(*worst.tolist())
 
 
 def _all_rounded(x: FloatArray, weights: FloatArray | None, share: float) -> Coordinates:

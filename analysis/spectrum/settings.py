@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.analysis.precision import PrecisionName
+from gbnbench.analysis.spectrum.bands import Band, separate_bands
 from gbnbench.analysis.spectrum.limits import cube_fits, default_fmax, default_radius
 from gbnbench.analysis.spectrum.listed_shells import default_shells
 from gbnbench.analysis.spectrum.periodogram import periodogram
@@ -33,8 +34,8 @@ class SpectrumSettings:
         cubes.
     half, shells, corners : bool
         Evaluate half a cube; shells in place of a cube; shells with the corners of the cube.
-    band : (float, float) or None
-        Smallest and largest |f|, for shells.
+    band : (float, float), tuple of such pairs, or None
+        Smallest and largest |f|, for shells; of several bands, the shells of each.
     frequencies : (m, d) int64 or None
         Frequencies in place of a cube.
     precision : {"double", "float"}
@@ -48,7 +49,7 @@ class SpectrumSettings:
     fmax: int | None = None
     half: bool = False
     shells: bool = False
-    band: tuple[float, float] | None = None
+    band: Band | tuple[Band, ...] | None = None
     corners: bool = False
     frequencies: NDArray[np.int64] | None = None
     precision: PrecisionName = "double"
@@ -92,13 +93,13 @@ class SpectrumSettings:
         if self.fmax is not None:
             return self.fmax
         if self.band is not None:
-            return max(1, math.ceil(self.band[1]))
+            return max(1, math.ceil(max(one[1] for one in separate_bands(self.band) if one is not None)))
         if sides is not None:
             return default_radius(n, d, 1, sides)
         return default_shells(n, d)[0] if self.shells else default_fmax(n, d)
 
-    def shell_band(self, n: int, d: int, sides: Sides | None = None) -> tuple[float, float] | None:
-        """Return the band of the shells, which is the default one where no end was given.
+    def shell_band(self, n: int, d: int, sides: Sides | None = None) -> Band | tuple[Band, ...] | None:
+        """Return the band or bands of the shells, which is the default one where no end was given.
 
         Parameters
         ----------
@@ -109,13 +110,13 @@ class SpectrumSettings:
 
         Returns
         -------
-        (float, float) or None
+        (float, float), tuple of such pairs, or None
         """
         by_default = self.shells and self.band is None and self.fmax is None and not self.corners
         return default_shells(n, d)[1] if by_default and sides is None else self.band
 
-    def plan(self, n: int, d: int, realizations: int, sides: Sides | None = None) -> SpectrumPlan:
-        """Choose the evaluator, before there are any points.
+    def plans(self, n: int, d: int, realizations: int, sides: Sides | None = None) -> list[SpectrumPlan]:
+        """Choose the evaluators, before there are any points.
 
         Parameters
         ----------
@@ -126,27 +127,38 @@ class SpectrumSettings:
 
         Returns
         -------
-        SpectrumPlan
+        list of SpectrumPlan
+            One, or one for each band.
 
         Raises
         ------
         InputError
             As ``gbnbench.plan`` does.
         """
-        return plan(
-            n,
-            d,
-            self.largest_harmonic(n, d, sides),
-            self.precision,
-            realizations=realizations,
-            frequencies=None if self.frequencies is None else len(self.frequencies),
-            half=self.half,
-            shells=self.shells,
-            band=self.shell_band(n, d, sides),
-            corners=self.corners,
-            floor=self.floor,
-            sides=sides,
-        )
+        found = []
+        for band in separate_bands(self.shell_band(n, d, sides)):
+            one = (
+                self
+                if self.band is None
+                else replace(self, band=None if band is None else (band[0], band[1]))
+            )
+            found.append(
+                plan(
+                    n,
+                    d,
+                    one.largest_harmonic(n, d, sides),
+                    self.precision,
+                    realizations=realizations,
+                    frequencies=None if self.frequencies is None else len(self.frequencies),
+                    half=self.half,
+                    shells=self.shells,
+                    band=band,
+                    corners=self.corners,
+                    floor=self.floor,
+                    sides=sides,
+                )
+            )
+        return found
 
     def evaluate(
         self,
@@ -195,9 +207,10 @@ class SpectrumSettings:
         _, n, d = x.shape
         fmax = self.largest_harmonic(n, d, sides)
         if self.shells:
+            several = len(separate_bands(self.band)) > 1
             return shells(
                 x,
-                fmax,
+                self.fmax if several else fmax,
                 self.precision,
                 band=self.shell_band(n, d, sides),
                 corners=self.corners,

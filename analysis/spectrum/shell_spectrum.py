@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from gbnbench.analysis.precision import PrecisionName
 from gbnbench.analysis.spectrum.ball_power import ball_power
+from gbnbench.analysis.spectrum.bands import joined_shells, separate_bands
 from gbnbench.analysis.spectrum.box_shells import equal_lengths
 from gbnbench.analysis.spectrum.choice import choose
 from gbnbench.analysis.spectrum.input_checks import check_weights
@@ -29,7 +30,7 @@ def shells(
     fmax: int | None = None,
     precision: PrecisionName = "double",
     *,
-    band: Sequence[float] | None = None,
+    band: Sequence[float] | Sequence[Sequence[float]] | None = None,
     corners: bool = False,
     weights: ArrayLike | None = None,
     floor: float | None = None,
@@ -48,8 +49,8 @@ def shells(
         or as affordable (``default_shells``).
     precision : {"double", "float"}
         As in ``periodogram``.
-    band : (low, high), optional
-        Only shells with low <= |f| <= high, cycles per unit length.
+    band : (low, high) or sequence of them, optional
+        Only shells with low <= |f| <= high, cycles per unit length; of several bands, those of each.
     corners : bool
         Every frequency of the cube, up to |f| = sqrt(d) fmax, where shells are cut by its faces.
     weights : (n,) or (realizations, n) array_like, optional
@@ -83,7 +84,8 @@ def shells(
     |f| <= 3, out of 2.8e8 in the cube. Memory does not grow with their number. Where the cube cannot even be
     counted, (2*fmax+1)**d > 2^63, the frequencies of the shells are listed and evaluated one by one. For
     unequal sides they are listed or evaluated as the box that holds them, whichever is cheaper, and kept in
-    memory.
+    memory. Points are taken a million at a time, so that those of a large file may stay there:
+    ``shells(numpy.load(FILE, mmap_mode="r"), band=[(1, 64), (3000, 3010)])``.
 
     Examples
     --------
@@ -96,23 +98,48 @@ def shells(
     sets, n, d = points.shape
     w = check_weights(weights, sets, n)
     lengths = as_sides(sides, d)
-    if lengths is not None:
-        if corners:
-            raise InputError("corners are those of a cube; leave them out for a torus with unequal sides")
-        with use_device(device):
-            return _of_box(points, fmax, band, lengths, w, precision, floor, progress)
+    if lengths is not None and corners:
+        raise InputError("corners are those of a cube; leave them out for a torus with unequal sides")
+    bands = separate_bands(band)
+    parts = []
+    with use_device(device):
+        for k, one in enumerate(bands):
+            tell = None if progress is None else _part_of(progress, k, len(bands))
+            if lengths is not None:
+                parts.append(_of_box(points, fmax, one, lengths, w, precision, floor, tell))
+            else:
+                parts.append(_of_cube(points, fmax, one, corners, w, precision, floor, tell))
+    return joined_shells(parts)
+
+
+def _part_of(progress: Callable[[float], None], k: int, count: int) -> Callable[[float], None]:
+    """Tell the share done of one of several bands as that of all."""
+    return lambda share: progress((k + share) / count)
+
+
+def _of_cube(
+    points: FloatArray,
+    fmax: int | None,
+    band: Sequence[float] | None,
+    corners: bool,
+    w: FloatArray | None,
+    precision: PrecisionName,
+    floor: float | None,
+    progress: Callable[[float], None] | None,
+) -> ShellSpectrum:
+    """Evaluate the exact shells of |f| of a torus with equal sides."""
+    sets, n, d = points.shape
     if fmax is None:
         fmax, band = default_shells(n, d) if band is None else (max(1, math.ceil(band[1])), band)
     request = shell_request(n, d, fmax, sets, band, corners)
-    with use_device(device):
-        evaluator = choose(request, precision, floor)
-        if request.what == "listed":
-            square, frequencies = half_ball(d, request.high, request.low)
-            power, errors = evaluator.listed(points, frequencies, w)
-            moments = moments_of_list(power, square)
-        else:
-            moments, errors = evaluator.shells(points, request, w, progress)
-        ran_on = evaluator.device
+    evaluator = choose(request, precision, floor)
+    if request.what == "listed":
+        square, frequencies = half_ball(d, request.high, request.low)
+        power, errors = evaluator.listed(points, frequencies, w)
+        moments = moments_of_list(power, square)
+    else:
+        moments, errors = evaluator.shells(points, request, w, progress)
+    ran_on = evaluator.device
     errors = errors.averaged(sets, n)
     return ShellSpectrum(
         frequency=np.sqrt(moments.square.astype(np.float64)),

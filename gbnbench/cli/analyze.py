@@ -40,17 +40,36 @@ LOW, BAND = 0.5, 0.05  # nu to which a box's own spectrum is shown, and of each 
     help="The points are what a window shows that is no torus: estimates that hold there. Ends of each axis, "
     "such as 0,512,0,256; 'file' takes the box that the file tells.",
 )  # fmt: skip
+@click.option(
+    "--rdf", "rdf_file", metavar="FILE.csv", type=click.Path(path_type=Path, dir_okay=False),
+    help="Write the radial distribution function g(r) there, in place of the measures.",
+)  # fmt: skip
+@click.option(
+    "--range", "reach", type=click.FloatRange(0, min_open=True), metavar="SPACINGS",
+    help="With --rdf: the longest distance, in densest spacings.  [default: 8]",
+)  # fmt: skip
+@click.option("--bins", type=click.IntRange(1), help="With --rdf: bins up to there.  [default: n/8 to 8]")
+@click.option(
+    "--fmax", type=click.IntRange(1),
+    help="Largest harmonic on each axis of the spectrum.  [default: just beyond nu = 2, or as affordable]",
+)  # fmt: skip
 @options.out_file("With --window: draw the estimates, as .png, .pdf or .svg.")
 @options.reading
 @options.json
+@options.quiet
 @options.device
 def analyze(
     files: tuple[Path, ...],
     as_json: bool,
+    quiet: bool,
     explain: bool,
     projections: str | None,
     box: bool,
     window: str | None,
+    rdf_file: Path | None,
+    reach: float | None,
+    bins: int | None,
+    fmax: int | None,
     out: Path | None,
     reading: ReadingOptions,
 ) -> None:
@@ -60,9 +79,18 @@ def analyze(
     --window the points need no torus: structure factor, pair correlation, hyperuniformity and distances, each
     with its standard error.
     """
+    if rdf_file is None and (reach is not None or bins is not None):
+        raise click.UsageError("--range and --bins are of g(r): give --rdf FILE.csv too")
+    if rdf_file is not None:
+        if explain or projections is not None or box or window is not None or as_json or fmax is not None:
+            raise click.UsageError("--rdf goes with --range and --bins alone: leave the others out")
+        from gbnbench.cli.analyze_rdf import write_rdf
+
+        write_rdf(files, rdf_file, reading, reach, bins, quiet=quiet)
+        return
     if window is not None:
-        if explain or projections is not None or box:
-            raise click.UsageError("--window goes with none of --explain, --projections and --box")
+        if explain or projections is not None or box or fmax is not None:
+            raise click.UsageError("--window goes with none of --explain, --projections, --box and --fmax")
         from gbnbench.cli.analyze_window import analyze_window
 
         analyze_window(files, window, reading, out, as_json=as_json)
@@ -72,25 +100,33 @@ def analyze(
     if explain and as_json:
         raise click.UsageError("--explain and --json do not go together: leave one out")
     if explain:
-        _explain(files, reading)
+        _explain(files, reading, fmax)
         return
     from gbnbench.analysis.measures import measures
+    from gbnbench.cli.large_sets import Stopped, cost_of_large, stages
     from gbnbench.core.sides import as_sides
 
     rows: list[tuple[Path, int, int, int, Measures]] = []
     more: list[dict[str, pd.DataFrame]] = []
     boxes: list[Sides | None] = []
-    failed = False
+    failed, stopped = False, Stopped()
     for path in files:
+        if stopped.asked:
+            break
         try:
             read = read_torus(path, reading)
             for index, x in enumerate(read.sets):
                 with naming(path, index):
                     sides = as_sides(read.sides, x.shape[1])
+                    cost = cost_of_large(x.shape[0], x.shape[1], fmax, sides)
                     tables = _tables(x, projections, box, sides)
-                    rows.append((path, index, x.shape[0], x.shape[1], measures(x, sides=sides)))
+                    with stages(cost, str(path), stopped, quiet) as tell:
+                        found = measures(x, fmax, sides=sides, progress=tell)
+                    rows.append((path, index, x.shape[0], x.shape[1], found))
                     more.append(tables)
                     boxes.append(sides)
+                if stopped.asked:
+                    break
         except GbnbenchError as error:
             failed = True
             click.echo(f"gbnbench: error: {error}", err=True)
@@ -115,6 +151,8 @@ def analyze(
             for name, table in tables.items():
                 click.echo(f"\n{path}, set {index}, {name}:")
                 click.echo(table.to_string(index=False, float_format=lambda v: f"{v:.4g}"))
+    if stopped.asked:
+        raise KeyboardInterrupt("what was measured before is printed")
     if failed:
         click.get_current_context().exit(2)
 
@@ -149,9 +187,10 @@ def _tables(
     return tables
 
 
-def _explain(files: tuple[Path, ...], reading: ReadingOptions) -> None:
+def _explain(files: tuple[Path, ...], reading: ReadingOptions, fmax: int | None) -> None:
     """Print, for each file, the plan of its sets' spectra."""
     from gbnbench.analysis.spectrum.settings import SpectrumSettings
+    from gbnbench.cli.large_sets import cost_of_large
     from gbnbench.core.sides import as_sides
 
     failed = False
@@ -163,8 +202,11 @@ def _explain(files: tuple[Path, ...], reading: ReadingOptions) -> None:
                 times = shapes.count((n, d))
                 with naming(path, shapes.index((n, d))):
                     box = as_sides(read.sides, d)
-                    plan = SpectrumSettings().affordable(n, d, box).plan(n, d, 1, box)
+                    plan = SpectrumSettings(fmax).affordable(n, d, box).plans(n, d, 1, box)[0]
+                    cost = cost_of_large(n, d, fmax, box)
                 click.echo(f"{path}{f', {times} sets, each' * (times > 1)}:\n{plan}")
+                if cost is not None:
+                    click.echo(cost.explain())
         except GbnbenchError as error:
             failed = True
             click.echo(f"gbnbench: error: {error}", err=True)

@@ -20,6 +20,7 @@ Examples:
   gbnbench spectrum mine.txt -o mine.png            its picture; .csv .npz .npy hold the numbers
   gbnbench spectrum sets/*.txt --shells -o radial.csv
   gbnbench spectrum mine.txt --band 0,8 --floor 1e-6
+  gbnbench spectrum large.npy --band 1,64 --band 3000,3010 -o shells.csv
   gbnbench spectrum mine.txt --at frequencies.txt --weights weights.txt
   gbnbench spectrum --explain --shells -n 4096 -d 10 --fmax 3
 """
@@ -73,8 +74,8 @@ class Band(click.ParamType):  # type: ignore[type-arg]  # takes no argument befo
 )  # fmt: skip
 @click.option("--half", is_flag=True, help="Half the cube, f0 >= 0: the rest mirrors it.")
 @click.option("--shells", is_flag=True, help="Radial power and anisotropy, without the cube.")
-@click.option("--band", type=Band(), metavar="LOW,HIGH", help="Only shells of these |f|; a ring "
-              "at an end holds only those inside.")  # fmt: skip
+@click.option("--band", "bands", type=Band(), metavar="LOW,HIGH", multiple=True, help="Only shells of these "
+              "|f|; a ring at an end holds only those inside. May come again.")  # fmt: skip
 @click.option("--corners", is_flag=True, help="Shells beyond fmax too, as far as the cube holds them.")
 @click.option("--at", type=click.Path(path_type=Path), metavar="LIST", help="Only the frequencies in this "
               "file, a row each.")  # fmt: skip
@@ -102,7 +103,7 @@ def spectrum(
     fmax: int | None,
     half: bool,
     shells: bool,
-    band: tuple[float, float] | None,
+    bands: tuple[tuple[float, float], ...],
     corners: bool,
     at: Path | None,
     weights: Path | None,
@@ -125,6 +126,7 @@ def spectrum(
     frequencies, less with --half, --shells (or --band, --corners) and --at. --json prints what a file would
     hold, shells where it would be a cube.
     """
+    band = bands[0] if len(bands) == 1 else bands or None
     asked_for = {"--fmax": fmax, "--half": half, "--shells": shells, "--band": band, "--corners": corners}
     _refuse_both("--at", at, **asked_for)
     _refuse_both("--half", half, **{"--shells": shells, "--band": band, "--corners": corners})
@@ -168,7 +170,8 @@ def spectrum(
         d = (d or 2) if listed is None else listed.shape[1]
         if weights is not None:
             read_weights(weights, n or 1024, realizations or 1)
-        click.echo(settings.plan(n or 1024, d or 2, realizations or 1))
+        for plan in settings.plans(n or 1024, d or 2, realizations or 1):
+            click.echo(plan)
 
 
 def _refuse_both(name: str, given: object, **others: object) -> None:

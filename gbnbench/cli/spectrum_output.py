@@ -99,7 +99,8 @@ def check_format(out: Path, plan: SpectrumPlan, *, shells: bool) -> None:
     what = "shells" if shells else request.what
     if suffix in PICTURES and what == "listed":
         raise InputError(f"{out}: listed frequencies make no picture; write .csv, .npz or .npy")
-    rows = request.high if request.what == "shells" else request.frequencies
+    within = request.high - max(request.low, 1) + 1  # of |f|^2, which are the most shells that there can be
+    rows = min(within, request.frequencies) if request.what == "shells" else request.frequencies
     if suffix in DATA:
         check_writable(suffix, what, rows)
 

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -12,20 +10,22 @@ import click
 import numpy as np
 
 from gbnbench.analysis.spectrum.settings import SpectrumSettings
+from gbnbench.analysis.spectrum.spectrum_plan import SpectrumPlan
 from gbnbench.cli.json_text import json_text
 from gbnbench.cli.point_files import naming, read_torus
+from gbnbench.cli.share_progress import share_bar
 from gbnbench.cli.spectrum_output import check_format, places, write
 from gbnbench.cli.spectrum_text import as_record, as_text
 from gbnbench.core.errors import InputError
+from gbnbench.core.memory import PROCESS_BYTES
 from gbnbench.core.number_text import duration
 from gbnbench.core.sides import Sides, as_sides
 from gbnbench.core.torus import FloatArray
-from gbnbench.execution import progress
 from gbnbench.io.lists import read_weights
 from gbnbench.io.points import ReadingOptions
 
 SLOW = 3.0  # expected seconds that are said beforehand
-PATIENCE = 1.0  # seconds before progress is shown
+LARGE = 1 << 20  # points of a set whose memory is said beforehand
 
 
 @dataclass(frozen=True)
@@ -98,7 +98,8 @@ def read_sets(files: Sequence[Path], reading: ReadingOptions, *, each: bool) -> 
                 f"{name} has n={len(x)}, d={x.shape[1]}; --each gives a spectrum of each"
             )
     more = f" and {len(files) - 1} more" if len(files) > 1 else ""
-    return [LabelledSets(f"{files[0]}{more}", tuple(names), np.stack(sets), boxes[0])]
+    stacked = np.stack(sets) if len(sets) > 1 else sets[0][None]  # a single set may be mapped from its file
+    return [LabelledSets(f"{files[0]}{more}", tuple(names), stacked, boxes[0])]
 
 
 def explain(settings: SpectrumSettings, sets: Sequence[LabelledSets], weights: Path | None) -> None:
@@ -124,7 +125,12 @@ def explain(settings: SpectrumSettings, sets: Sequence[LabelledSets], weights: P
         alike.setdefault((one.x.shape, one.sides), []).append(one)
     for ((realizations, n, d), sides), same in alike.items():
         more = f" and {len(same) - 1} more, each" if len(same) > 1 else ""
-        click.echo(f"{same[0].label}{more}:\n{settings.plan(n, d, realizations, sides)}")
+        click.echo(f"{same[0].label}{more}:")
+        plans = settings.plans(n, d, realizations, sides)
+        for plan in plans:
+            click.echo(plan)
+        if n > LARGE:
+            click.echo(f"  the process takes {_peak(same[:1], plans)}")
 
 
 def compute(
@@ -161,23 +167,28 @@ def compute(
     GbnbenchError
         If something is wrong with any of it, before the first is found where that can be told.
     """
-    plans = [settings.plan(one.x.shape[1], one.x.shape[2], len(one.x), one.sides) for one in sets]
+    plans = [settings.plans(one.x.shape[1], one.x.shape[2], len(one.x), one.sides) for one in sets]
+    every = [plan for of_set in plans for plan in of_set]
     if out is not None:
-        for plan in plans:
+        for plan in every:
             check_format(out, plan, shells=settings.shells)
     weighing = _weights(weights, sets)
-    seconds = sum(plan.seconds for plan in plans)
-    if seconds > SLOW and not quiet:
-        click.echo(f"gbnbench: about {duration(seconds)}: {plans[0].chosen.evaluator.label}", err=True)
+    seconds = sum(plan.seconds for plan in every)
+    if (seconds > SLOW or any(one.x.shape[1] > LARGE for one in sets)) and not quiet:
+        label = every[0].chosen.evaluator.label
+        click.echo(f"gbnbench: about {duration(seconds)}, {_peak(sets, every)}: {label}", err=True)
     paths = [] if out is None else places(out, len(sets), each=each)
     written, printed = 0, []
     try:
-        for k, (one, plan, w) in enumerate(zip(sets, plans, weighing, strict=True)):
+        for k, (one, of_set, w) in enumerate(zip(sets, plans, weighing, strict=True)):
             if weights is not None:
                 one = replace(one, label=f"{one.label} weighted by {weights}")
             if settings.sigma is not None:
                 one = replace(one, label=f"{one.label} filtered by a Gaussian of {settings.sigma:g} spacings")
-            with naming(Path(one.label)), _bar(plan.request.frequencies, quiet) as tell:
+            with (
+                naming(Path(one.label)),
+                share_bar(sum(plan.request.frequencies for plan in of_set), "frequencies", quiet) as tell,
+            ):
                 result = settings.evaluate(one.x, w, tell, one.sides)
             if paths:
                 try:
@@ -201,6 +212,12 @@ def compute(
         ) from None
 
 
+def _peak(sets: Sequence[LabelledSets], plans: Sequence[SpectrumPlan]) -> str:
+    """Say how much memory the process takes at most: all points, and what the largest plan needs."""
+    points = sum(one.x.nbytes for one in sets)
+    return f"{(PROCESS_BYTES + points + max(plan.bytes for plan in plans)) / 1e9:.2g} GB of memory at most"
+
+
 def _weights(path: Path | None, sets: Sequence[LabelledSets]) -> list[FloatArray | None]:
     """Weights of each entry, read once; several entries of one n may have weights of their own."""
     if path is None:
@@ -213,28 +230,3 @@ def _weights(path: Path | None, sets: Sequence[LabelledSets]) -> list[FloatArray
         raise InputError(f"weights are for sets of one size; these have n = {sorted(sizes)}")
     found = read_weights(path, sizes.pop(), len(sets))
     return list(found) if found.ndim == 2 else [found] * len(sets)
-
-
-def _worth_showing(elapsed: float, share: float) -> bool:
-    """Whether work has lasted a while and will last as long again, so that a bar does not just flash."""
-    return elapsed > PATIENCE and elapsed * (1 - share) >= PATIENCE * share
-
-
-@contextmanager
-def _bar(frequencies: int, quiet: bool) -> Iterator[Callable[[float], None]]:
-    """Yield what takes the share done and shows it, once the work has lasted a while."""
-    began, shown = time.monotonic(), 0
-    with ExitStack() as stack:
-        bar: progress.Progress | None = None
-
-        def tell(share: float) -> None:
-            nonlocal bar, shown
-            done = int(share * frequencies)
-            if bar is not None:
-                bar.advance("frequencies", done - shown)
-            elif _worth_showing(time.monotonic() - began, share):
-                bar = stack.enter_context(progress.choose(quiet))
-                bar.start(frequencies, done, "frequencies")
-            shown = done
-
-        yield tell

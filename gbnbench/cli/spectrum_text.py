@@ -108,7 +108,7 @@ def _measures(shells: ShellSpectrum) -> tuple[dict[str, float], dict[str, str]]:
     names: tuple[str, ...] = ("noise_floor", "power_at_1", "peak", "peak_nu")
     found: dict[str, float] = dict.fromkeys(names, math.nan)
     reasons: dict[str, str] = {}
-    if shells.frequency[0] > 1 or shells.frequency[-1] > shells.fmax:
+    if shells.gaps or shells.frequency[0] > 1 or shells.frequency[-1] > shells.fmax:
         return found, dict.fromkeys(names, "measured of whole shells from the lowest on, which these are not")
     profile = shells.radial()
     found["power_at_1"] = power_at_1(profile)

@@ -7,6 +7,7 @@ from functools import cache
 from pathlib import Path
 
 LEAST = 850_000_000  # bytes of address space in which Python, numpy, scipy and an OpenCL device still start
+PROCESS_BYTES = 270_000_000  # of Python, the libraries and the kernels of a measurement, once compiled anew
 _CGROUPS = Path("/sys/fs/cgroup")
 
 

@@ -25,15 +25,15 @@ def every_command(group: click.Group = gbnbench, prefix: str = "") -> Iterator[t
 
 
 COMMANDS = dict(every_command())
-# Which command has which of the options that several have; report waits for little, and analyze.
+# Which command has which of the options that several have; report waits for little.
 BENCHES = "bench periodogram, bench gbn"
 SHARED = {
     "--out": "compare spectrum analyze generate library generators stipple reconstruct convert export "
     f"integrate figures report, {BENCHES}",
     "--json": "compare spectrum analyze generators reconstruct export integrate check devices doctor, "
     f"{BENCHES}",
-    "--quiet": "compare spectrum generate library generators stipple reconstruct export integrate figures "
-    f"check doctor, {BENCHES}",
+    "--quiet": "compare spectrum analyze generate library generators stipple reconstruct export integrate "
+    f"figures check doctor, {BENCHES}",
     "--quick": f"figures check doctor, {BENCHES}",
     "--full": f"figures check doctor, {BENCHES}",
     "--seed": "compare generate library generators stipple export integrate figures",

@@ -18,6 +18,12 @@ from gbnbench.analysis.spectrum.error_model import (
 )
 from gbnbench.analysis.spectrum.evaluators.device_evaluator import DeviceEvaluator
 from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
+from gbnbench.analysis.spectrum.evaluators.point_blocks import (
+    POINTS,
+    BlockedSum,
+    merged_errors,
+    point_blocks,
+)
 from gbnbench.analysis.spectrum.evaluators.two_group_product import norms_of
 from gbnbench.analysis.spectrum.evaluators.work_model import COSINE, SET_UP, device_cost, narrow
 from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest
@@ -42,13 +48,14 @@ class DirectSum(DeviceEvaluator):
     def cost(self, request: SpectrumRequest) -> EvaluationCost:
         """Estimate the sum's cost on the device."""
         work = request.frequencies * (COSINE + 2 * request.d) * request.n * request.realizations
-        return device_cost(self.on_device, request, work, 2.0, request.frequencies * 64)
+        points = min(request.n * request.realizations, POINTS)
+        return device_cost(self.on_device, request, work, 2.0, request.frequencies * 64, points=points)
 
     def expected_errors(self, request: SpectrumRequest) -> Errors:
         """State the sum's errors, coordinates being exact in double and rounded at worst in float."""
         p, n = self.on_device, request.n
-        length = run_length(p, request.frequencies, n)
-        return listed_errors(p, n, request.fmax, length, rounded_at_worst(n, request.d, p.name))
+        length = run_length(p, request.frequencies, min(n, POINTS))
+        return _errors(p, n, request.fmax, length, rounded_at_worst(n, request.d, p.name))
 
     def listed(
         self, x: FloatArray, frequencies: NDArray[np.int64], weights: FloatArray | None
@@ -80,34 +87,51 @@ def listed_power(
         Errors of the square root of the power of any one set.
     """
     sets, n, d = x.shape
-    m, stride = len(frequencies), padded(n, p.lanes)
-    length = run_length(p, m, n)
+    m, together = len(frequencies), min(n, POINTS)
+    stride = padded(together, p.lanes)
+    length = run_length(p, m, together)
     runs = -(-stride // length)
     program = p.program("selected.cl")
     multiples = p.runtime.upload(frequencies.T.astype(np.uint64).astype(p.turn))
     out = p.runtime.empty(2 * runs * m * np.dtype(p.sum).itemsize)
-    weight = np.zeros((1 if weights is None else len(weights), stride), p.real)
-    weight[:, :n] = 1 if weights is None else weights
     local = p.runtime.group
     total = np.zeros(m)
     for k, (one, norm) in enumerate(zip(x, norms_of(weights, sets, n), strict=True)):
-        program.run(
-            "selected",
-            (padded(m, local), runs),
-            (local, 1),
-            multiples,
-            p.runtime.upload(p.turns(one[None], stride)),
-            p.runtime.upload(weight[k if len(weight) > 1 else 0]),
-            out,
-            np.uint32(m),
-            np.uint32(d),
-            np.uint32(stride),
-            np.uint32(length),
-        )
-        sums = p.runtime.download(out, np.empty((runs, 2, m), p.sum)).astype(np.float64).sum(axis=0)
+        own = None if weights is None else weights[k if len(weights) > 1 else 0]
+        summed = BlockedSum()
+        for block, given in point_blocks(one, own) if n > POINTS else _whole(one, own):
+            weight = np.zeros(stride, p.real)
+            weight[:together] = 1 if given is None else given[0]
+            program.run(
+                "selected",
+                (padded(m, local), runs),
+                (local, 1),
+                multiples,
+                p.runtime.upload(p.turns(block, stride)),
+                p.runtime.upload(weight),
+                out,
+                np.uint32(m),
+                np.uint32(d),
+                np.uint32(stride),
+                np.uint32(length),
+            )
+            found = p.runtime.download(out, np.empty((runs, 2, m), p.sum))
+            summed.add(found.astype(np.float64).sum(axis=0))
+        sums = summed.value
         total += (sums[0] ** 2 + sums[1] ** 2) / norm
     largest = int(np.abs(frequencies.astype(np.float64)).max())
-    return total / sets, listed_errors(p, n, largest, length, coordinates(x, p.name, weights))
+    return total / sets, _errors(p, n, largest, length, coordinates(x, p.name, weights))
+
+
+def _whole(x: FloatArray, weights: FloatArray | None) -> list[tuple[FloatArray, FloatArray | None]]:
+    """Give a set that needs no cutting as its only block."""
+    return [(x[None], None if weights is None else weights[None])]
+
+
+def _errors(p: Precision, n: int, largest: int, length: int, at: Coordinates) -> Errors:
+    """State the errors, of a set that is cut in blocks those of the sum over these."""
+    errors = listed_errors(p, min(n, POINTS), largest, length, at)
+    return merged_errors(p, errors, at) if n > POINTS else errors
 
 
 def run_length(p: Precision, m: int, n: int) -> int:

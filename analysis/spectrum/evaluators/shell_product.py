@@ -8,7 +8,7 @@ dimension.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
@@ -20,8 +20,9 @@ from gbnbench.analysis.spectrum.evaluators.cube_product import CubeProduct, prod
 from gbnbench.analysis.spectrum.evaluators.device_evaluator import DeviceEvaluator
 from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
 from gbnbench.analysis.spectrum.evaluators.frequency_group import Group
+from gbnbench.analysis.spectrum.evaluators.point_blocks import POINTS, amplitudes_of_sets, merged_errors
 from gbnbench.analysis.spectrum.evaluators.point_slots import TABLE_BYTES, tile_rows
-from gbnbench.analysis.spectrum.evaluators.two_group_product import TwoGroupProduct, norms_of, product_errors
+from gbnbench.analysis.spectrum.evaluators.two_group_product import norms_of, product_errors
 from gbnbench.analysis.spectrum.evaluators.work_model import ENTRY, SHELL, TILE, device_cost
 from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest
 from gbnbench.analysis.spectrum.shell_moments import ShellMoments
@@ -30,6 +31,7 @@ from gbnbench.core.torus import FloatArray
 
 BLOCK_ROWS, BLOCK_COLUMNS = 510, 1024  # frequencies of a block's two groups: 17 MB of amplitudes
 BIN_BYTES = 64 << 20  # of the moments of all strips
+SUMMED = 13  # times that a block's sums are held while those over blocks of points are added up
 STRIPS = 4  # strips of rows for each core
 
 Progress = Callable[[float], None]
@@ -52,13 +54,21 @@ class ShellProduct(DeviceEvaluator):
         entries = blocks * min(BLOCK_ROWS + BLOCK_COLUMNS, len(a.order) + len(b.order))
         work = (TILE * count + ENTRY * entries) * points + SHELL * count
         launches = 3 * blocks * max(1.0, points / 1024)
-        return device_cost(self.on_device, request, work, launches, 3 * (8 << 20) + TABLE_BYTES + (64 << 20))
+        held = 3 * (8 << 20) + TABLE_BYTES + BIN_BYTES
+        if request.n <= POINTS:
+            return device_cost(self.on_device, request, work, launches, held)
+        rows, columns = min(BLOCK_ROWS, len(a.order)), min(BLOCK_COLUMNS, len(b.order))
+        held += SUMMED * 64 * rows * columns  # eight sums a pair of frequencies
+        return device_cost(self.on_device, request, work, launches, held, points=POINTS)
 
     def expected_errors(self, request: SpectrumRequest) -> Errors:
         """State the product's errors, coordinates being exact in double and rounded at worst in float."""
         p, n = self.on_device, request.n
         at = rounded_at_worst(n, request.d, p.name)
-        return product_errors(p, n, product_slots(p, request), request.fmax, at)
+        if n <= POINTS:
+            return product_errors(p, n, product_slots(p, request), request.fmax, at)
+        slots = product_slots(p, replace(request, n=POINTS, realizations=1))
+        return merged_errors(p, product_errors(p, POINTS, slots, request.fmax, at), at)
 
     def shells(
         self,
@@ -111,7 +121,7 @@ def shell_moments(
         Errors of the square root of the power of any one set.
     """
     sets, n, d = x.shape
-    at, rms, bound = coordinates(x, p.name, weights), 0.0, 0.0
+    at, worst = coordinates(x, p.name, weights), Errors(0.0, 0.0)
     a, b = two_sorted_groups(d, fmax, high)
     bins = high - low + 1
     device = p.runtime.device
@@ -119,27 +129,32 @@ def shell_moments(
     out = p.runtime.upload(np.zeros(strips * bins * 2, p.sum))
     counts = p.runtime.upload(np.zeros(strips * bins, np.uint32))
     norms = p.runtime.upload(norms_of(weights, sets, n).astype(p.sum))
-    work, done = count_pairs(a, b, low, high), 0
+    work, done = (1 if progress is None else _pairs(p, a, b, low, high)), 0
     power = p.runtime.empty(2 * BLOCK_ROWS * BLOCK_COLUMNS * np.dtype(p.sum).itemsize)
     for rows, columns, bounds in blocks(a, b, low, high, tile_rows(p)):
         leading, trailing = Group(a.axes, a.order[rows]), Group(b.axes, b.order[columns])
-        product = TwoGroupProduct(p, n, d, sets, leading, trailing, bounds)
         limits = p.runtime.upload(bounds)
-        errors = product_errors(p, n, product.slots, fmax, at)
-        rms, bound = max(rms, errors.rms), max(bound, errors.bound)
-        width = product.frequencies.columns
-        each = 1 if p.runtime.group > 1 else width
-        for first, batch in product.batches(x, weights):
+        pairs = int((bounds[:, 1] - bounds[:, 0]).sum())
+
+        def tell(share: float, done: int = done, pairs: int = pairs) -> None:
+            if progress is not None:
+                progress(min((done + share * pairs) / work, 1.0))
+
+        evaluated = amplitudes_of_sets(p, x, weights, (leading, trailing), bounds, fmax, at, tell)
+        for product, amplitude, splits, first, batch, errors in evaluated:
+            worst = worst.or_larger(errors)
+            width = product.frequencies.columns
+            each = 1 if p.runtime.group > 1 else width
             product.program.run(
                 "pair_power",
                 (-(-width // each), leading.count),
                 (1, 1),
-                product.amplitude,
+                amplitude,
                 limits,
                 np.uint32(leading.count),
                 np.uint32(width),
                 np.uint32(each),
-                np.uint32(product.slots.splits),
+                np.uint32(splits),
                 np.uint32(batch),
                 norms,
                 np.uint32(first),
@@ -162,12 +177,17 @@ def shell_moments(
             counts,
         )
         p.runtime.finish()
-        if progress is not None:
-            done += int((bounds[:, 1] - bounds[:, 0]).sum()) * tile_rows(p)
-            progress(min(done / work, 1.0))
+        done += pairs
+        tell(0.0, done)
     parts = p.runtime.download(out, np.empty((strips, bins, 2), p.sum)).astype(np.float64)
     count = p.runtime.download(counts, np.empty((strips, bins), np.uint32))
-    return merged(count.astype(np.int64), parts[..., 0], parts[..., 1], low), Errors(rms, bound)
+    return merged(count.astype(np.int64), parts[..., 0], parts[..., 1], low), worst
+
+
+def _pairs(p: Precision, a: SortedGroup, b: SortedGroup, low: int, high: int) -> int:
+    """Count the columns that all row tiles take, wanted ones and others."""
+    each = blocks(a, b, low, high, tile_rows(p))
+    return sum(int(np.diff(bounds.astype(np.int64)).sum()) for *_, bounds in each)
 
 
 def blocks(

@@ -48,6 +48,8 @@ class TwoGroupProduct:
     ----------
     amplitude : buffer
         Amplitudes of one batch; layout in product.cl.
+    amplitude_numbers : int
+        How many numbers these are.
     slots : Slots
         Slots of a batch.
     stride : int
@@ -81,6 +83,7 @@ class TwoGroupProduct:
         real, total = np.dtype(p.real).itemsize, np.dtype(p.sum).itemsize
         of_tables = [size * (self.slots.items or self.slots.count) * real for size in self.sizes]
         of_amplitudes = self.slots.count * rows * columns * (8 if compensated else 4) * total
+        self.amplitude_numbers = of_amplitudes // total
         self.nbytes = sum(of_tables) + of_amplitudes
         self.tables = p.runtime.empty(of_tables[0]), p.runtime.empty(of_tables[1])
         if self.frequencies.a.count < rows:

@@ -49,6 +49,7 @@ def device_cost(
     launches: float,
     held: float,
     set_up: float = SET_UP,
+    points: int | None = None,
 ) -> EvaluationCost:
     """Turn work into time by the device's measured multiply-add peak.
 
@@ -66,13 +67,16 @@ def device_cost(
         Bytes besides the points'.
     set_up : float
         Multiply-adds that take as long in double as the set-up does, in any precision.
+    points : int, optional
+        Points that are on the device at once; all of all sets if not given.
 
     Returns
     -------
     EvaluationCost
     """
-    points = request.realizations * request.n * request.d * 2 * np.dtype(p.real).itemsize
+    at_once = request.realizations * request.n if points is None else points
+    of_points = at_once * request.d * 2 * np.dtype(p.real).itemsize
     device = p.runtime.device
     cores = device.compute_units if device.is_cpu else 1
     seconds = SET_UP_SECONDS * set_up + launches * launch_seconds() + 2 * work / peak(p.name) / cores
-    return EvaluationCost(2 * work, int(held + points), seconds)
+    return EvaluationCost(2 * work, int(held + of_points), seconds)

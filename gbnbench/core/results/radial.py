@@ -77,6 +77,8 @@ class ShellSpectrum:
         "double" or "float", the name of the evaluator, and the device it ran on.
     error_rms, error_bound : float
         Typical and worst error of the square root of one frequency's power.
+    gaps : bool
+        Whether shells between the first and the last are missing, as of several bands.
 
     Examples
     --------
@@ -103,6 +105,7 @@ class ShellSpectrum:
     error_rms: float = math.nan
     error_bound: float = math.nan
     sides: Sides | None = None
+    gaps: bool = False
 
     @property
     def spacing(self) -> float:

@@ -144,7 +144,8 @@ def _inside(
     x = one.points
     if box is not None and not one.scaled:
         with np.errstate(invalid="ignore", over="ignore"):
-            x = (x - np.array(box.low)) / np.array(box.sides)
+            x = x - np.array(box.low)
+            x /= np.array(box.sides)  # in place: a large set is not held twice
     x = np.require(x, np.float64, ["C", "W"])
     if not (x.min() >= 0 and x.max() <= 1):  # nan is neither
         if not (options.wrap or one.unwrapped):

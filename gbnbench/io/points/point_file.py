@@ -6,6 +6,7 @@ import bz2
 import gzip
 import io
 import lzma
+import mmap
 import re
 import zlib
 from collections.abc import Callable
@@ -29,6 +30,7 @@ PACKED = tuple(suffix for _, suffix, _ in _COMPRESSIONS)
 _RAW_PACKED = re.compile(rb"\x1f\x8b\x08|BZh[1-9]1AY&SY|\xfd7zXZ\x00")
 _BROKEN = (OSError, EOFError, zlib.error, lzma.LZMAError, ValueError)
 _PIECE = 1 << 24
+MAPPED_FROM = 1 << 26  # bytes of numbers that are mapped into memory, not read
 
 
 @dataclass(frozen=True)
@@ -90,6 +92,21 @@ class PointFile:
             return self.path.read_bytes()
         except OSError as error:
             raise FormatError(self.path, f"cannot be read: {reason(error)}") from None
+
+    def numbers(self) -> bytes | memoryview:
+        """Return the whole content for numpy: of a large file mapped, so that it is read as it is needed.
+
+        What is written to a mapped content does not change the file.
+
+        Raises
+        ------
+        FormatError
+            If the file cannot be read.
+        """
+        if self.unpacked is not None or self.size < MAPPED_FROM:
+            return self.read()
+        with self.open() as file:
+            return memoryview(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_COPY))
 
 
 def open_point_file(path: Path, limit: int, options: ReadingOptions) -> PointFile:

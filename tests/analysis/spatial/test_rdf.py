@@ -58,16 +58,19 @@ def test_the_device_counts_what_numpy_does(kind: str, d: int, reach: float) -> N
     if device is None:
         pytest.skip("no device computes in double here")
     for box in ((1.0,) * d, (1.25, *(1.0,) * (d - 2), 0.8)):
-        windows = row_windows(x, reach, box)
-        assert windows is not None
-        counted = device_counts(device, windows, 41, 41 / reach, box)
-        assert counted.tolist() == _numpy_counts(x, 41, reach, 41 / reach, box).tolist()
+        for together in (1 << 20, 150):  # points whose windows are found together
+            windows = row_windows(x, reach, box, together)
+            assert windows is not None
+            each = [device_counts(device, some, 41, 41 / reach, box) for some in windows if len(some.rows)]
+            expected = _numpy_counts(x, 41, reach, 41 / reach, box)
+            assert np.sum(each, axis=0).tolist() == expected.tolist()
 
 
 def test_windows_hold_few_pairs_that_are_too_far() -> None:
     x = np.random.default_rng(5).random((5000, 2))
-    windows = row_windows(x, 0.25, (1.0, 1.0))
-    assert windows is not None
+    found = row_windows(x, 0.25, (1.0, 1.0))
+    assert found is not None
+    (windows,) = found
     met = int((windows.ends[1::2] - windows.ends[::2]).sum(dtype=np.int64))
     assert 1 < met / (5000**2 / 2 * math.pi / 16) < 1.25
 
@@ -171,3 +174,21 @@ def test_a_distance_that_is_exactly_an_edge_begins_its_bin():
     counts = pair_counts(x, 1601, 0.5 / 3200)
     assert counts[200] == 2 * m * m
     assert counts[199] == 0
+
+
+@pytest.mark.parametrize("reach", [2.0, 4.0, 8.0])
+def test_no_farther_than_was_asked_for(reach: float) -> None:
+    x = np.random.default_rng(8).random((2, 4000, 2))
+    whole, some, told = rdf(x), rdf(x, reach=reach), rdf(x, reach=reach, bins=int(500 * reach / 8))
+    for found in (some, told):
+        assert len(found.r) == 500 * reach / 8
+        np.testing.assert_allclose(found.g, whole.g[: len(found.g)], rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [({"reach": 0}, "reach must be a positive"), ({"bins": 0}, "bins must be a whole number")],
+)
+def test_ranges_that_are_none_are_refused(options: dict, said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        rdf(np.random.default_rng(9).random((50, 2)), **options)

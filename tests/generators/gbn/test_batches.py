@@ -66,9 +66,10 @@ def test_a_killed_run_goes_on_to_the_same_points_and_trace(monkeypatch, tmp_path
 
 
 @pytest.mark.slow
-def test_a_process_killed_outright_goes_on_from_its_file(tmp_path):
+@pytest.mark.parametrize("n", [600, 10_000])  # the larger has the state of its low band too
+def test_a_process_killed_outright_goes_on_from_its_file(tmp_path, n):
     command = [
-        sys.executable, "-m", "gbnbench", "generate", "gbn[gradients=100]", "-n", "600", "--realizations",
+        sys.executable, "-m", "gbnbench", "generate", "gbn[gradients=100]", "-n", str(n), "--realizations",
         "2", "--checkpoint", "state.npz", "--quiet", "-o",
     ]  # fmt: skip
     environment = {**os.environ, "GBNBENCH_CHECKPOINT_SECONDS": "0"}
@@ -84,7 +85,7 @@ def test_a_process_killed_outright_goes_on_from_its_file(tmp_path):
     subprocess.run([*command, "b.npy"], cwd=tmp_path, env=environment, check=True)
     assert 0 < began < 100
     assert not state.exists()
-    fresh = generate("gbn[gradients=100]", n=600, realizations=2)
+    fresh = generate("gbn[gradients=100]", n=n, realizations=2)
     assert np.array_equal(np.load(tmp_path / "b.npy"), fresh)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import RealGrid
 from gbnbench.core.torus import FloatArray
 
+ROWS = 1 << 20  # points whose bins are found together
 LESS = 1 - 2.0**-50  # so that no coordinate below 1 is rounded up to the end
 
 
@@ -28,6 +30,8 @@ def bins(turns: NDArray[Any], grid: RealGrid) -> NDArray[np.int64]:
     (sets, n) int64
         0 .. grid.bins**d - 1, the last axis fastest.
     """
+    if turns.shape[2] > ROWS:
+        return _by_blocks(lambda some: bins(turns[:, :, some], grid), turns.shape[2])
     along = cells(turns, grid.nodes) // grid.width
     found = along[:, 0]
     for a in range(1, turns.shape[1]):
@@ -52,11 +56,19 @@ def bins_nearly(x: FloatArray, grid: RealGrid) -> NDArray[np.int64]:
     (sets, n) int64
         As ``bins`` gives them.
     """
+    if x.shape[1] > ROWS:
+        return _by_blocks(lambda some: bins_nearly(x[:, some], grid), x.shape[1])
     along = (x * (grid.nodes / grid.width * LESS)).astype(np.int64)
     found = along[:, :, 0]
     for a in range(1, x.shape[2]):
         found = found * grid.bins + along[:, :, a]
     return found
+
+
+def _by_blocks(find: Callable[[slice], NDArray[np.int64]], n: int) -> NDArray[np.int64]:
+    """Find bins of some points after others, so that a large set needs little memory besides."""
+    found = [find(slice(begin, begin + ROWS)) for begin in range(0, n, ROWS)]
+    return np.concatenate(found, axis=1)
 
 
 def bin_counts(bin_of: NDArray[np.int64], grid: RealGrid) -> NDArray[np.int64]:

@@ -63,6 +63,7 @@ WORK = {
     2: GridWork(350.0, 6.57, 6.57, 2.65, 0.0, 2.25e6),
     3: GridWork(737.0, 4.0, 5.37, 3.62, 0.0, 4.16e6),
 }
+BINNED_BYTES = 32  # for each point: its bin, its place in their order, and its weight twice
 LARGEST_TYPICAL = 9.0  # typical error in units of rounding, beyond which crowded points go to the product
 
 
@@ -123,7 +124,7 @@ class GriddedFFT(DeviceEvaluator):
 
     def cost(self, request: SpectrumRequest) -> EvaluationCost:
         """Estimate the cost on the device, the grids of a batch and their transforms included."""
-        held = self._held(request)
+        held = self._held(request) + BINNED_BYTES * request.n * request.realizations
         return device_cost(
             self.on_device, request, self._arithmetic(request), 2.0, held, WORK[request.d].call
         )

@@ -8,12 +8,12 @@ TINY = 1e-9
 LAYOUTS = {"float32": "<f4", ">float32": ">f4", "float64": "<f8", ">float64": ">f8"}
 
 
-def better_layout(data: bytes, dtype: np.dtype) -> str | None:
+def better_layout(data: bytes | memoryview, dtype: np.dtype) -> str | None:
     """Find the layout that gives points of the unit torus, where the one that is told does not.
 
     Parameters
     ----------
-    data : bytes
+    data : bytes or memoryview
         Numbers alone.
     dtype : dtype
         What they are told to be.
@@ -33,7 +33,7 @@ def better_layout(data: bytes, dtype: np.dtype) -> str | None:
     return next((name for name, other in others.items() if _plausible(data, other)), None)
 
 
-def _plausible(data: bytes, dtype: np.dtype) -> bool:
+def _plausible(data: bytes | memoryview, dtype: np.dtype) -> bool:
     """Whether all lie in [0, 1], and none is as tiny as a float in the wrong order often is."""
     if len(data) % dtype.itemsize:
         return False

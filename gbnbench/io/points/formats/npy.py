@@ -21,7 +21,7 @@ def _recognises(file: PointFile) -> bool:
 def _read(file: PointFile) -> FileContent:
     options = file.options
     with file.open() as opened:
-        array = read_array(file.path, opened, file.size, "")
+        array = read_array(file.path, opened, file.size, "", mappable=file.unpacked is None)
     told = options.period is not None or options.bounds is not None
     return FileContent(as_sets(file.path, array, "", options.columns, box_told=told))
 

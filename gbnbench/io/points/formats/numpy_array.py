@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from gbnbench.core.errors import FormatError
 from gbnbench.io.points.columns import advice, choose
+from gbnbench.io.points.point_file import MAPPED_FROM
 from gbnbench.io.points.point_sets import Coordinates
 
 UNSAFE = "a pickle, which can run any code when it is read: refused as unsafe"
@@ -38,7 +39,7 @@ _HEADERS = {
 }
 
 
-def read_array(path: Path, file: IO[bytes], size: int, where: str) -> NDArray[Any]:
+def read_array(path: Path, file: IO[bytes], size: int, where: str, *, mappable: bool = False) -> NDArray[Any]:
     """Read one array.
 
     Parameters
@@ -51,6 +52,9 @@ def read_array(path: Path, file: IO[bytes], size: int, where: str) -> NDArray[An
         Its bytes, with the header.
     where : str
         What errors begin with.
+    mappable : bool
+        Whether ``path`` is the file itself, so that a large array may be mapped: its pages are then read as
+        they are needed, and may be written to, which does not change the file.
 
     Returns
     -------
@@ -91,6 +95,9 @@ def read_array(path: Path, file: IO[bytes], size: int, where: str) -> NDArray[An
         raise FormatError(path, f"{where}{said}: truncated or damaged")
     if count * dtype.itemsize == 0:
         raise FormatError(path, f"{where}holds no points: its shape is {shape}, {dtype}")
+    if mappable and count * dtype.itemsize >= MAPPED_FROM:
+        pages = np.memmap(path, dtype, "c", file.tell(), (count,))
+        return np.asarray(pages).reshape(shape, order="F" if fortran else "C")
     array = np.empty(count, dtype)
     if file.readinto(array.view(np.uint8).data) != array.nbytes:  # type: ignore[attr-defined]
         raise FormatError(path, f"{where}the array is truncated")

@@ -68,7 +68,7 @@ def read_raw(file: PointFile) -> FileContent:
     dtype, d = file.options.layout()
     if (known := known_by_name(file)) is not None:
         raise FormatError(file.path, f"{known}, and --raw is for numbers without a header: leave it out")
-    data = file.read()
+    data = file.numbers()
     if len(data) % (d * dtype.itemsize):
         raise FormatError(
             file.path,
@@ -89,4 +89,4 @@ def read_raw(file: PointFile) -> FileContent:
     if file.options.columns is not None:
         points = points[:, choose(file.path, file.options.columns, (), d)]
     with np.errstate(invalid="ignore"):  # signalling nan
-        return FileContent([Coordinates(points.astype(np.float64, order="C"))])
+        return FileContent([Coordinates(points.astype(np.float64, order="C", copy=False))])

@@ -20,7 +20,7 @@ def _recognises(file: PointFile) -> bool:
 
 
 def _read(file: PointFile) -> FileContent:
-    path, data = file.path, file.read()
+    path, data = file.path, file.numbers()
     if len(data) % 8:
         raise FormatError(path, f"{len(data)} bytes are not pairs of float32: truncated, or no .rps")
     if len(data) > 8 and not any(data):
@@ -32,7 +32,7 @@ def _read(file: PointFile) -> FileContent:
         return FileContent([Coordinates(pairs.astype(np.float64))])
 
 
-def _refuse_swapped(path: Path, data: bytes) -> None:
+def _refuse_swapped(path: Path, data: bytes | memoryview) -> None:
     """Name the type where only another one gives points of the unit torus."""
     other = better_layout(data, np.dtype("<f4"))
     if other == ">float32":
