@@ -57,9 +57,11 @@ def stipple(
     invert : bool
         Of an image: light is dense.
     gamma : float
-        Of an image: exponent of its tones, above 0; 2.2 takes them as the light that they stand for.
+        Of an image: exponent of its tones, above 0; 2.2 takes them as the light that they stand for, which
+        makes mid-tones denser, or sparser where light is dense.
     white_cutoff : float, optional
-        Of an image: tone, 0 to 1, from which on there are no points.
+        Of an image: tone, 0 to 1, from which on there are no points; with ``invert`` there are none where
+        the tone is 1 less that or darker, as the paper is black.
     shape : tuple of int, optional
         Of a function: pixels along each axis, (rows, columns) or (slices, rows, columns).
     progress : callable, optional
@@ -84,7 +86,7 @@ def stipple(
 
     Notes
     -----
-    Darkness is 1 - tone^gamma, the tone being the grey as it is coded, or the luma of a colour (Rec. ITU-R
+    Darkness is 1 - tone^gamma, or tone^gamma where light is dense, the tone being the grey as it is coded, or the luma of a colour (Rec. ITU-R
     BT.709). By default gbn follows Ahmed, Ren & Wonka, "Gaussian blue noise", 2022, Sections 4.10 and 5.3.
 
     Examples

@@ -84,6 +84,8 @@ def test_tones_are_inverted_bent_and_cut():
     assert drawn() == pytest.approx([1, 0.75, 0.5, 0.25, 0], abs=1e-6)
     assert drawn(invert=True) == pytest.approx([0, 0.25, 0.5, 0.75, 1], abs=1e-6)
     assert drawn(gamma=2) == pytest.approx([1, 15 / 16, 3 / 4, 7 / 16, 0], abs=1e-6)
+    assert drawn(gamma=2, invert=True) == pytest.approx([0, 1 / 16, 1 / 4, 9 / 16, 1], abs=1e-6)
+    assert drawn(white_cutoff=0.7, invert=True, gamma=2) == pytest.approx([0, 0, 1 / 4, 9 / 16, 1], abs=1e-6)
     assert drawn(white_cutoff=0.5) == pytest.approx([1, 0.75, 0, 0, 0], abs=1e-6)
     assert drawn(white_cutoff=0.5, invert=True) == pytest.approx([0, 0, 0, 0.75, 1], abs=1e-6)
 
