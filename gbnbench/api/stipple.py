@@ -86,8 +86,9 @@ def stipple(
 
     Notes
     -----
-    Darkness is 1 - tone^gamma, or tone^gamma where light is dense, the tone being the grey as it is coded, or the luma of a colour (Rec. ITU-R
-    BT.709). By default gbn follows Ahmed, Ren & Wonka, "Gaussian blue noise", 2022, Sections 4.10 and 5.3.
+    Darkness is 1 - tone^gamma, or tone^gamma where light is dense, the tone being the grey as it is coded, or
+    the luma of a colour (Rec. ITU-R BT.709). By default gbn follows Ahmed, Ren & Wonka, "Gaussian blue
+    noise", 2022, Sections 4.10 and 5.3.
 
     Examples
     --------

@@ -51,7 +51,11 @@ Examples:
     help="Tone, 0 to 1, from which on there are no dots; with --invert, on black paper, no dots at 1 less "
     "that or darker.",
 )
-@click.option("--toroidal", is_flag=True, help="Opposite borders meet, for tiles.")
+@click.option(
+    "--toroidal",
+    is_flag=True,
+    help="Opposite borders meet, for tiles; in pictures dots that cross one are drawn at both.",
+)
 @click.option(
     "--colour",
     type=click.Choice(["cmyk", "palette"]),
