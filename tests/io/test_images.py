@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import contextlib
+import errno
+import os
 import struct
 import zlib
 from pathlib import Path
@@ -224,6 +226,23 @@ def test_what_is_not_there_is_told_with_the_names(here):
         read_image("x.png")
     with pytest.raises(FormatError, match=r"is a folder"):
         read_image(here)
+
+
+@pytest.mark.parametrize("name", ["x.png", "x.tif", "x.npy"])
+@pytest.mark.parametrize("error", [errno.EACCES, errno.EIO])
+def test_what_the_system_will_not_read_is_not_called_damaged(here, monkeypatch, name, error):
+    np.save("x.npy", FIFTHS) if name == "x.npy" else Pillow.fromarray(STEPS).save(name)
+    opened = open
+
+    def refused(path, *arguments, **settings):
+        if Path(str(path)).name == name:
+            raise OSError(error, os.strerror(error), path)
+        return opened(path, *arguments, **settings)
+
+    monkeypatch.setattr("builtins.open", refused)  # root may read what nobody may
+    said = {errno.EACCES: "permission denied", errno.EIO: "input/output error"}[error]
+    with pytest.raises(FormatError, match=rf"^{name}: cannot be read: {said}$"):
+        read_image(name)
 
 
 def test_whole_numbers_without_a_white_are_refused(here):

@@ -40,7 +40,7 @@ def read_file(path: Path, name: str) -> Image:
     Raises
     ------
     FormatError
-        If it is no image, is damaged, or has too many pixels.
+        If it cannot be read, is no image, is damaged, or has too many pixels.
     """
     try:
         with warnings.catch_warnings():
@@ -61,6 +61,8 @@ def read_file(path: Path, name: str) -> Image:
     except MemoryError:
         raise FormatError(path, "needs more memory than there is: scale the image down") from None
     except Exception as error:  # decoders raise almost anything when a file is damaged
+        if isinstance(error, OSError) and error.errno is not None:  # the system's, not a decoder's
+            raise FormatError(path, f"cannot be read: {reason(error)}") from None
         raise FormatError(path, f"is a damaged image, or only a part of one ({reason(error)})") from None
 
 
