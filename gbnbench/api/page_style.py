@@ -134,7 +134,9 @@ def page_of(layers: Mapping[str, Stippling], style: PageStyle) -> Page:
         )
         for name, made in layers.items()
     ]
-    counts = ", ".join(f"{len(made.pixels)} dots of {name}" for name, made in layers.items())
+    counts = ", ".join(
+        f"{len(sheet.radii)} dot{'s' * (len(sheet.radii) != 1)} of {sheet.name}" for sheet in sheets
+    )
     text = f"{counts}; {first.method}, seed {first.seed}, gbnbench {first.version}"
     height = first.size[1] * mm + 2 * margin
     return Page(style.width_mm, height, tuple(sheets), first.name, text, style.paper, margin, toroidal)

@@ -132,6 +132,7 @@ def stipple(
     from gbnbench.api.stippled_page import in_tour_order, write_stippling
     from gbnbench.cli import stipple_input
     from gbnbench.cli.stipple_frames import checked_frames, write_animation
+    from gbnbench.cli.stipple_text import summary
     from gbnbench.generators.adaptive.registry import adaptive_generator
     from gbnbench.reports.stippling.gcode import read_template
     from gbnbench.reports.stippling.page import Page
@@ -190,7 +191,4 @@ def stipple(
         from gbnbench.cli.braille import braille
 
         click.echo(braille(drawn.values()))
-    said = ", ".join(f"{len(made.pixels):,} dots of {name}" for name, made in drawn.items())
-    sizes = sorted({round(2 * r, 3) for layer in page.layers for r in (layer.radii.min(), layer.radii.max())})
-    across = f"{sizes[0]:g}" if len(sizes) == 1 else f"{sizes[0]:g} to {sizes[-1]:g}"
-    click.echo(f"wrote {out}: {said}, {across} mm across, on {page.width:g} x {page.height:.4g} mm{replaced}")
+    click.echo(f"wrote {out}: {summary(page)}{replaced}")
