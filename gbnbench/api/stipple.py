@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 from gbnbench.api.drawing import draw, in_progressive_order
 from gbnbench.api.stippling import Stippling
+from gbnbench.core.flags import check_flags
 from gbnbench.generators.adaptive.density import Density
 from gbnbench.generators.adaptive.protocol import AdaptiveGenerator
 from gbnbench.opencl import use_device
@@ -97,6 +98,7 @@ def stipple(
     >>> made.points.shape, made.size
     ((300, 2), (384, 303))
     """
+    check_flags(toroidal=toroidal, progressive=progressive)
     curve = ToneCurve(invert, gamma, white_cutoff)
     made = draw(
         as_darkness(image, shape=shape, curve=curve), n,

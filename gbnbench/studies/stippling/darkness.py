@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gbnbench.core.errors import FormatError, InputError
+from gbnbench.core.flags import check_flags
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density, as_density, density_of
 from gbnbench.io.images import Image, read_image
@@ -53,6 +54,7 @@ class ToneCurve:
     white_cutoff: float | None = None
 
     def __post_init__(self) -> None:
+        check_flags(invert=self.invert)
         if not (math.isfinite(self.gamma) and self.gamma > 0):
             raise InputError(f"gamma must be above 0; got {self.gamma}")
         if self.white_cutoff is not None and not 0 < self.white_cutoff <= 1:
