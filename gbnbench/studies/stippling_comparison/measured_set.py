@@ -124,7 +124,7 @@ def measured_set(
     """
     wanted = density.of_points(len(points))
     reconstruction, quality = reconstruction_quality(points, density.values)
-    blurred = blurred_difference_map(points, density.values, BLUR)
+    blurred = blurred_difference_map(points, density.values, BLUR, toroidal=density.toroidal)
     values = {
         "relative_variance": relative_variance(points, density),
         "blurred_difference": float(np.sqrt((blurred**2).mean())),

@@ -6,8 +6,9 @@ import math
 
 import numpy as np
 import pytest
+from scipy.special import erf
 
-from gbnbench.analysis.reconstruction.blurred_difference import blurred_difference
+from gbnbench.analysis.reconstruction.blurred_difference import blurred_difference, blurred_difference_map
 from gbnbench.analysis.reconstruction.density_estimates import ESTIMATES, reconstructed_density
 from gbnbench.analysis.reconstruction.image_quality import image_quality
 from gbnbench.analysis.reconstruction.kernel_sums import kernel_sums
@@ -136,9 +137,38 @@ def test_wrong_arguments_are_refused_in_words(arguments, words):
         image_quality(np.ones((3, 3)), np.ones((3, 4)))
 
 
-def test_a_blurred_difference_is_that_of_counts():
+def test_a_blurred_difference_of_a_lattice_is_none_and_of_halves_is_the_density():
     density = np.ones((16, 16))
     one_each = np.argwhere(density) + 0.5
-    assert blurred_difference(one_each, density, 2.0) == pytest.approx(0)
+    assert blurred_difference(one_each, density, 2.0, toroidal=True) < 1e-12
     shifted = np.where(one_each[:, :1] < 8, one_each, one_each - [8, 0])  # all in the upper half
-    assert blurred_difference(shifted, density, 0.1, toroidal=True) == pytest.approx(1)
+    found = blurred_difference_map(shifted, density, 2.0, toroidal=True)
+    assert found[4] == pytest.approx(1, abs=0.1)
+    assert found[12] == pytest.approx(-1, abs=0.1)
+
+
+@pytest.mark.parametrize(("width", "error"), [(2.0, 6e-4), (5.0, 1.6e-5)])
+@pytest.mark.parametrize("toroidal", [False, True])
+def test_a_blurred_difference_is_that_of_gaussians_at_the_points(width, error, toroidal):
+    rng = np.random.default_rng(8)
+    rows, columns = 20, 14
+    density, points = rng.random((rows, columns)), rng.random((30, 2)) * (rows, columns)
+    points[0] = 0, columns
+    wanted = density * 30 / density.sum()
+
+    def gaussians(at, size):  # (n, size): at the centres of pixels
+        images = np.arange(-6, 7) * size if toroidal else np.zeros(1)
+        away = np.arange(size) + 0.5 - at[:, None, None] + images[:, None]
+        return np.exp(-(away**2) / (2 * width**2)).sum(1) / np.sqrt(2 * np.pi) / width
+
+    def over_pixels(size):  # (size, size): a pixel's share of what another centre has
+        images = np.arange(-6, 7) * size if toroidal else np.zeros(1)
+        edge = np.arange(size)[:, None, None] + images[:, None] - np.arange(size) - 0.5
+        return 0.5 * (erf((edge + 1) / width / np.sqrt(2)) - erf(edge / width / np.sqrt(2))).sum(1)
+
+    of_points = gaussians(points[:, 0], rows).T @ gaussians(points[:, 1], columns)
+    exact = of_points - over_pixels(rows).T @ wanted @ over_pixels(columns)
+    found = blurred_difference_map(points, density, width, toroidal=toroidal) * wanted.mean()
+    assert np.abs(found - exact).max() < error * of_points.max()
+    with pytest.raises(InputError, match=r"at least 2 pixels, got 1\.9"):
+        blurred_difference(points, density, 1.9)
