@@ -88,7 +88,7 @@ def _by_pillow(path: Path, name: str) -> Image:
 def _is_unsigned(opened: Any) -> bool:
     """Whether a TIFF holds whole numbers of 32 bits without a sign, to which Pillow gives one."""
     tags = opened.tag_v2
-    return tags.get(BITS) == (32,) and tags.get(SAMPLE_FORMAT, (UNSIGNED,))[0] == UNSIGNED
+    return bool(tags.get(BITS) == (32,) and tags.get(SAMPLE_FORMAT, (UNSIGNED,))[0] == UNSIGNED)
 
 
 def _samples(picture: Pillow.Image, *, unsigned: bool) -> Samples:
