@@ -22,10 +22,11 @@ class ImageQuality:
     Attributes
     ----------
     psnr : float
-        Peak signal over root mean square error, in dB; the peak is the image's largest value.
+        Peak signal over root mean square error, in dB; the peak is the image's largest value, to
+        which the reconstruction is cut.
     ssim : float
-        Structural similarity (Wang et al. 2004), 1 for the image itself; nan for images below 7 pixels a
-        side.
+        Structural similarity (Wang et al. 2004, but with a uniform window of 7 x 7 pixels), 1 for the image
+        itself; nan for images below 7 pixels a side.
     gain : float
         By which the reconstruction was multiplied: that which makes the error least.
     """

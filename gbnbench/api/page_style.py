@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -33,7 +33,8 @@ class PageStyle:
         Of the page with its margins, above 0; its height follows.
     margin_mm : float, optional
         Blank paper on each side of the picture, at least 0 and less than half the width. By default the
-        radius of the largest dot, so that none hangs over the border.
+        radius of the largest dot, so that none hangs over the border; of stipplings whose opposite borders
+        meet 0, so that copies side by side have no seam.
     dots : {"equal", "tone"}
         Dots of one size, or areas in proportion to the amplitudes.
     dot_mm : float, optional
@@ -119,6 +120,9 @@ def page_of(layers: Mapping[str, Stippling], style: PageStyle) -> Page:
     first = next(iter(layers.values()))
     if len(first.size) != 2:
         raise InputError("points of a volume lie on no page: write them as .txt or .csv")
+    toroidal = first.density.toroidal
+    if toroidal and style.margin_mm is None:
+        style = replace(style, margin_mm=0.0)
     radii = {name: _radii(made, style) for name, made in layers.items()}
     mm, margin = style.placing(first.size[0], max(float(each.max()) for each in radii.values()))
     sheets = [
@@ -130,10 +134,12 @@ def page_of(layers: Mapping[str, Stippling], style: PageStyle) -> Page:
         )
         for name, made in layers.items()
     ]
-    counts = ", ".join(f"{len(made.pixels)} dots of {name}" for name, made in layers.items())
+    counts = ", ".join(
+        f"{len(sheet.radii)} dot{'s' * (len(sheet.radii) != 1)} of {sheet.name}" for sheet in sheets
+    )
     text = f"{counts}; {first.method}, seed {first.seed}, gbnbench {first.version}"
     height = first.size[1] * mm + 2 * margin
-    return Page(style.width_mm, height, tuple(sheets), first.name, text, style.paper, margin)
+    return Page(style.width_mm, height, tuple(sheets), first.name, text, style.paper, margin, toroidal)
 
 
 def _radii(made: Stippling, style: PageStyle) -> FloatArray:

@@ -12,6 +12,7 @@ from gbnbench.analysis.reconstruction.density_estimates import ESTIMATES, Estima
 from gbnbench.analysis.reconstruction.shaping import LEAST
 from gbnbench.api.stippling import Stippling
 from gbnbench.core.errors import InputError
+from gbnbench.core.flags import check_flags
 from gbnbench.core.settings import nearest
 from gbnbench.core.torus import FloatArray
 from gbnbench.opencl import use_device
@@ -88,6 +89,7 @@ def reconstruct(
     >>> gbnbench.reconstruct(made).shape, gbnbench.reconstruct(made.points, shape=(128, 128)).shape
     ((512, 512), (128, 128))
     """
+    check_flags(invert=invert)
     if isinstance(points, Stippling):
         coverage = points.coverage if coverage is None else coverage
         shape = points.density.shape if shape is None else shape

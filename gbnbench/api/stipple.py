@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 from gbnbench.api.drawing import draw, in_progressive_order
 from gbnbench.api.stippling import Stippling
+from gbnbench.core.flags import check_flags
 from gbnbench.generators.adaptive.density import Density
 from gbnbench.generators.adaptive.protocol import AdaptiveGenerator
 from gbnbench.opencl import use_device
@@ -57,9 +58,11 @@ def stipple(
     invert : bool
         Of an image: light is dense.
     gamma : float
-        Of an image: exponent of its tones, above 0; 2.2 takes them as the light that they stand for.
+        Of an image: exponent of its tones, above 0; 2.2 takes them as the light that they stand for, which
+        makes mid-tones denser, or sparser where light is dense.
     white_cutoff : float, optional
-        Of an image: tone, 0 to 1, from which on there are no points.
+        Of an image: tone, 0 to 1, from which on there are no points; with ``invert`` there are none where
+        the tone is 1 less that or darker, as the paper is black.
     shape : tuple of int, optional
         Of a function: pixels along each axis, (rows, columns) or (slices, rows, columns).
     progress : callable, optional
@@ -84,8 +87,9 @@ def stipple(
 
     Notes
     -----
-    Darkness is 1 - tone^gamma, the tone being the grey as it is coded, or the luma of a colour (Rec. ITU-R
-    BT.709). By default gbn follows Ahmed, Ren & Wonka, "Gaussian blue noise", 2022, Sections 4.10 and 5.3.
+    Darkness is 1 - tone^gamma, or tone^gamma where light is dense, the tone being the grey as it is coded, or
+    the luma of a colour (Rec. ITU-R BT.709). By default gbn follows Ahmed, Ren & Wonka, "Gaussian blue
+    noise", 2022, Sections 4.10 and 5.3.
 
     Examples
     --------
@@ -94,6 +98,7 @@ def stipple(
     >>> made.points.shape, made.size
     ((300, 2), (384, 303))
     """
+    check_flags(toroidal=toroidal, progressive=progressive)
     curve = ToneCurve(invert, gamma, white_cutoff)
     made = draw(
         as_darkness(image, shape=shape, curve=curve), n,

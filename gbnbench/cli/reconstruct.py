@@ -79,9 +79,18 @@ class Size(click.ParamType):  # type: ignore[type-arg]  # takes no argument befo
     show_default=True,
     help="Kernels of the publication's amplitudes; of one width; or Voronoi cells.",
 )
-@click.option("--against", metavar="IMAGE", help="Tell PSNR and SSIM of the darkness, at the best gain.")
+@click.option(
+    "--against",
+    metavar="IMAGE",
+    help="Tell PSNR and SSIM of the darkness, at the best gain; with --invert of the lightness.",
+)
 @click.option("--invert", is_flag=True, help="Dense is light, as after stipple --invert.")
-@click.option("--coverage", type=float, help="Mean darkness.  [default: what the file says]")
+@click.option(
+    "--coverage",
+    type=float,
+    help="Mean darkness (with --invert lightness), before what exceeds black is cut to it.  "
+    "[default: what the file says]",
+)
 @click.option(
     "--unit",
     type=click.Choice(["square", "pixels"]),
@@ -138,6 +147,13 @@ def reconstruct(
             found.points, used, None if wanted is None else wanted[::-1],
             method=cast("Estimate", method), progress=progress,
         )  # fmt: skip
+    if header is not None and found.ink == ("black" if invert else "white"):
+        change = "leave out" if invert else "add"
+        click.echo(
+            f"gbnbench: the picture is a negative: {points} holds {found.ink} dots; {change} --invert for "
+            "the image itself",
+            err=True,
+        )
     share = coverage if coverage is not None or header is None else header.coverage
     picture = tones(density, coverage=share, invert=invert)
     quality = None if dark is None else image_quality(density, dark)
@@ -151,7 +167,8 @@ def reconstruct(
         return
     click.echo(f"wrote {out}: {' x '.join(map(str, pixels))} pixels from {n:,} points{replaced}")
     if quality is not None:
-        click.echo(f"PSNR {quality.psnr:.2f} dB, SSIM {quality.ssim:.3f} of the darkness of {against}")
+        what = "lightness" if invert else "darkness"
+        click.echo(f"PSNR {quality.psnr:.2f} dB, SSIM {quality.ssim:.3f} of the {what} of {against}")
 
 
 def _check(points: Path, out: Path, against: str | None) -> None:

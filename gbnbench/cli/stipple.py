@@ -50,10 +50,19 @@ Examples:
     type=float,
     default=1.0,
     show_default=True,
-    help="Exponent of the tones; 2.2 takes them as light, with denser mid-tones.",
+    help="Exponent of the tones; 2.2 takes them as light: denser mid-tones, with --invert sparser.",
 )
-@click.option("--white-cutoff", type=float, help="Tone, 0 to 1, from which on there are no dots.")
-@click.option("--toroidal", is_flag=True, help="Opposite borders meet, for tiles.")
+@click.option(
+    "--white-cutoff",
+    type=float,
+    help="Tone, 0 to 1, from which on there are no dots; with --invert, on black paper, no dots at 1 less "
+    "that or darker.",
+)
+@click.option(
+    "--toroidal",
+    is_flag=True,
+    help="Opposite borders meet, for tiles; in pictures dots that cross one are drawn at both.",
+)
 @click.option(
     "--colour",
     type=click.Choice(["cmyk", "palette"]),

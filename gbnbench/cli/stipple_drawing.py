@@ -10,6 +10,7 @@ from gbnbench.api.drawing import draw_inks, in_progressive_order
 from gbnbench.api.page_style import PageStyle, page_of
 from gbnbench.api.stippled_page import in_tour_order
 from gbnbench.cli import stipple_input
+from gbnbench.cli.stipple_text import summary
 from gbnbench.generators.adaptive.protocol import AdaptiveGenerator
 from gbnbench.reports.stippling.gcode import GcodeTemplate
 from gbnbench.reports.stippling.page import Page
@@ -129,11 +130,7 @@ class DrawnImage:
     @property
     def summary(self) -> str:
         """Say how many dots there are, how large, on what page."""
-        said = ", ".join(f"{len(made.pixels):,} dots of {name}" for name, made in self.layers.items())
-        ends = (end for layer in self.page.layers for end in (layer.radii.min(), layer.radii.max()))
-        sizes = sorted({round(2 * end, 3) for end in ends})
-        across = f"{sizes[0]:g}" if len(sizes) == 1 else f"{sizes[0]:g} to {sizes[-1]:g}"
-        return f"{said}, {across} mm across, on {self.page.width:g} x {self.page.height:.4g} mm"
+        return summary(self.page)
 
 
 def planned(image: str, given: StippleOptions, suffix: str) -> PlannedImage:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 import click
+from click.core import ParameterSource
 
 from gbnbench.core.errors import InputError
 
@@ -95,6 +96,8 @@ def check(
         raise click.UsageError("--progressive is an order of the dots, and so is --order tour: leave out one")
     if order == "tour" and suffix in ANIMATIONS:
         raise click.UsageError(f"--order tour is not to be seen in {out}: leave it out")
+    if suffix in TEXTS and (useless := _without_effect(page)):
+        raise click.UsageError(f"{out} holds points and no page: leave out {' and '.join(useless)}")
     given = [
         f"--{name.replace('_', '-')}"
         for name in ("margin_mm", "paper", "ink")
@@ -106,6 +109,15 @@ def check(
         raise click.UsageError(f"{out} is drawn on the paper that lies there: leave out --paper")
     if inks and (page.paper is not None or page.ink is not None):
         raise click.UsageError("--paper and --ink are of one ink; several are mixed for white paper")
+
+
+def _without_effect(page: PageOptions) -> list[str]:
+    """Sizes that were given and change no points: with -n nothing follows from them."""
+    context = click.get_current_context(silent=True)
+    counted = context is not None and context.params.get("n") is not None
+    useless = ["--dot-mm"] if page.dot_mm is not None and counted else []
+    given = context is not None and context.get_parameter_source("width_mm") is not ParameterSource.DEFAULT
+    return ["--width-mm", *useless] if given and (counted or page.dot_mm is None) else useless
 
 
 def colours(page: PageOptions, *, invert: bool) -> tuple[str, str]:

@@ -8,6 +8,7 @@ from gbnbench.core.readable_text import in_one_line
 from gbnbench.reports.stippling.page import DotLayer, Page, rgb_of
 from gbnbench.reports.stippling.pdf import POINTS_A_MM
 from gbnbench.reports.stippling.svg import short
+from gbnbench.reports.stippling.tiles import drawn_layers
 
 HEAD = """\
 %!PS-Adobe-3.0 EPSF-3.0
@@ -49,9 +50,13 @@ def eps(page: Page) -> bytes:
         scale=POINTS_A_MM,
         down=short(-page.height),
     )
-    return f"{head}{_paper(page)}{''.join(map(_layer, page.layers))}grestore\nshowpage\n%%EOF\n".encode(
-        "ascii"
-    )
+    drawn = "".join(map(_layer, drawn_layers(page)))
+    return f"{head}{_clip(page)}{_paper(page)}{drawn}grestore\nshowpage\n%%EOF\n".encode("ascii")
+
+
+def _clip(page: Page) -> str:
+    """Cut off what hangs over the borders of a tile."""
+    return f"0 0 {short(page.width)} {short(page.height)} rectclip\n" if page.toroidal else ""
 
 
 def _paper(page: Page) -> str:

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from gbnbench.core.errors import FormatError, InputError
 from gbnbench.core.readable_text import in_one_line
+from gbnbench.io.points.file_format import reason
 from gbnbench.reports.stippling.page import Page
 
 FIELDS = {
@@ -87,12 +88,14 @@ def read_template(path: Path) -> GcodeTemplate:
     Raises
     ------
     FormatError
-        If it is missing, no TOML, or holds something else.
+        If it is missing, cannot be read, is no TOML, or holds something else.
     """
     try:
         given = tomllib.loads(path.read_text(encoding="utf-8"))
     except FileNotFoundError:
         raise FormatError(path, "there is no such file") from None
+    except OSError as error:
+        raise FormatError(path, f"cannot be read: {reason(error)}") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise FormatError(path, f"is no TOML: {error}") from None
     kinds = {field.name: type(field.default) for field in dataclasses.fields(GcodeTemplate)}

@@ -57,6 +57,9 @@ class Page:
         white ink covers black paper.
     margin : float
         Millimetres on each side of the picture.
+    toroidal : bool
+        Opposite borders of the picture meet: drawn, a dot that hangs over one is seen at the other too, and
+        nothing beyond the page. ``layers`` hold each dot once.
 
     Raises
     ------
@@ -71,6 +74,7 @@ class Page:
     text: str = ""
     paper: str = WHITE
     margin: float = 0.0
+    toroidal: bool = False
 
     def __post_init__(self) -> None:
         if not (self.width > 0 and self.height > 0):

@@ -7,6 +7,7 @@ import zlib
 from gbnbench.core.readable_text import in_one_line
 from gbnbench.reports.stippling.page import DotLayer, Page, rgb_of
 from gbnbench.reports.stippling.svg import short
+from gbnbench.reports.stippling.tiles import drawn_layers
 
 POINTS_A_MM = 72 / 25.4
 K = 0.5522847498  # control points of a quarter circle by a cubic, over the radius: off by 0.03% at most
@@ -29,8 +30,8 @@ def pdf(page: Page) -> bytes:
     """
     layers = range(len(page.layers))
     width, height = page.width * POINTS_A_MM, page.height * POINTS_A_MM
-    begin = f"{POINTS_A_MM:.8f} 0 0 {-POINTS_A_MM:.8f} 0 {height:.5f} cm\n{_paper(page)}"
-    drawn = begin + "".join(_layer(k, layer) for k, layer in enumerate(page.layers))
+    begin = f"{POINTS_A_MM:.8f} 0 0 {-POINTS_A_MM:.8f} 0 {height:.5f} cm\n{_clip(page)}{_paper(page)}"
+    drawn = begin + "".join(_layer(k, layer) for k, layer in enumerate(drawn_layers(page)))
     groups = " ".join(f"{8 + k} 0 R" for k in layers)
     named = " ".join(f"/L{k} {8 + k} 0 R" for k in layers)
     objects: list[str | bytes] = [
@@ -59,6 +60,11 @@ def pdf(page: Page) -> bytes:
         f"trailer\n<< /Size {size} /Root 1 0 R /Info 7 0 R >>\nstartxref\n{len(out)}\n%%EOF\n"
     )
     return bytes(out + tail.encode("ascii"))
+
+
+def _clip(page: Page) -> str:
+    """Cut off what hangs over the borders of a tile."""
+    return f"0 0 {short(page.width)} {short(page.height)} re W n\n" if page.toroidal else ""
 
 
 def _paper(page: Page) -> str:

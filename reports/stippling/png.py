@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from gbnbench.core.errors import InputError
 from gbnbench.reports.stippling.page import DotLayer, Page, rgb_of
+from gbnbench.reports.stippling.tiles import drawn_layers
 
 MM_AN_INCH = 25.4
 MOST_PIXELS = 89_478_485  # so that the picture can be read again
@@ -69,7 +70,7 @@ def pixels(page: Page, dpi: float) -> NDArray[np.uint8]:
     grey = all(len(set(rgb)) == 1 for rgb in colours)
     paper, *inks = (np.array(rgb[: 1 if grey else 3], np.float32) for rgb in colours)
     light = np.broadcast_to(paper, (rows, columns, len(paper))).copy()
-    for layer, ink in zip(page.layers, inks, strict=True):
+    for layer, ink in zip(drawn_layers(page), inks, strict=True):
         covered = _covered(page, layer, rows, columns)[..., None]
         light += covered * (light * ink if page.white else ink) - covered * light
     drawn = np.rint(255 * light).astype(np.uint8)

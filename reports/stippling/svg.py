@@ -6,6 +6,7 @@ from xml.sax.saxutils import escape, quoteattr
 
 from gbnbench.core.readable_text import in_one_line
 from gbnbench.reports.stippling.page import DIGITS, DotLayer, Page
+from gbnbench.reports.stippling.tiles import drawn_layers
 
 HEAD = """\
 <?xml version="1.0" encoding="UTF-8"?>
@@ -20,8 +21,12 @@ PAPER = """\
 """
 LAYER = """\
 <g inkscape:groupmode="layer" id="layer{number}" inkscape:label={name} fill="{colour}" \
-stroke="none"{blend}>
+stroke="none"{look}>
 """
+CLIP = """\
+<clipPath id="page"><rect width="{width}" height="{height}"/></clipPath>
+"""
+CLIPPED = ' clip-path="url(#page)"'
 MULTIPLY = ' style="mix-blend-mode:multiply"'
 
 
@@ -44,8 +49,10 @@ def svg(page: Page) -> bytes:
         shown="" if page.white else f' style="background:{page.paper}"',
     )  # fmt: skip
     paper = "" if page.white else PAPER.format(colour=page.paper)
-    blend = MULTIPLY if page.white else ""
-    layers = [_layer(number, layer, blend) for number, layer in enumerate(page.layers, 1)]
+    if page.toroidal:
+        paper += CLIP.format(width=short(page.width), height=short(page.height))
+    look = (CLIPPED if page.toroidal else "") + (MULTIPLY if page.white else "")
+    layers = [_layer(number, layer, look) for number, layer in enumerate(drawn_layers(page), 1)]
     return f"{head}{paper}{''.join(layers)}</svg>\n".encode()
 
 
@@ -61,9 +68,9 @@ def short(value: float) -> str:
     return "0" if text == "-0" else text
 
 
-def _layer(number: int, layer: DotLayer, blend: str) -> str:
+def _layer(number: int, layer: DotLayer, look: str) -> str:
     name = quoteattr(in_one_line(layer.name))
-    begin = LAYER.format(number=number, name=name, colour=layer.colour, blend=blend)
+    begin = LAYER.format(number=number, name=name, colour=layer.colour, look=look)
     dots = "".join(
         f'<circle cx="{short(x)}" cy="{short(y)}" r="{short(r)}"/>\n'
         for (x, y), r in zip(layer.centres.tolist(), layer.radii.tolist(), strict=True)

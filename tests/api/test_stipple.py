@@ -84,6 +84,8 @@ def test_tones_are_inverted_bent_and_cut():
     assert drawn() == pytest.approx([1, 0.75, 0.5, 0.25, 0], abs=1e-6)
     assert drawn(invert=True) == pytest.approx([0, 0.25, 0.5, 0.75, 1], abs=1e-6)
     assert drawn(gamma=2) == pytest.approx([1, 15 / 16, 3 / 4, 7 / 16, 0], abs=1e-6)
+    assert drawn(gamma=2, invert=True) == pytest.approx([0, 1 / 16, 1 / 4, 9 / 16, 1], abs=1e-6)
+    assert drawn(white_cutoff=0.7, invert=True, gamma=2) == pytest.approx([0, 0, 1 / 4, 9 / 16, 1], abs=1e-6)
     assert drawn(white_cutoff=0.5) == pytest.approx([1, 0.75, 0, 0, 0], abs=1e-6)
     assert drawn(white_cutoff=0.5, invert=True) == pytest.approx([0, 0, 0, 0.75, 1], abs=1e-6)
 
@@ -140,6 +142,9 @@ def test_progress_is_told():
         (corner(), {"gamma": 0}, "gamma must be above 0; got 0"),
         (corner(), {"gamma": float("nan")}, "gamma must be above 0"),
         (corner(), {"white_cutoff": 1.5}, "white_cutoff must be above 0 and at most 1; got 1.5"),
+        (corner(), {"invert": "no"}, "invert must be True or False; got 'no'"),
+        (corner(), {"toroidal": 1}, "toroidal must be True or False; got 1"),
+        (corner(), {"progressive": None}, "progressive must be True or False; got None"),
         (corner(), {"n": 0}, "n must be an integer >= 1; got 0"),
         (corner(), {"n": 2.5}, "n must be an integer >= 1; got 2.5"),
         (corner(), {"method": "gnb"}, "did you mean 'gbn'?"),

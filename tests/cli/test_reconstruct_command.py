@@ -93,6 +93,22 @@ def test_white_ink_is_turned_back(picture, capsys):
     assert "PSNR 30." in capsys.readouterr().out
 
 
+def test_a_negative_and_what_is_measured_are_told(picture, capsys):
+    made = gbnbench.stipple("x.png", 300, method=QUICK, invert=True)
+    Path("white.txt").write_bytes(text_of({"white": made}, ".txt"))
+    negative = "the picture is a negative: "
+    for name, invert, told in (
+        ("white.txt", (), f"{negative}white.txt holds white dots; add --invert for the image itself"),
+        ("dots.txt", ("--invert",), f"{negative}dots.txt holds black dots; leave out --invert"),
+        ("white.txt", ("--invert",), None),
+        ("dots.txt", (), None),
+    ):
+        assert command(name, "-o", "o.png", "--against", "x.png", *invert) == 0
+        said = capsys.readouterr()
+        assert told in said.err if told else negative not in said.err
+        assert f"of the {'lightness' if invert else 'darkness'} of x.png" in said.out
+
+
 def test_a_set_of_several_and_a_volume(picture):
     made = gbnbench.stipple("x.png", 60, method=QUICK)
     other = gbnbench.stipple("x.png", 50, method=QUICK)

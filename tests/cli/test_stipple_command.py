@@ -35,7 +35,7 @@ def command(*arguments: object) -> int:
 
 def page(suffix: str, width: float) -> tuple[object, ...]:
     """Options of a page without margin, which text has none of."""
-    return ("--width-mm", width) if suffix in ("csv", "txt") else ("--width-mm", width, "--margin-mm", 0)
+    return () if suffix in ("csv", "txt") else ("--width-mm", width, "--margin-mm", 0)
 
 
 def drawing(name: str) -> ElementTree.Element:
@@ -152,6 +152,12 @@ def test_a_preview_is_braille(picture, capsys):
     assert 50 <= sum((ord(sign) - 0x2800).bit_count() for line in lines for sign in line) <= 60
 
 
+def test_one_dot_and_fine_ones_are_told(picture, capsys):
+    assert command("x.png", "-n", 1, "-o", "o.svg", "--dot-mm", 0.00001, *QUICK) == 0
+    assert "wrote o.svg: 1 dot of black, 0.00001 mm across" in capsys.readouterr().out
+    assert "<desc>1 dot of black; " in Path("o.svg").read_text()
+
+
 def test_an_animation_is_said(here, capsys):
     first, second = (Pillow.fromarray(np.full((9, 9), grey, np.uint8)) for grey in (0, 99))
     first.save("a.gif", save_all=True, append_images=[second])
@@ -193,6 +199,12 @@ def test_an_animation_is_said(here, capsys):
             ("x.png", "-o", "o.csv", "--margin-mm", "0"),
             "holds points and no page: leave out --margin-mm",
         ),
+        (
+            ("x.png", "-o", "o.txt", "--width-mm", "90"),
+            "o.txt holds points and no page: leave out --width-mm",
+        ),
+        (("x.png", "-o", "o.csv", "--dot-mm", "2"), "o.csv holds points and no page: leave out --dot-mm"),
+        (("x.png", "-o", "o.txt", "--width-mm", "9", "--dot-mm", "2"), "leave out --width-mm and --dot-mm"),
         (("x.png", "-o", "o.txt", "--paper", "red"), "holds points and no page: leave out --paper"),
         (("x.png", "-o", "o.gcode", "--paper", "red"), "is drawn on the paper that lies there"),
         (("x.png", "-o", "o.svg", "--paper", "rad"), "'rad' is no colour"),

@@ -37,7 +37,9 @@ def drawing(name: str) -> ElementTree.Element:
 
 @pytest.mark.slow
 @pytest.mark.skipif(shutil.which("chromium") is None, reason="no chromium on PATH to open the drawing with")
-@pytest.mark.parametrize("colours", [(), ("--invert", "--ink", "gold", "--paper", "#024")])
+@pytest.mark.parametrize(
+    "colours", [(), ("--invert", "--ink", "gold", "--paper", "#024"), ("--toroidal", "--colour", "cmyk")]
+)
 def test_chromium_shows_an_svg_as_the_png_is(picture, colours):
     for suffix, dpi in (("svg", ()), ("png", ("--dpi", 127))):  # 800 pixels
         assert command("x.png", "-n", 200, "-o", f"o.{suffix}", *dpi, *colours, *QUICK) == 0
@@ -61,7 +63,14 @@ def test_chromium_shows_an_svg_as_the_png_is(picture, colours):
 @pytest.mark.slow
 @pytest.mark.skipif(shutil.which("pdftoppm") is None, reason="no pdftoppm on PATH to open the page with")
 @pytest.mark.parametrize(
-    "colours", [(), ("--invert",), ("--colour", "cmyk"), ("--invert", "--ink", "gold", "--paper", "#024")]
+    "colours",
+    [
+        (),
+        ("--invert",),
+        ("--colour", "cmyk"),
+        ("--invert", "--ink", "gold", "--paper", "#024"),
+        ("--toroidal", "--colour", "cmyk"),
+    ],
 )
 def test_a_pdf_reader_shows_the_page_as_the_png_is(picture, colours):
     for suffix, dpi in (("pdf", ()), ("png", ("--dpi", 127))):

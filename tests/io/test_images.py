@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import contextlib
+import errno
+import os
 import struct
 import zlib
 from pathlib import Path
@@ -224,6 +226,53 @@ def test_what_is_not_there_is_told_with_the_names(here):
         read_image("x.png")
     with pytest.raises(FormatError, match=r"is a folder"):
         read_image(here)
+
+
+@pytest.mark.parametrize("name", ["x.png", "x.tif", "x.npy"])
+@pytest.mark.parametrize("error", [errno.EACCES, errno.EIO])
+def test_what_the_system_will_not_read_is_not_called_damaged(here, monkeypatch, name, error):
+    np.save("x.npy", FIFTHS) if name == "x.npy" else Pillow.fromarray(STEPS).save(name)
+    opened = open
+
+    def refused(path, *arguments, **settings):
+        if Path(str(path)).name == name:
+            raise OSError(error, os.strerror(error), path)
+        return opened(path, *arguments, **settings)
+
+    monkeypatch.setattr("builtins.open", refused)  # root may read what nobody may
+    said = {errno.EACCES: "permission denied", errno.EIO: "input/output error"}[error]
+    with pytest.raises(FormatError, match=rf"^{name}: cannot be read: {said}$"):
+        read_image(name)
+
+
+@pytest.mark.filterwarnings("ignore:.*photometric:DeprecationWarning")
+def test_pages_and_planes_of_real_numbers_are_read(here):
+    tifffile = pytest.importorskip("tifffile")
+    stack = np.random.default_rng(4).random((4, 30, 40)).astype(np.float32)
+    tifffile.imwrite("pages.tif", stack, photometric="minisblack")
+    assert read_image("pages.tif").tones == pytest.approx(stack[0], **CLOSE)
+    assert read_image("pages.tif").remarks == ("pages.tif has 4 pages: the first is taken",)
+    tifffile.imwrite("grey.tif", stack.astype(float), photometric="minisblack", planarconfig="separate")
+    assert read_image("grey.tif").tones == pytest.approx(stack[0], **CLOSE)
+    assert read_image("grey.tif").remarks == ("grey.tif has 4 planes: the first is taken",)
+    tifffile.imwrite("rgb.tif", stack[:3], photometric="rgb")
+    assert read_image("rgb.tif").rgb == pytest.approx(np.moveaxis(stack[:3], 0, -1), **CLOSE)
+    tifffile.imwrite("rgba.tif", stack, photometric="rgb", extrasamples=["unassalpha"])
+    image = read_image("rgba.tif")
+    assert image.rgb == pytest.approx(np.moveaxis(1 - stack[3] * (1 - stack[:3]), 0, -1), abs=1e-6)
+    assert "4 planes, taken for red, green, blue and opacity as the file says" in image.remarks[0]
+
+
+def test_whole_numbers_of_32_bits_are_told_as_they_are(here):
+    tifffile = pytest.importorskip("tifffile")
+    tifffile.imwrite("u.tif", np.array([[0, 4_250_000_000]], np.uint32))
+    with pytest.raises(FormatError, match=r"u\.tif: its pixels are whole numbers from 0 to 4250000000, of"):
+        read_image("u.tif")
+    tifffile.imwrite("s.tif", np.array([[-5, 4]], np.int32))
+    with pytest.raises(FormatError, match=r"s\.tif: its pixels are whole numbers from -5 to 4, of"):
+        read_image("s.tif")
+    tifffile.imwrite("small.tif", np.array([[0, 65535]], np.uint32))
+    assert read_image("small.tif").tones.tolist() == [[0, 1]]
 
 
 def test_whole_numbers_without_a_white_are_refused(here):

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from gbnbench.core.errors import FormatError, InputError
 from gbnbench.core.readable_text import in_one_line
 from gbnbench.io.images.image import Image, Samples
+from gbnbench.io.points.file_format import reason
 
 ARRAY_SUFFIX = ".npy"
 COLOURS = (1, 2, 3, 4)  # values a pixel: grey, grey and alpha, colours, colours and alpha
@@ -31,11 +32,13 @@ def load_array(path: Path) -> NDArray[Any]:
     Raises
     ------
     FormatError
-        If it is no such file, or a damaged one.
+        If it cannot be read, is no such file, or a damaged one.
     """
     try:
         loaded = np.load(path, allow_pickle=False)
-    except (ValueError, EOFError, OSError, SyntaxError, TypeError) as error:
+    except OSError as error:
+        raise FormatError(path, f"cannot be read: {reason(error)}") from None
+    except (ValueError, EOFError, SyntaxError, TypeError) as error:
         raise FormatError(path, f"is no array that can be read ({error})") from None
     if not isinstance(loaded, np.ndarray):
         raise FormatError(path, "is an .npz of several arrays by its content: save one as .npy")

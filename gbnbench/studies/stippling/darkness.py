@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gbnbench.core.errors import FormatError, InputError
+from gbnbench.core.flags import check_flags
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.adaptive.density import Density, as_density, density_of
 from gbnbench.io.images import Image, read_image
@@ -33,12 +34,14 @@ class ToneCurve:
     Parameters
     ----------
     invert : bool
-        Light is dense: each tone is taken from 1 first.
+        Light is dense: white dots on black paper cover what black dots on white leave free.
     gamma : float
         Exponent of the tones, above 0: 1 takes them as they are coded, 2.2 as the light that they stand for,
-        which makes mid-tones denser.
+        which makes mid-tones denser, or sparser where light is dense.
     white_cutoff : float, optional
-        Tone, 0 to 1, from which on there are no points; by default only where it is 1.
+        How near to the paper's colour, 0 to 1, a tone is that gets no points: without invert tones of that
+        and above, with invert, where the paper is black, tones of 1 less that and below. By default only
+        where the tone is the paper's.
 
     Raises
     ------
@@ -51,6 +54,7 @@ class ToneCurve:
     white_cutoff: float | None = None
 
     def __post_init__(self) -> None:
+        check_flags(invert=self.invert)
         if not (math.isfinite(self.gamma) and self.gamma > 0):
             raise InputError(f"gamma must be above 0; got {self.gamma}")
         if self.white_cutoff is not None and not 0 < self.white_cutoff <= 1:
@@ -67,12 +71,13 @@ class ToneCurve:
         Returns
         -------
         float64
-            1 - tone^gamma, and 0 from the cutoff on.
+            1 - tone^gamma, inverted tone^gamma; 0 where the tone is the paper's by the cutoff.
         """
-        taken = 1 - tones if self.invert else tones
-        dark = 1 - taken if self.gamma == 1 else 1 - taken**self.gamma
+        light = tones if self.gamma == 1 else tones**self.gamma
+        dark = light if self.invert else 1 - light
         if self.white_cutoff is not None:
-            dark = np.where(taken >= self.white_cutoff, 0.0, dark)
+            paper = 1 - tones if self.invert else tones
+            dark = np.where(paper >= self.white_cutoff, 0.0, dark)
         return np.asarray(dark, np.float64)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from gbnbench.core.errors import InputError
+from gbnbench.core.flags import check_flags
 from gbnbench.core.torus import FloatArray
 
 BLACK = 0.99  # of the points lie where it is less dense than what is drawn black, unless coverage is given
@@ -31,8 +32,9 @@ def tones(density: FloatArray, *, coverage: float | None = None, invert: bool = 
     Raises
     ------
     InputError
-        If coverage is out of range.
+        If coverage is out of range, or invert neither True nor False.
     """
+    check_flags(invert=invert)
     if coverage is None:
         levels = np.sort(density, axis=None)
         below = np.cumsum(levels)

@@ -1,0 +1,41 @@
+"""What ``gbnbench stipple`` says of the dots that it drew."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gbnbench.reports.stippling.page import Page
+
+DIGITS = 3  # of a diameter below a millimetre, and decimals of a larger one
+
+
+def summary(page: Page) -> str:
+    """Tell how many dots there are of each ink, how large, and on what page.
+
+    Parameters
+    ----------
+    page : Page
+        The page, with at least one dot.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> from gbnbench.reports.stippling.page import DotLayer
+    >>> dot = DotLayer("black", "#000000", np.array([[2.0, 1.0]]), np.array([0.000005]))
+    >>> summary(Page(160, 120, (dot,)))
+    '1 dot of black, 0.00001 mm across, on 160 x 120 mm'
+    """
+    said = ", ".join(
+        f"{len(layer.radii):,} dot{'s' * (len(layer.radii) != 1)} of {layer.name}" for layer in page.layers
+    )
+    radii = np.concatenate([layer.radii for layer in page.layers])
+    least, most = (_millimetres(2 * float(radius)) for radius in (radii.min(), radii.max()))
+    across = least if least == most else f"{least} to {most}"
+    return f"{said}, {across} mm across, on {page.width:g} x {page.height:.4g} mm"
+
+
+def _millimetres(length: float) -> str:
+    return np.format_float_positional(length, DIGITS, fractional=length >= 1, trim="-")
