@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,7 +55,7 @@ def blurred_difference_map(
     if not width >= LEAST_WIDTH:
         raise InputError(f"width must be at least {LEAST_WIDTH:g} pixels, got {width:g}")
     wanted = density * (len(points) / density.sum())
-    mode = "wrap" if toroidal else "constant"
+    mode: Literal["wrap", "constant"] = "wrap" if toroidal else "constant"
 
     def blurred(image: FloatArray, variance: float) -> FloatArray:
         found: FloatArray = ndimage.gaussian_filter(image, np.sqrt(variance), mode=mode, truncate=REACH)

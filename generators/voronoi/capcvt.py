@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.power_cells.diagram import PowerDiagram, power_diagram
 from gbnbench.generators.protocol import Family
-from gbnbench.generators.ranges import check_least, outside_plane
+from gbnbench.generators.ranges import check_least, check_range, outside_plane
 from gbnbench.generators.set_by_set import SetBySet, Told
 
+MOST_CAPACITY = 1e12  # beyond which rounding of areas outweighs the integrals
 CORRECTIONS = 7  # pairs of steps and changes of the gradient that L-BFGS keeps
 PROGRAM_SHARE = 1 / 12  # of the integrals in the sum that the authors' program gives its line search
 
@@ -61,7 +62,7 @@ class CapacityConstrainedVoronoi(SetBySet):
     iterations : int
         Steps of L-BFGS, >= 1.
     capacity : float
-        Price of unequal areas, >= 0; 0 gives a centroidal Voronoi tessellation.
+        Price of unequal areas, 0 to 1e12; 0 gives a centroidal Voronoi tessellation.
     energy : {"formula", "program"}
         What the line search compares: the energy as published, whose gradient it follows; or, with the same
         gradient, the sum that the authors' program computes, in which the integrals count a twelfth.
@@ -128,7 +129,7 @@ class CapacityConstrainedVoronoi(SetBySet):
 
     def __post_init__(self) -> None:
         check_least("iterations", self.iterations, 1)
-        check_least("capacity", self.capacity, 0)
+        check_range("capacity", self.capacity, 0, MOST_CAPACITY)
 
     def refusal(self, n: int, d: int) -> str | None:  # noqa: ARG002 (the protocol's arguments)
         """Say why not: d is other than 2.

@@ -14,6 +14,7 @@ import gbnbench
 import gbnbench.cli.spectrum_run
 from gbnbench.analysis.spectrum.limits import default_fmax
 from gbnbench.cli import run, share_progress
+from gbnbench.core.number_text import duration
 from gbnbench.io.data_files import read_csv
 from gbnbench.io.points import save
 from tests.cli.spectrum_files import Said, stored
@@ -102,13 +103,12 @@ def test_long_work_is_said_beforehand_and_shows_how_far_it_is(
     monkeypatch.setattr("gbnbench.cli.share_progress.PATIENCE", 0.0)
     _, err = said("a.txt", "--shells", "--fmax", 30, "-o", "r.npz")
     frequencies = gbnbench.plan(40, 2, 30, shells=True).request.frequencies
-    said_first = r"gbnbench: about 0 s, 0\.\d+ GB of memory at most: streamed two-group product in double"
+    said_first = r"gbnbench: about \S+ s, 0\.\d+ GB of memory at most: streamed two-group product in double"
     assert re.fullmatch(said_first, err.splitlines()[0])
     assert err.splitlines()[-1].startswith(f"{frequencies}/{frequencies} frequencies")
     worth = share_progress.worth_showing
     monkeypatch.setattr("gbnbench.cli.share_progress.PATIENCE", 1.0)
     assert [worth(*at) for at in ((0.9, 0.1), (1.1, 0.9), (1.1, 0.2))] == [False, False, True]
-    duration = share_progress.duration
     assert [duration(s) for s in (42, 600, 9e4, 2.4e6)] == ["42 s", "10 minutes", "25 hours", "27.8 days"]
 
 

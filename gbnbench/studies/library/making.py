@@ -19,7 +19,7 @@ from gbnbench.io.library.archive import pack, unpack
 from gbnbench.io.library.manifest import MANIFEST, Manifest
 from gbnbench.io.library.places import is_archive, manifest_of, open_place
 from gbnbench.runs.device_proof import run_device
-from gbnbench.runs.resumable import run_tasks
+from gbnbench.runs.every_task import run_tasks
 from gbnbench.runs.resumable_folder import SETTINGS, explain_interruption
 from gbnbench.studies.library.cost_progress import CostProgress
 from gbnbench.studies.library.library_folder import LibraryFolder
