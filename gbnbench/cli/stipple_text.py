@@ -1,4 +1,4 @@
-"""What ``gbnbench stipple`` says of the dots that it drew."""
+"""The line of ``gbnbench stipple`` that tells the dots it drew: how many, how large, on what page."""
 
 from __future__ import annotations
 
