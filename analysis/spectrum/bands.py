@@ -38,8 +38,8 @@ def separate_bands(band: Sequence[float] | Sequence[Sequence[float]] | None) -> 
     >>> separate_bands((1, 8)), separate_bands(None)
     ([(1, 8)], [None])
     """
-    listed = isinstance(band, (list, tuple, np.ndarray)) and len(band) > 0
-    if band is None or not (listed and isinstance(band[0], (list, tuple, np.ndarray))):
+    first = next(iter(band), None) if isinstance(band, (list, tuple, np.ndarray)) else None
+    if band is None or not isinstance(first, (list, tuple, np.ndarray)):
         return [band]  # type: ignore[list-item]
     found: list[Band] = []
     for low, high in sorted(_pair(one) for one in band):

@@ -144,12 +144,13 @@ def stipple(
     from gbnbench.studies.stippling.darkness import ToneCurve
 
     page = stipple_input.PageOptions(width_mm, margin_mm, dots, dot_mm, dpi, paper, ink)
-    many = len(images) > 1 or stipple_files.is_folder(out)
+    first, *others = images
+    many = bool(others) or stipple_files.is_folder(out)
     if many:
         files = stipple_files.files_of(images, out, file_format)
         stipple_files.check(out, frames, preview=preview)
     else:
-        files = {images[0]: stipple_files.file_of(out, file_format)}
+        files = {first: stipple_files.file_of(out, file_format)}
     for image, file in files.items():
         stipple_input.check(
             image, file, page, inks=colour is not None or palette is not None, order=order,
@@ -165,7 +166,7 @@ def stipple(
     if many:
         stipple_folder(files, given, jobs, quiet=quiet)
     else:
-        _stipple_one(images[0], files[images[0]], given, frames, preview=preview, quiet=quiet)
+        _stipple_one(first, files[first], given, frames, preview=preview, quiet=quiet)
 
 
 def _stipple_one(

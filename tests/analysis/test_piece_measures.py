@@ -35,6 +35,7 @@ def test_pieces_cover_the_sets_in_order_and_hold_whole_groups_or_parts_of_one(n:
     assert kept_groups(realizations) <= GROUPS
 
 
+@pytest.mark.slow
 def test_pieces_made_backwards_and_read_from_files_give_the_bits_of_the_whole(tmp_path):
     x = np.random.default_rng(1).random((150, 64, 2))
     plan = MeasuringPlan(64, 2, 150)
@@ -82,6 +83,7 @@ def test_the_jackknife_over_groups_of_a_mean_is_the_error_of_their_means():
     assert error == pytest.approx(np.std(groups / 5, ddof=1) / math.sqrt(8), rel=1e-12)
 
 
+@pytest.mark.slow
 def test_a_refusal_in_one_piece_is_that_of_the_source():
     x = np.random.default_rng(4).random((40, 12, 2))
     x[35, 3] = x[35, 7]
@@ -93,6 +95,7 @@ def test_a_refusal_in_one_piece_is_that_of_the_source():
     )
 
 
+@pytest.mark.slow
 def test_frequencies_beyond_the_cube_are_evaluated_by_every_piece_or_by_none():
     x = np.random.default_rng(5).random((18, 100, 7))
     plan = MeasuringPlan(100, 7, 18, curves=False)

@@ -12,6 +12,8 @@ from gbnbench.generators.registry import generate
 from gbnbench.studies import drawn_sets
 from gbnbench.studies.drawn_sets import drawing_pieces
 
+pytestmark = pytest.mark.slow
+
 
 def command(*arguments: object) -> int:
     return run(["generate", *map(str, arguments)])

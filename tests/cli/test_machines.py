@@ -100,6 +100,7 @@ def test_one_point_and_two(n: int, d: int, capsys: pytest.CaptureFixture[str]) -
     assert found["power_at_1"] == pytest.approx(power.mean(), rel=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("d", "shells"), [(50, 3), (100, 2), (300, 1)])
 def test_many_dimensions(d: int, shells: int, capsys: pytest.CaptureFixture[str]) -> None:
     x = write(8, d)

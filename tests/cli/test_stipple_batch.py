@@ -11,6 +11,8 @@ from PIL import Image as Pillow
 
 from gbnbench.cli import run
 
+pytestmark = pytest.mark.slow
+
 QUICK = ("-n", 40, "--method", "gbn[gradients=4]", "--quiet")
 
 

@@ -202,6 +202,7 @@ def test_faults_of_sources_are_said(tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["beyond.txt", "words.txt"]
 
 
+@pytest.mark.slow
 def test_stipplings_are_sources(tmp_path):
     made = gbnbench.stipple(DENSITY, 80, method="rejection", seed=4)
     run = compare_stipplings(DENSITY, [made, made.points], n=80, out=tmp_path / "run", jobs=1, quiet=True).run

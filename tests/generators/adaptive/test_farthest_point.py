@@ -76,6 +76,7 @@ def test_the_least_distance_never_falls():
     assert least[-1] > 0.85
 
 
+@pytest.mark.slow
 def test_a_constant_density_gives_sets_of_the_uniform_method():
     side = 128
     flat = as_density(np.ones((side, side)), toroidal=True)

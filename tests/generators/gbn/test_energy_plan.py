@@ -117,6 +117,7 @@ def test_waves_too_many_for_the_memory_are_refused():
         energy_evaluation(1_000_000, 2, 1.0, "double", edge=1.0)
 
 
+@pytest.mark.slow
 def test_costs_are_those_of_the_evaluations():
     """The count of frequencies, of images and the degree stand both in the plan and in what runs."""
     for n, d, sigma in ((64, 2, 1.0), (300, 2, 1.0), (40, 5, 0.5)):

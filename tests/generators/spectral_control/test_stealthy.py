@@ -100,6 +100,7 @@ def test_edges_that_bind_every_coordinate_are_refused(d, edge):
         Stealthy(edge=edge)(512, d, realization_rng(0, 0))
 
 
+@pytest.mark.slow
 def test_a_band_that_is_not_reached_is_never_returned():
     with pytest.raises(RefusalError, match="after 20 gradients"):
         Stealthy(edge=0.6, method="harmonics", most=20)(256, 2, realization_rng(0, 0))

@@ -19,6 +19,8 @@ from gbnbench.io.library.set_file import faults
 from gbnbench.studies.library.making import MadeLibrary, finished_files, make_library
 from gbnbench.studies.library.request import LibraryRequest, RequestedSets, library_request
 
+pytestmark = pytest.mark.slow
+
 NAMES = ("jittered", "random")
 
 
