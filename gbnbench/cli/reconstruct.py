@@ -187,7 +187,8 @@ def _darkness(against: str, invert: bool) -> FloatArray:
 def _stipplings(
     path: Path, reading: ReadingOptions, unit: str, size: tuple[int, ...] | None
 ) -> list[StippledPoints]:
-    from gbnbench.io.points.stippled_points import read_pixel_stipplings, read_stipplings
+    from gbnbench.io.points.image_stipplings import read_pixel_stipplings
+    from gbnbench.io.points.stippled_points import read_stipplings
 
     if unit == "square":
         try:

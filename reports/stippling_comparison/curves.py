@@ -37,7 +37,14 @@ def panel(ax: Axes, run: StipplingRun, pick: Pick, *, filtered: bool = False) ->
     filtered : bool
         Whether the spectra are those of sets blurred by a Gaussian of one mean spacing.
     """
-    found = [(k, radial) for k, source in enumerate(run.sources) if (radial := pick(source)) is not None]
+    found = [
+        (k, radial)
+        for k, source in enumerate(run.sources)
+        if (radial := pick(source)) is not None and len(radial.nu) > 0
+    ]
+    if not found:  # an image of few pixels a side has no whole cycle below the highest nu
+        layout.empty(ax, "no frequency so low")
+        return
     nu = max((radial.nu for _, radial in found), key=lambda values: float(values[-1]))
     white = gaussian_response(nu, FILTER) if filtered else np.ones(len(nu))
     ax.plot(nu, white, color=style.FAINT, linewidth=0.8, zorder=0)

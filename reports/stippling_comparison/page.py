@@ -21,6 +21,7 @@ from gbnbench.reports.stippling_comparison.table import COLUMNS, row_label, rows
 from gbnbench.studies.stippling_comparison.stippling_results import StipplingRun
 
 PANEL = 2.5  # inches, shown at 250 CSS pixels
+FLATTEST, TALLEST = 0.04, 4.0  # height of a panel over its width, whatever the image's
 ROWS = {  # alternative texts
     "points": "Points of {name}, first set",
     "close": "Points of {name} in the flattest square",
@@ -122,7 +123,7 @@ def _gallery(run: StipplingRun) -> list[tuple[str, Picture | None, list[Picture]
 
 
 def _picture(run: StipplingRun, alt: str, draw: Callable[..., None], *, square: bool = False) -> Picture:
-    ratio = 1.0 if square else run.density.shape[0] / run.density.shape[1]
+    ratio = 1.0 if square else min(max(run.density.shape[0] / run.density.shape[1], FLATTEST), TALLEST)
     figure = Figure(figsize=(PANEL, PANEL * ratio))
     draw(figure.add_axes((0.008, 0.008, 0.984, 0.984)))
     return Picture(alt, png(figure, dpi=200))

@@ -7,10 +7,9 @@ import pytest
 
 from gbnbench.core.errors import FormatError
 from gbnbench.io.points import ReadingOptions, reading_options
+from gbnbench.io.points.image_stipplings import read_pixel_stipplings, read_plane_stipplings
 from gbnbench.io.points.stippled_points import (
     PictureHeader,
-    read_pixel_stipplings,
-    read_plane_stipplings,
     read_stipplings,
 )
 
@@ -52,3 +51,12 @@ def test_inks_and_pictures_are_told(tmp_path):
     (tmp_path / "inks.csv").write_text("ink,x,y\ncyan,0.25,0.5\n")
     with pytest.raises(FormatError, match=r"inks\.csv, line 1: its dots are of several inks in one table"):
         read_plane_stipplings(tmp_path / "inks.csv", PLAIN, (40, 48))
+
+
+def test_points_of_the_unit_square_with_a_stray_one_are_not_taken_for_pixels(tmp_path):
+    x = np.random.default_rng(0).random((20, 2))
+    x[3, 0] = 1.2
+    np.savetxt(tmp_path / "stray.txt", x)
+    with pytest.raises(FormatError, match=r"coordinates go up to 1\.2: they are not all in the unit square"):
+        read_plane_stipplings(tmp_path / "stray.txt", PLAIN, (40, 48))
+    assert read_plane_stipplings(tmp_path / "stray.txt", PLAIN, (3, 3))[0].points.max() <= 1

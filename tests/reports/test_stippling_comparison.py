@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from gbnbench.api.stipplings import compare_stipplings
 from gbnbench.cli import run
 from gbnbench.generators.adaptive.density import as_density
 from gbnbench.generators.adaptive.registry import adaptive_points
@@ -142,3 +143,11 @@ def test_the_worst_source_does_not_set_the_scale_of_differences():
     assert gallery.difference_scale(five).linthresh == pytest.approx(0.03, rel=1e-6)
     text = gallery.figure(run).texts
     assert any("proportion up to 0.02," in " ".join(one.get_text().split()) for one in text)
+
+
+@pytest.mark.parametrize("shape", [(1, 600), (60, 1)])
+def test_an_image_of_one_row_or_column_has_its_report(shape, tmp_path):
+    ramp = np.linspace(0.1, 0.9, max(shape)).reshape(shape)
+    made = compare_stipplings(as_density(ramp), "rejection", n=30, out=tmp_path / "run", jobs=1, quiet=True)
+    assert made.failures == ()
+    assert made.report().read_text(encoding="utf-8").count("a side of fewer than 7 pixels") == 1

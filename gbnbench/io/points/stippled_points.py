@@ -25,8 +25,6 @@ from gbnbench.io.points.text_columns import column_names
 AMPLITUDE = "amplitude"  # name of their column
 INK = "ink"  # of the column that tells inks apart
 _HEADER = re.compile(r"# stippling, ([^:\n]*): ([0-9]+(?: x [0-9]+){1,2}) pixels, coverage ([0-9.e+-]+);")
-NAMED = ("x", "y")
-COLUMNS = (None, NAMED, ("1", "2"))  # of a plane, tried in turn
 _BELOW_1 = float(np.nextafter(1, 0))
 
 
@@ -121,91 +119,6 @@ def read_stipplings(path: str | os.PathLike[str], options: ReadingOptions) -> li
         StippledPoints(x, a, header, ink)
         for x, (_, a), (ink, header) in zip(fractions, sets, told, strict=True)
     ]
-
-
-def read_pixel_stipplings(
-    path: str | os.PathLike[str], options: ReadingOptions, size: tuple[int, ...]
-) -> list[StippledPoints]:
-    """Read stipplings whose coordinates are pixels, y down from the upper border.
-
-    Parameters
-    ----------
-    path, options
-        As ``read_stipplings`` takes them; the options tell no box.
-    size : tuple of int
-        Pixels along x, y (and z).
-
-    Returns
-    -------
-    list of StippledPoints
-        In the unit square, y up.
-
-    Raises
-    ------
-    FormatError
-        As by ``read_stipplings``, or if a point lies beyond the picture.
-    """
-    ends = tuple(float(end) for side in size for end in (0, side))
-    found = read_stipplings(path, replace(options, bounds=ends))
-    return [replace(one, points=_turned(one.points)) for one in found]
-
-
-def read_plane_stipplings(
-    path: str | os.PathLike[str], options: ReadingOptions, size: tuple[int, int]
-) -> list[StippledPoints]:
-    """Read stipplings of an image by any program, finding out their unit.
-
-    Parameters
-    ----------
-    path : path-like
-        The file.
-    options : ReadingOptions
-        How it is read. Where they tell no box, this is the unit square, y up, if no coordinate is beyond 1,
-        or else the picture in pixels, y down, or else the box that the file tells, y up. Where they name no
-        columns, these are all, or x and y, or the first two where none has a name: a third is often the
-        size of dots.
-    size : (width, height)
-        Pixels of the image.
-
-    Returns
-    -------
-    list of StippledPoints
-        Of a plane, in the unit square, y up.
-
-    Raises
-    ------
-    FormatError
-        If it cannot be read, or is of a volume.
-    """
-    units: list[tuple[bool, ReadingOptions]] = [(False, options)]
-    if options.period is None and options.bounds is None:
-        square = replace(options, bounds=(0.0, 1.0, 0.0, 1.0))
-        units = [(False, square), (True, options), (False, options)]
-    faults: list[FormatError] = []
-    volume = False
-    for columns in (options.columns,) if options.columns is not None else COLUMNS:
-        if volume and columns == NAMED:
-            continue
-        for down, chosen in units:
-            taken = replace(chosen, columns=columns)
-            try:
-                found = read_pixel_stipplings(path, taken, size) if down else read_stipplings(path, taken)
-            except FormatError as error:
-                faults.append(error)
-                continue
-            if all(one.points.shape[1] == 2 for one in found):
-                return found
-            volume = True
-    if volume:
-        raise FormatError(Path(path), "holds no points of a plane: name two columns by --columns")
-    raise faults[min(1, len(faults) - 1)]  # of pixels, where the file might be of both
-
-
-def _turned(points: FloatArray) -> FloatArray:
-    """Count y from the lower border."""
-    turned = points.copy()
-    turned[:, 1] = 1 - turned[:, 1]
-    return turned
 
 
 def _names(file: PointFile) -> tuple[str, ...]:

@@ -9,7 +9,7 @@ import numpy as np
 from gbnbench.core.errors import FormatError
 from gbnbench.core.torus import FloatArray
 from gbnbench.io.points import ReadingOptions
-from gbnbench.io.points.stippled_points import read_plane_stipplings
+from gbnbench.io.points.image_stipplings import read_plane_stipplings
 from gbnbench.runs.file_sets import checksum, files_of, joint_checksum
 
 

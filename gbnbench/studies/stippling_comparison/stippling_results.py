@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gbnbench.analysis.reconstruction.image_quality import WINDOW
 from gbnbench.analysis.standard_errors import mean_over_sets
 from gbnbench.core.results.measures import Measures
 from gbnbench.core.results.radial import RadialPower
@@ -19,7 +20,12 @@ from gbnbench.studies.stippling_comparison.measured_set import MEASURES
 from gbnbench.studies.timed_draw import mean_cost
 
 NO_PATCH = "no square of the image holds 64 points"
-TOO_FINE = "kernels are too narrow for so large an image"
+# Why a measure is undefined, where it can be.
+REASONS = {
+    "relative_variance": "kernels are too narrow for so large an image",
+    "ssim": f"the image has a side of fewer than {WINDOW} pixels",
+    "patch_floor": NO_PATCH,
+}
 
 
 @dataclass(frozen=True)
@@ -112,7 +118,7 @@ def gathered(key: str, label: str, sets: Sequence[Mapping[str, NDArray[Any]]]) -
         each = np.array([float(one[measure.name]) for one in sets])
         values[measure.name], errors[measure.name] = mean_over_sets(each)
         if math.isnan(values[measure.name]):
-            reasons[measure.name] = NO_PATCH if measure.name == "patch_floor" else TOO_FINE
+            reasons[measure.name] = REASONS[measure.name]
     first = sets[0]
     drawn = [one for one in sets if "cpu_seconds" in one]
     return StipplingResult(
