@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from gbnbench.core.integer_frequencies import IntArray
 from gbnbench.core.torus import FloatArray
+from gbnbench.generators.gauss_newton.distinct_frequencies import distinct_frequencies
 
 ComplexArray = NDArray[np.complex128]
 BLOCK = 2**20  # entries of the two tables of one block of points
@@ -46,10 +47,10 @@ class WaveSums:
         self.lead = math.ceil(x.shape[1] / 2)
         self._kind: type[Any] = np.complex64 if single else np.complex128
         self._real: type[Any] = np.float32 if single else np.float64
-        self._first, self._row = _distinct_rows(f[:, : self.lead])
+        self._first, self._row = distinct_frequencies(f[:, : self.lead])
         trailing = f[:, self.lead :]
         self._sign = _signs(trailing)
-        self._second, self._column = _distinct_rows(trailing * self._sign[:, None])
+        self._second, self._column = distinct_frequencies(trailing * self._sign[:, None])
         self.shape = 2 * len(self._first), 2 * len(self._second)
         width = len(self._first) + len(self._second)
         self._size = max(64, BLOCK // width)
@@ -236,11 +237,3 @@ def _signs(f: IntArray) -> IntArray:
         return np.ones(len(f), np.int64)
     leading = f[np.arange(len(f)), np.argmax(f != 0, axis=1)]
     return np.where(leading < 0, -1, 1)
-
-
-def _distinct_rows(f: IntArray) -> tuple[IntArray, IntArray]:
-    """Rows that differ, and where each row of f stands among them."""
-    if f.shape[1] == 0:
-        return np.zeros((1, 0), np.int64), np.zeros(len(f), np.int64)
-    rows, place = np.unique(f, axis=0, return_inverse=True)
-    return rows, place.reshape(-1)
