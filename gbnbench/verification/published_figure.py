@@ -47,3 +47,8 @@ class PublishedFigure:
     def measure_name(self) -> str:
         """Name of the measure, as lists show it."""
         return self.measure if isinstance(self.measure, str) else self.measure.__name__
+
+    @property
+    def same_sets(self) -> tuple[str, int, int, int, int]:
+        """What figures of the same sets have in common: generator, n, d, number of sets and seed."""
+        return self.generator, self.n, self.d, self.sets, self.seed

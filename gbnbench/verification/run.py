@@ -6,13 +6,14 @@ import math
 import os
 from collections.abc import Sequence
 from itertools import groupby
+from operator import attrgetter
 
 from gbnbench.core.errors import InputError
 from gbnbench.execution.progress import Progress
 from gbnbench.runs.resumable import TaskRun
 from gbnbench.runs.task import Task
 from gbnbench.verification.published_figure import PublishedFigure
-from gbnbench.verification.verify import Verified, same_sets, verify
+from gbnbench.verification.verify import Verified, verify
 
 
 def verify_all(
@@ -41,7 +42,7 @@ def verify_all(
     """
     if jobs is not None and jobs < 1:
         raise InputError(f"jobs must be at least 1; got {jobs}")
-    groups = {str(k): tuple(group) for k, (_, group) in enumerate(groupby(figures, same_sets))}
+    groups = {str(k): tuple(group) for k, (_, group) in enumerate(groupby(figures, attrgetter("same_sets")))}
     tasks = [
         Task(key, f"drawing {_title(group[0])}", measured, (group,), done=f"measured {_title(group[0])}")
         for key, group in groups.items()

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from itertools import groupby
+from operator import attrgetter
 
 import numpy as np
 
@@ -59,16 +60,11 @@ def verify(
     InputError, RefusalError
         If a generator is unknown or cannot make the sets.
     """
-    for (generator, n, d, sets, seed), group in groupby(figures, same_sets):
+    for (generator, n, d, sets, seed), group in groupby(figures, attrgetter("same_sets")):
         if progress is not None:
             progress(generator)
         x = np.reshape(generate(generator, n=n, d=d, seed=seed, realizations=sets), (sets, n, d))
         yield from _measured(x, list(group))
-
-
-def same_sets(figure: PublishedFigure) -> tuple[str, int, int, int, int]:
-    """Return what figures of the same sets have in common: generator, n, d, number of sets and seed."""
-    return figure.generator, figure.n, figure.d, figure.sets, figure.seed
 
 
 def _measured(x: FloatArray, figures: list[PublishedFigure]) -> Iterator[Verified]:

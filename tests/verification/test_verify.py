@@ -14,7 +14,7 @@ from gbnbench.core.torus import FloatArray
 from gbnbench.generators.registry import find, generate
 from gbnbench.verification.published import PUBLISHED
 from gbnbench.verification.published_figure import PublishedFigure
-from gbnbench.verification.verify import Verified, same_sets, verify
+from gbnbench.verification.verify import Verified, verify
 
 
 @pytest.mark.parametrize("figure", PUBLISHED, ids=lambda f: f"{f.generator}-{f.measure_name}")
@@ -49,11 +49,11 @@ def test_ours_are_the_measures_of_the_sets() -> None:
 @cache
 def found_in_the_sets(shared: tuple[str, int, int, int, int]) -> list[Verified]:
     """Every figure of the same sets, which are drawn and measured once."""
-    return list(verify(figure for figure in PUBLISHED if same_sets(figure) == shared))
+    return list(verify(figure for figure in PUBLISHED if figure.same_sets == shared))
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("figure", PUBLISHED, ids=lambda f: f"{f.generator}-{f.measure_name}")
 def test_ours_agrees_with_what_was_published(figure: PublishedFigure) -> None:
-    (found,) = [one for one in found_in_the_sets(same_sets(figure)) if one.figure is figure]
+    (found,) = [one for one in found_in_the_sets(figure.same_sets) if one.figure is figure]
     assert found.agrees, (found.ours, figure.published)
