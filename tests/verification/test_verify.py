@@ -13,6 +13,7 @@ from gbnbench.analysis.measures import measures
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.registry import find, generate
 from gbnbench.verification.published import PUBLISHED
+from gbnbench.verification.published.set_figures import gain_in_integration, spread_of_voronoi_areas
 from gbnbench.verification.published_figure import PublishedFigure
 from gbnbench.verification.verify import Verified, verify
 
@@ -57,3 +58,9 @@ def found_in_the_sets(shared: tuple[str, int, int, int, int]) -> list[Verified]:
 def test_ours_agrees_with_what_was_published(figure: PublishedFigure) -> None:
     (found,) = [one for one in found_in_the_sets(figure.same_sets) if one.figure is figure]
     assert found.agrees, (found.ours, figure.published)
+
+
+def test_independent_points_gain_nothing_in_integration_and_a_lattice_has_equal_areas() -> None:
+    sets = generate("random", n=200, d=2, seed=1, realizations=40)
+    assert 1 / np.mean([1 / gain_in_integration(x) for x in sets]) == pytest.approx(1, abs=0.2)
+    assert spread_of_voronoi_areas(generate("grid", n=64, d=2)) == pytest.approx(0, abs=1e-9)
