@@ -165,4 +165,7 @@ def key_of(row: Mapping[str, str]) -> str:
 
 
 if __name__ == "__main__":
-    main()
+    # Workers find a task's function by the name of its module, which is not __main__ there.
+    from gbnbench.benchmarks.experiments import adaptive_quality
+
+    adaptive_quality.main()

@@ -183,4 +183,7 @@ def rows_of(number: int, sets: int) -> list[dict[str, object]]:
 
 
 if __name__ == "__main__":
-    main()
+    # Workers find a task's function by the name of its module, which is not __main__ there.
+    from gbnbench.benchmarks.experiments import window_coverage
+
+    window_coverage.main()
