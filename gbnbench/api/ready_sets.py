@@ -10,10 +10,10 @@ from gbnbench.core.errors import RefusalError
 from gbnbench.core.settings import specification
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.registry import find
-from gbnbench.io.library.entries import RefusedSets
-from gbnbench.io.library.manifest import Manifest
-from gbnbench.io.library.places import BUNDLED, Place, manifest_of, open_place
-from gbnbench.io.library.set_file import read_sets
+from gbnbench.io.set_library.entries import RefusedSets
+from gbnbench.io.set_library.manifest import Manifest
+from gbnbench.io.set_library.places import BUNDLED, Place, manifest_of, open_place
+from gbnbench.io.set_library.set_file import read_sets
 
 if TYPE_CHECKING:
     import pandas as pd

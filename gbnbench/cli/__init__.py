@@ -22,7 +22,7 @@ from gbnbench.cli.figures import figures
 from gbnbench.cli.generate import generate
 from gbnbench.cli.generators import generators
 from gbnbench.cli.integrate import integrate
-from gbnbench.cli.library import library
+from gbnbench.cli.make_library import library
 from gbnbench.cli.reconstruct import reconstruct
 from gbnbench.cli.report import report
 from gbnbench.cli.spectrum import spectrum

@@ -9,7 +9,7 @@ import pytest
 
 import gbnbench
 from gbnbench.core.errors import FormatError, InputError, RefusalError
-from tests.io.library.small_library import small_library
+from tests.io.set_library.small_library import small_library
 
 
 @pytest.fixture

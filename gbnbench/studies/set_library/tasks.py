@@ -9,9 +9,9 @@ from typing import Any
 
 from gbnbench.runs.task import Task
 from gbnbench.runs.task_keys import realization_key
-from gbnbench.studies.library.costs import file_cost
-from gbnbench.studies.library.draws import Draw, MeasuredSets, draw_or_refusal, measured_sets
-from gbnbench.studies.library.request import RequestedSets
+from gbnbench.studies.set_library.costs import file_cost
+from gbnbench.studies.set_library.draws import Draw, MeasuredSets, draw_or_refusal, measured_sets
+from gbnbench.studies.set_library.request import RequestedSets
 
 UNKNOWN = 1.0  # CPU seconds that progress takes a step for whose cost nobody knows
 Keep = Callable[[RequestedSets, MeasuredSets, Sequence[Draw]], Any]

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 
-from gbnbench.studies.library.operations import draw_operations
-from gbnbench.studies.library.request import RequestedSets
+from gbnbench.studies.set_library.operations import draw_operations
+from gbnbench.studies.set_library.request import RequestedSets
 
 COSTS = "measured_costs.csv"
 MEASURING = "measuring"  # its name for the measures of eight sets
@@ -155,4 +155,4 @@ def _rows() -> dict[tuple[str, int], list[tuple[int, float]]]:
 
 
 def _lines() -> list[str]:
-    return files("gbnbench.studies.library").joinpath(COSTS).read_text(encoding="utf-8").splitlines()
+    return files("gbnbench.studies.set_library").joinpath(COSTS).read_text(encoding="utf-8").splitlines()

@@ -12,9 +12,9 @@ from pathlib import Path
 
 from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.errors import InputError
-from gbnbench.io.library.manifest import MANIFEST, TABLE
-from gbnbench.io.library.places import Place, manifest_of
-from gbnbench.io.library.set_file import content
+from gbnbench.io.set_library.manifest import MANIFEST, TABLE
+from gbnbench.io.set_library.places import Place, manifest_of
+from gbnbench.io.set_library.set_file import content
 
 EPOCH = (1980, 1, 1, 0, 0, 0)  # the earliest time that a .zip can say
 

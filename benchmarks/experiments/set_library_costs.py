@@ -1,6 +1,6 @@
 """CPU seconds of ready sets by generator, n and d, by which ``gbnbench library`` tells what others cost.
 
-python -m gbnbench.benchmarks.experiments.library_costs a b ...   rewrites the package's measured_costs.csv
+python -m gbnbench.benchmarks.experiments.set_library_costs a b ...  rewrites the package's measured_costs.csv
 
 a, b, ... are libraries that were made on this machine, ``gbnbench library -o a ...``; what their manifests
 say of the cost of a set, and of measuring those of a file, is taken over, the first that has a size.
@@ -16,9 +16,9 @@ from pathlib import Path
 
 from gbnbench.benchmarks.timing.machine import processor
 from gbnbench.core.atomic_write import write_whole
-from gbnbench.io.library.manifest import Manifest
-from gbnbench.io.library.places import manifest_of, open_place
-from gbnbench.studies.library.costs import COSTS, MEASURED_SETS, MEASURING
+from gbnbench.io.set_library.manifest import Manifest
+from gbnbench.io.set_library.places import manifest_of, open_place
+from gbnbench.studies.set_library.costs import COSTS, MEASURED_SETS, MEASURING
 
 
 def cost_rows(manifests: Sequence[Manifest]) -> list[str]:
@@ -43,7 +43,7 @@ def main(places: Sequence[str]) -> None:
             manifests.append(manifest_of(place))
     rows = cost_rows(manifests)
     text = "\n".join([f"# {processor()}, one thread", "name,d,n,cpu_seconds", *rows, ""])
-    path = Path(str(files("gbnbench.studies.library"))) / COSTS
+    path = Path(str(files("gbnbench.studies.set_library"))) / COSTS
     write_whole(path, text.encode())
     print(f"wrote {path}: {len(rows)} rows")
 

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Protocol
 
 from gbnbench.core.errors import FormatError, InputError
-from gbnbench.io.library.manifest import MANIFEST, Manifest, decoded
+from gbnbench.io.set_library.manifest import MANIFEST, Manifest, decoded
 
 BUNDLED = "bundled"  # the name of the choice that is installed
 INSTALLED = "ready_sets.zip"  # its file, beside this module
@@ -148,7 +148,7 @@ def open_place(where: str | Path = BUNDLED) -> Iterator[Place]:
         If an archive cannot be read.
     """
     if where == BUNDLED:
-        content = files("gbnbench.io.library").joinpath(INSTALLED).read_bytes()
+        content = files("gbnbench.io.set_library").joinpath(INSTALLED).read_bytes()
         with zipfile.ZipFile(io.BytesIO(content)) as archive:
             yield Zip(Path(BUNDLED), archive)
         return

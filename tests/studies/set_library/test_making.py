@@ -14,10 +14,10 @@ import pytest
 
 import gbnbench
 from gbnbench.core.errors import InputError, RefusalError
-from gbnbench.io.library.places import Folder, manifest_of, open_place
-from gbnbench.io.library.set_file import faults
-from gbnbench.studies.library.making import MadeLibrary, finished_files, make_library
-from gbnbench.studies.library.request import LibraryRequest, RequestedSets, library_request
+from gbnbench.io.set_library.places import Folder, manifest_of, open_place
+from gbnbench.io.set_library.set_file import faults
+from gbnbench.studies.set_library.making import MadeLibrary, finished_files, make_library
+from gbnbench.studies.set_library.request import LibraryRequest, RequestedSets, library_request
 
 pytestmark = pytest.mark.slow
 

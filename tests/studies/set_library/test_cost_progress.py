@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gbnbench.execution.progress import Progress
-from gbnbench.studies.library.cost_progress import PARTS, CostProgress
+from gbnbench.studies.set_library.cost_progress import PARTS, CostProgress
 
 
 class Recorded(Progress):

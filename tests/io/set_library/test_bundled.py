@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import gbnbench
-from gbnbench.io.library.entries import ReadySets
-from gbnbench.io.library.manifest import Manifest
-from gbnbench.io.library.places import INSTALLED, manifest_of, open_place
-from gbnbench.io.library.set_file import faults, read_sets
+from gbnbench.io.set_library.entries import ReadySets
+from gbnbench.io.set_library.manifest import Manifest
+from gbnbench.io.set_library.places import INSTALLED, manifest_of, open_place
+from gbnbench.io.set_library.set_file import faults, read_sets
 from tests.oracles.power import mean_power
 
 MOST = 2_000_000  # bytes of the archive
@@ -24,7 +24,7 @@ def manifest() -> Manifest:
 
 
 def test_it_is_small_and_whole(manifest):
-    content = files("gbnbench.io.library").joinpath(INSTALLED).read_bytes()
+    content = files("gbnbench.io.set_library").joinpath(INSTALLED).read_bytes()
     assert len(content) < MOST
     with open_place() as place:
         assert faults(place, manifest) == {}

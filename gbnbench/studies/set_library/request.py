@@ -14,7 +14,7 @@ from gbnbench.generators.protocol import Generator
 from gbnbench.generators.registry import GENERATORS, find
 from gbnbench.generators.third_parties.discovery import provenance
 from gbnbench.generators.third_parties.faults import refusal_of
-from gbnbench.io.library.entries import RefusedSets, set_file_stem
+from gbnbench.io.set_library.entries import RefusedSets, set_file_stem
 from gbnbench.runs.source_names import unique_key
 
 DEFAULT_GENERATORS = ("gbn", "deep", "stealthy", "bnot")

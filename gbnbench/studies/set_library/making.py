@@ -15,16 +15,16 @@ from gbnbench import __version__
 from gbnbench.core.errors import InputError
 from gbnbench.core.least_values import require
 from gbnbench.execution.progress import Progress
-from gbnbench.io.library.archive import pack, unpack
-from gbnbench.io.library.manifest import MANIFEST, Manifest
-from gbnbench.io.library.places import is_archive, manifest_of, open_place
+from gbnbench.io.set_library.archive import pack, unpack
+from gbnbench.io.set_library.manifest import MANIFEST, Manifest
+from gbnbench.io.set_library.places import is_archive, manifest_of, open_place
 from gbnbench.runs.device_proof import run_device
 from gbnbench.runs.every_task import run_tasks
 from gbnbench.runs.resumable_folder import SETTINGS, explain_interruption
-from gbnbench.studies.library.cost_progress import CostProgress
-from gbnbench.studies.library.library_folder import LibraryFolder
-from gbnbench.studies.library.request import LibraryRequest, RequestedSets
-from gbnbench.studies.library.tasks import library_tasks, step_costs
+from gbnbench.studies.set_library.cost_progress import CostProgress
+from gbnbench.studies.set_library.library_folder import LibraryFolder
+from gbnbench.studies.set_library.request import LibraryRequest, RequestedSets
+from gbnbench.studies.set_library.tasks import library_tasks, step_costs
 
 UNFINISHED = ".unfinished"  # ends the name of the folder in which an archive is made
 

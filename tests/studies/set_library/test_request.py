@@ -6,7 +6,7 @@ import pytest
 
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.generators.registry import find
-from gbnbench.studies.library.request import DEFAULT_D, DEFAULT_GENERATORS, DEFAULT_N, library_request
+from gbnbench.studies.set_library.request import DEFAULT_D, DEFAULT_GENERATORS, DEFAULT_N, library_request
 
 
 def test_the_whole_is_every_size_of_four_generators_less_what_they_refuse():

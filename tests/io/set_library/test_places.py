@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 
 from gbnbench.core.errors import FormatError, InputError
-from gbnbench.io.library.archive import pack, unpack
-from gbnbench.io.library.manifest import Manifest
-from gbnbench.io.library.places import Folder, manifest_of, open_place
-from gbnbench.io.library.set_file import encoded, faults, read_sets
-from tests.io.library.small_library import small_library
+from gbnbench.io.set_library.archive import pack, unpack
+from gbnbench.io.set_library.manifest import Manifest
+from gbnbench.io.set_library.places import Folder, manifest_of, open_place
+from gbnbench.io.set_library.set_file import encoded, faults, read_sets
+from tests.io.set_library.small_library import small_library
 
 SUFFIXES = (".zip", ".tar", ".tar.gz", ".tgz")
 

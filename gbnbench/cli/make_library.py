@@ -67,10 +67,10 @@ def _make(
     generators: tuple[str, ...], n: tuple[int, ...], d: tuple[int, ...], realizations: int, seed: int,
     out: Path | None, dry_run: bool, jobs: int | None, quiet: bool,
 ) -> None:  # fmt: skip
-    from gbnbench.cli.library_text import count, plan_lines
+    from gbnbench.cli.set_library_text import count, plan_lines
     from gbnbench.execution import progress
-    from gbnbench.studies.library.making import check_place, finished_files, make_library
-    from gbnbench.studies.library.request import DEFAULT_GENERATORS, library_request
+    from gbnbench.studies.set_library.making import check_place, finished_files, make_library
+    from gbnbench.studies.set_library.request import DEFAULT_GENERATORS, library_request
 
     if out is None and not dry_run:
         raise click.UsageError("give -o FOLDER or -o FILE.zip, or --dry-run to see what would be made")
@@ -97,8 +97,8 @@ def _make(
 
 
 def _list(where: str) -> None:
-    from gbnbench.cli.library_text import list_lines
-    from gbnbench.io.library.places import manifest_of, open_place
+    from gbnbench.cli.set_library_text import list_lines
+    from gbnbench.io.set_library.places import manifest_of, open_place
 
     with open_place(where) as place:
         manifest = manifest_of(place)
@@ -107,9 +107,9 @@ def _list(where: str) -> None:
 
 
 def _check(where: str) -> None:
-    from gbnbench.cli.library_text import count
-    from gbnbench.io.library.places import manifest_of, open_place
-    from gbnbench.io.library.set_file import faults
+    from gbnbench.cli.set_library_text import count
+    from gbnbench.io.set_library.places import manifest_of, open_place
+    from gbnbench.io.set_library.set_file import faults
 
     with open_place(where) as place:
         manifest = manifest_of(place)
@@ -124,9 +124,9 @@ def _check(where: str) -> None:
 
 
 def _unpack(where: str, out: Path | None) -> None:
-    from gbnbench.cli.library_text import count
-    from gbnbench.io.library.archive import unpack
-    from gbnbench.io.library.places import open_place
+    from gbnbench.cli.set_library_text import count
+    from gbnbench.io.set_library.archive import unpack
+    from gbnbench.io.set_library.places import open_place
 
     if out is None:
         raise click.UsageError("--unpack goes with -o FOLDER")

@@ -10,8 +10,8 @@ from gbnbench.core.number_text import NOTHING, duration, number
 from gbnbench.core.text_table import aligned
 
 if TYPE_CHECKING:
-    from gbnbench.io.library.manifest import Manifest
-    from gbnbench.studies.library.request import LibraryRequest, RequestedSets
+    from gbnbench.io.set_library.manifest import Manifest
+    from gbnbench.studies.set_library.request import LibraryRequest, RequestedSets
 
 LISTED = ("noise_floor", "power_at_1", "peak", "min_distance", "psi6")
 HEADS = ("noise floor", "P(|f|=1)", "peak", "min dist", "psi6")
@@ -49,7 +49,7 @@ def plan_lines(request: LibraryRequest, there: Sequence[RequestedSets]) -> Itera
     str
         A line.
     """
-    from gbnbench.studies.library.costs import cost_machine, total_cost
+    from gbnbench.studies.set_library.costs import cost_machine, total_cost
 
     missing = [sets for sets in request.sets if sets not in there]
     groups: dict[tuple[str, int], list[RequestedSets]] = {}

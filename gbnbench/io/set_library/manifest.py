@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gbnbench.core.errors import FormatError
-from gbnbench.io.library.entries import ReadySets, RefusedSets
+from gbnbench.io.set_library.entries import ReadySets, RefusedSets
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -6,9 +6,9 @@ import math
 
 import pytest
 
-from gbnbench.studies.library import costs
-from gbnbench.studies.library.operations import draw_operations
-from gbnbench.studies.library.request import RequestedSets, library_request
+from gbnbench.studies.set_library import costs
+from gbnbench.studies.set_library.operations import draw_operations
+from gbnbench.studies.set_library.request import RequestedSets, library_request
 
 
 def only(text: str, n: int, d: int = 2, realizations: int = 8) -> RequestedSets:

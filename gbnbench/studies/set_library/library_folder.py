@@ -16,16 +16,16 @@ from gbnbench.core import atomic_write
 from gbnbench.core.errors import FormatError
 from gbnbench.core.results.measures import Measures
 from gbnbench.io import data_files
-from gbnbench.io.library.entries import ReadySets, RefusedSets
-from gbnbench.io.library.manifest import MANIFEST, TABLE, Manifest
-from gbnbench.io.library.places import Folder, manifest_of
-from gbnbench.io.library.set_file import content, encoded
+from gbnbench.io.set_library.entries import ReadySets, RefusedSets
+from gbnbench.io.set_library.manifest import MANIFEST, TABLE, Manifest
+from gbnbench.io.set_library.places import Folder, manifest_of
+from gbnbench.io.set_library.set_file import content, encoded
 from gbnbench.runs.comparison_folder import Realization
 from gbnbench.runs.provenance import versions
 from gbnbench.runs.resumable_folder import SETTINGS, ResumableFolder
 from gbnbench.runs.task_folder import FOLDER
-from gbnbench.studies.library.draws import Draw, MeasuredSets, RefusedDraw
-from gbnbench.studies.library.request import RequestedSets
+from gbnbench.studies.set_library.draws import Draw, MeasuredSets, RefusedDraw
+from gbnbench.studies.set_library.request import RequestedSets
 from gbnbench.studies.timed_draw import mean_cost
 
 Entry = ReadySets | RefusedSets

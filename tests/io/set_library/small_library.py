@@ -8,9 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
-from gbnbench.io.library.entries import ReadySets, RefusedSets
-from gbnbench.io.library.manifest import Manifest
-from gbnbench.io.library.set_file import encoded
+from gbnbench.io.set_library.entries import ReadySets, RefusedSets
+from gbnbench.io.set_library.manifest import Manifest
+from gbnbench.io.set_library.set_file import encoded
 
 
 def small_library(folder: Path) -> Manifest:

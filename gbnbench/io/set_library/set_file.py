@@ -9,9 +9,9 @@ import numpy as np
 
 from gbnbench.core.errors import FormatError
 from gbnbench.core.torus import FloatArray
-from gbnbench.io.library.entries import ReadySets
-from gbnbench.io.library.manifest import Manifest
-from gbnbench.io.library.places import Place
+from gbnbench.io.set_library.entries import ReadySets
+from gbnbench.io.set_library.manifest import Manifest
+from gbnbench.io.set_library.places import Place
 
 
 def encoded(sets: FloatArray) -> bytes:
