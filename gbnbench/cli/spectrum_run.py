@@ -9,6 +9,7 @@ from pathlib import Path
 import click
 import numpy as np
 
+from gbnbench.analysis.spectrum.evaluators.kept_memory import KEPT_BYTES
 from gbnbench.analysis.spectrum.settings import SpectrumSettings
 from gbnbench.analysis.spectrum.spectrum_plan import SpectrumPlan
 from gbnbench.cli.json_text import json_text
@@ -213,9 +214,14 @@ def compute(
 
 
 def _peak(sets: Sequence[LabelledSets], plans: Sequence[SpectrumPlan]) -> str:
-    """Say how much memory the process takes at most: all points, and what the largest plan needs."""
+    """Say how much memory the process takes at most.
+
+    It is that of all points, of the plan that takes most, and of the others as far as their memory is kept.
+    """
     points = sum(one.x.nbytes for one in sets)
-    return f"{(PROCESS_BYTES + points + max(plan.bytes for plan in plans)) / 1e9:.2g} GB of memory at most"
+    *others, largest = sorted({plan.request: plan.bytes for plan in plans}.values())
+    most = PROCESS_BYTES + points + largest + min(sum(others), KEPT_BYTES)
+    return f"{most / 1e9:.2g} GB of memory at most"
 
 
 def _weights(path: Path | None, sets: Sequence[LabelledSets]) -> list[FloatArray | None]:

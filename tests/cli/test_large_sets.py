@@ -166,13 +166,18 @@ sys.exit(code)
 """
 
 
-def peak_of(*arguments: str, cwd: Path) -> tuple[float, float]:
+def peak_of(*arguments: str, cwd: Path, **variables: str) -> tuple[float, float]:
     """Bytes that the command says it takes at most, and those that it took.
 
     getrusage would count those that the process which started it had.
     """
     done = subprocess.run(
-        [sys.executable, "-c", PEAK, *arguments], cwd=cwd, capture_output=True, text=True, check=True
+        [sys.executable, "-c", PEAK, *arguments],
+        cwd=cwd,
+        env=os.environ | variables,
+        capture_output=True,
+        text=True,
+        check=True,
     )
     (stated,) = re.findall(r"([\d.]+) GB (?:of memory )?at most", done.stderr)
     return float(stated) * 1e9, float(done.stderr.splitlines()[-1])
@@ -187,9 +192,14 @@ def peak_of(*arguments: str, cwd: Path) -> tuple[float, float]:
 )
 @pytest.mark.parametrize("d", [2, 3])
 def test_the_memory_that_is_stated_is_held(tmp_path: Path, arguments: list[str], d: int) -> None:
-    """Never more than was said, and not less than half of it, at a little over a million points."""
+    """Never more than was said, and not less than half of it, at a little over a million points.
+
+    In three dimensions no kernel has been compiled before: the compiler's own memory is in what is said.
+    """
+    variables = {}
     if d == 3:
+        variables = {"POCL_CACHE_DIR": str(tmp_path / "pocl"), "XDG_CACHE_HOME": str(tmp_path / "cache")}
         arguments = [{"900,901": "45,46", "1,64": "1,6", "600": "40"}.get(word, word) for word in arguments]
     np.save(tmp_path / "x.npy", np.random.default_rng(d).random((1_100_000, d)))
-    stated, measured = peak_of(*arguments, "x.npy", cwd=tmp_path)
+    stated, measured = peak_of(*arguments, "x.npy", cwd=tmp_path, **variables)
     assert measured <= stated <= 2 * measured
