@@ -53,7 +53,7 @@ def gbn(out: Path, quick: bool, jobs: int | None, as_json: bool, quiet: bool) ->
     Workers of --jobs and --executor time a set of a size each, with all its optimisers; their machines must
     have the same device, and seconds of different workers compare as far as these are alike.
     """
-    from gbnbench.execution.worker_pool import ONE_THREAD
+    from gbnbench.execution.one_thread import ONE_THREAD
 
     for variable in ("POCL_MAX_PTHREAD_COUNT", "POCL_CPU_MAX_CU_COUNT"):  # read when the device is opened
         os.environ.setdefault(variable, ONE_THREAD[variable])

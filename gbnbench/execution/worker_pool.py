@@ -20,22 +20,8 @@ from typing import IO, Any
 from gbnbench.core.garbage import OBJECTS
 from gbnbench.core.process_end import cause_of_end
 from gbnbench.execution.messages import receive, send
+from gbnbench.execution.one_thread import ONE_THREAD
 from gbnbench.opencl.device import DEVICE_VARIABLE, FOUND_VARIABLE, found_already, selected
-
-# One thread a worker: the processes share the cores, and CPU seconds then mean one core's seconds.
-ONE_THREAD = {
-    "POCL_MAX_PTHREAD_COUNT": "1",  # PoCL up to 4
-    "POCL_CPU_MAX_CU_COUNT": "1",  # PoCL from 5
-    "OMP_NUM_THREADS": "1",
-    "OPENBLAS_NUM_THREADS": "1",
-    "MKL_NUM_THREADS": "1",
-    "VECLIB_MAXIMUM_THREADS": "1",
-    # glibc gives memory back and takes it again all through a compilation of kernels, at half its time.
-    "MALLOC_ARENA_MAX": "1",
-    "MALLOC_TRIM_THRESHOLD_": "4000000000",
-    "MALLOC_TOP_PAD_": "67108864",
-    "MALLOC_MMAP_MAX_": "0",
-}
 
 BACKLOG = 8  # calls a worker that are given out at a time
 

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from gbnbench.execution.worker_pool import ONE_THREAD
+from gbnbench.execution.one_thread import ONE_THREAD
 from tests.processes import COMMAND
 
 ASKED = ["compare", "gbn[gradients=400]", "-n", "256", "--realizations", "20", "--quiet"]

@@ -14,7 +14,8 @@ import pytest
 from gbnbench.core.errors import InputError
 from gbnbench.execution import worker_pool
 from gbnbench.execution.calls import Calls
-from gbnbench.execution.worker_pool import ONE_THREAD, Pool
+from gbnbench.execution.one_thread import ONE_THREAD
+from gbnbench.execution.worker_pool import Pool
 from gbnbench.opencl import devices_present
 from tests.processes import NO_DEVICE
 

@@ -15,8 +15,9 @@ from typing import Any, ClassVar
 from gbnbench.core.errors import InputError, UnfinishedError
 from gbnbench.core.readable_text import in_one_line
 from gbnbench.execution.executors.extra import require
+from gbnbench.execution.one_thread import ONE_THREAD
 from gbnbench.execution.remote_call import Answer
-from gbnbench.execution.worker_pool import BACKLOG, ONE_THREAD
+from gbnbench.execution.worker_pool import BACKLOG
 
 LOCAL = "local"
 COUNTED_SECONDS = 5.0  # between counts of the workers

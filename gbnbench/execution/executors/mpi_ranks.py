@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from concurrent.futures import Future
 from dataclasses import dataclass
@@ -10,6 +9,7 @@ from typing import Any, ClassVar
 
 from gbnbench.core.errors import InputError
 from gbnbench.execution.executors.extra import require
+from gbnbench.execution.one_thread import one_thread
 from gbnbench.execution.worker_pool import BACKLOG
 
 START = "mpiexec -n 9 python -m mpi4py.futures -m gbnbench compare ... --executor mpi"
@@ -37,6 +37,7 @@ class MpiRanks:
     def start(self, jobs: int) -> RankWorkers:  # noqa: ARG002 - mpiexec has started them
         """Take the ranks that are there."""
         require("mpi4py", "mpi", self.name)
+        require("threadpoolctl", "mpi", self.name)
         if self.address:
             raise InputError(f"the executor mpi takes no address; got mpi:{self.address}")
         try:
@@ -114,11 +115,3 @@ class RankWorkers:
             False if no other is left.
         """
         return self.count > 1
-
-
-def one_thread() -> None:
-    """Let a rank compute with one thread, before libraries are loaded that look."""
-    from gbnbench.execution.worker_pool import ONE_THREAD
-
-    for name, value in ONE_THREAD.items():
-        os.environ.setdefault(name, value)

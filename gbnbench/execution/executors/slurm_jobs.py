@@ -15,7 +15,7 @@ from typing import Any, ClassVar
 from gbnbench.core.errors import InputError, UnfinishedError
 from gbnbench.core.readable_text import in_one_line
 from gbnbench.execution.executors.extra import require
-from gbnbench.execution.worker_pool import ONE_THREAD
+from gbnbench.execution.one_thread import carried_out
 
 CLUSTERS = ("slurm", "local", "debug")
 
@@ -68,6 +68,7 @@ class SlurmJobs:
     def start(self, jobs: int) -> JobWorkers:  # noqa: ARG002 - the settings say how many
         """Make ready to send jobs."""
         require("submitit", "slurm", self.name)
+        require("threadpoolctl", "slurm", self.name)
         cluster = self.address or "slurm"
         if cluster not in CLUSTERS:
             raise InputError(f"slurm takes no address but local or debug; got slurm:{self.address}")
@@ -200,23 +201,3 @@ class JobWorkers:
             return
         for future, value in zip(futures, values, strict=True):
             future.set_result(value)
-
-
-def carried_out(calls: Sequence[tuple[Any, ...]]) -> list[Any]:
-    """Carry out the calls of a job, one after another, with one thread.
-
-    Parameters
-    ----------
-    calls : sequence of tuple
-        A function and its arguments each.
-
-    Returns
-    -------
-    list
-        What they returned.
-    """
-    import os
-
-    for name, value in ONE_THREAD.items():
-        os.environ.setdefault(name, value)
-    return [function(*arguments) for function, *arguments in calls]
