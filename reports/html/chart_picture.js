@@ -73,7 +73,6 @@ function axesAndColours(data) {
     ticks: "outside",
     tickcolor: colour("--soft"),
     exponentformat: "power",
-    ...(from.log ? { dtick: stride(ends(from)) } : {}),
     ...more,
   });
   const layout = {
@@ -95,6 +94,8 @@ function axesAndColours(data) {
     xaxis: axis(data.x, {
       anchor: data.panels.length > 1 ? "y2" : "y",
       hoverformat: ".4~g",
+      tickformat: "~g", // 0.5 in full: of a bare 5 nobody knows the decade when no power of ten is in view
+      ...(data.x.log ? { nticks: 4 } : {}), // marks at 2 and 5 of a decade; of more, labels touch
       unifiedhovertitle: { text: "nu %{x:.4~g}" },
     }),
   };
@@ -120,9 +121,4 @@ function axesAndColours(data) {
 // A name is text: the library would read tags and %{...} in it.
 function plain(name) {
   return name.replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;").replace(/%\{/g, "%&#8203;{");
-}
-
-// Between the marks of an axis, in decades; D2 marks 2 and 5 within each.
-function stride([low, high]) {
-  return high - low < 3 ? "D2" : Math.ceil((high - low) / 9);
 }

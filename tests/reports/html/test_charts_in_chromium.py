@@ -37,6 +37,24 @@ def test_dragging_zooms_and_a_double_click_shows_all(opened, number):
     assert ranges(opened, number) == pytest.approx(before)
 
 
+MARKS = """axis => [...document.querySelectorAll('.chart')[0].querySelectorAll(`.${axis}tick text`)]
+    .map(text => text.textContent)"""
+
+
+def test_marks_are_numbers_in_full_however_far_one_zooms(opened):
+    """A bare digit says nothing where no power of ten is in view, nor does an axis without marks."""
+    drawn_chart(opened, 0)
+    zoom = "r => Plotly.relayout(document.querySelectorAll('.chart')[0], r)"
+    for low, high in ((0.15, 4.0), (0.3, 0.8), (0.52, 0.58), (1.02, 1.04)):
+        within = np.log10([low, high]).tolist()
+        opened.evaluate(zoom, {"xaxis.range": within, "yaxis.range": within})
+        opened.wait_for_timeout(200)
+        marks = [float(text) for text in opened.evaluate(MARKS, "x")]
+        assert len(marks) >= 2
+        assert all(low <= mark <= high for mark in marks)
+        assert len(opened.evaluate(MARKS, "y")) >= 2
+
+
 def test_the_pointer_shows_the_values_of_all_sources(opened, run):
     chart = drawn_chart(opened, 0)
     chart.scroll_into_view_if_needed()
