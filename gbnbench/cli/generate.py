@@ -27,7 +27,9 @@ PATIENCE = 1.0  # seconds before progress is shown
 @click.argument("name")
 @click.option("-n", "n", type=click.IntRange(1), default=1024, show_default=True, help="Points a set.")
 @click.option("-d", "d", type=click.IntRange(1), default=2, show_default=True, help="Dimension.")
-@options.out_file("File to write, replacing any; its format goes by the suffix.", required=True)
+@options.out_file(
+    "File to write, replacing any; its format goes by the suffix. Only --explain needs none.", required=False
+)
 @click.option(
     "--checkpoint", type=click.Path(path_type=Path, dir_okay=False),
     help="File for the state of a long run; the same command goes on from it. Removed at the end.",
@@ -52,7 +54,7 @@ PATIENCE = 1.0  # seconds before progress is shown
 @options.quiet
 @options.device
 def generate(
-    name: str, n: int, d: int, realizations: int, seed: int, out: Path, checkpoint: Path | None,
+    name: str, n: int, d: int, realizations: int, seed: int, out: Path | None, checkpoint: Path | None,
     trace: Path | None, spectra_at: tuple[int, ...], explain: bool, jobs: int | None, quiet: bool,
 ) -> None:  # fmt: skip
     """Make point sets and write them to a file.
@@ -68,16 +70,11 @@ def generate(
     from gbnbench.io.points import save
     from gbnbench.io.points.writer import encode, write_atomically
 
-    encode(out, [[[0.0] * d]] * min(realizations, 2))  # what cannot be written is refused before the work
     if spectra_at and trace is None:
         raise click.UsageError("--spectra-at goes with --trace FILE")
     if trace is not None and trace.suffix != ".csv":
         raise InputError(f"a trace is a .csv file; got {trace}")
     generator = find(name)
-    for path in (out, trace, checkpoint):
-        check_folder(path)
-    if checkpoint is not None and checkpoint.absolute() in (out.absolute(), trace and trace.absolute()):
-        raise InputError(f"a checkpoint needs a file of its own; got {checkpoint} for two")
     gbn = generator if isinstance(generator, GaussianBlueNoise) else None
     if gbn is not None and max(spectra_at, default=0) > gbn.steps:
         raise InputError(
@@ -86,6 +83,13 @@ def generate(
     if explain:
         click.echo(gbn.explain(n, d, realizations) if gbn else f"{generator.name}: {generator.summary}")
         return
+    if out is None:
+        raise click.UsageError("name the file of the sets: -o FILE, such as -o sets.npz")
+    encode(out, [[[0.0] * d]] * min(realizations, 2))  # what cannot be written is refused before the work
+    for path in (out, trace, checkpoint):
+        check_folder(path)
+    if checkpoint is not None and checkpoint.absolute() in (out.absolute(), trace and trace.absolute()):
+        raise InputError(f"a checkpoint needs a file of its own; got {checkpoint} for two")
     sets = f"{'1 set' if realizations == 1 else f'{realizations} sets'} of {n} points, d={d}"
     replaced = ", replacing what was there" if out.exists() else ""
     if workers_wanted():

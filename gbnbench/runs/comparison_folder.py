@@ -198,7 +198,8 @@ def read_run(folder: str | Path) -> Run:
     if not (path / MANIFEST).is_file():
         if (path / SETTINGS).is_file():
             raise InputError(f"{path} is an unfinished run; the same gbnbench compare command finishes it")
-        raise InputError(f"{path} is not a run of gbnbench: it has no {MANIFEST}")
+        lack = f"it has no {MANIFEST}" if path.is_dir() else "there is no such folder"
+        raise InputError(f"{path} is not a run of gbnbench: {lack}")
     manifest = data_files.read_json(path / MANIFEST)
     if manifest.get("format") != FORMAT:
         found = manifest.get("format")

@@ -141,7 +141,7 @@ def test_sets_of_several_files_go_together(tmp_path: Path):
         ("sets.png", {}, "pictures hold masks"),
         ("sets.json", {"number_type": "uint32"}, "uint32 is written to .h, .bin and .raw"),
         ("sets.xyz", {}, "XYZ holds points of three dimensions; got d=2"),
-        ("sets.ply", {}, "a PLY file holds one set; got 2"),
+        ("sets.ply", {}, "a PLY file holds one set; got several, which .npz and .txt hold"),
         ("sets.h", {"number_type": "half"}, "type must be one of"),
         ("sets.h", {"copies": 0}, "copies must be a whole number of at least 1; got 0"),
         ("sets.h", {"flip": [2]}, "flip must name axes of 0 to 1"),

@@ -32,6 +32,14 @@ def test_a_trace_and_spectra_stand_beside_the_points(here, capsys):
     assert "1, 10, 30 gradients" in capsys.readouterr().out
 
 
+def test_explain_needs_no_file(here, capsys):
+    assert command("gbn", "-n", 4096, "--explain") == 0
+    without = capsys.readouterr().out
+    assert command("gbn", "-n", 4096, "--explain", "-o", "x.npy") == 0
+    assert capsys.readouterr().out == without != ""
+    assert list(Path().iterdir()) == []
+
+
 def test_a_checkpoint_is_removed_when_the_points_are_written(here):
     assert command("gbn[gradients=3]", "-n", 50, "-o", "x.txt", "--checkpoint", "state") == 0
     assert not Path("state").exists()
@@ -49,6 +57,7 @@ def test_a_foreign_checkpoint_is_an_error_that_keeps_it(here, capsys):
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
+        (("gbn",), "name the file of the sets: -o FILE, such as -o sets.npz"),
         (("gbn", "-o", "x.txt", "--spectra-at", "10"), "--spectra-at goes with --trace"),
         (("gbn", "-o", "x.txt", "--trace", "t.txt"), "a trace is a .csv file; got t.txt"),
         (("random", "-o", "x.txt", "--trace", "t.csv"), "random has no trace"),

@@ -68,7 +68,7 @@ def test_a_damaged_file_is_named_with_exit_code_1(library, here, capsys):
     assert command("--check", "copy") == 1
     out, err = capsys.readouterr()
     assert err == f"gbnbench: {file} was changed: its SHA-256 is not that of the manifest\n"
-    assert out == "copy: 1 of 2 files whole\n"
+    assert out == "copy: 1 of 2 files whole; the command that made the library makes the rest again\n"
 
 
 @pytest.mark.parametrize(

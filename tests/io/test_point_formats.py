@@ -221,7 +221,7 @@ def test_what_a_format_cannot_hold_is_refused(tmp_path: Path) -> None:
     for suffix in (".edat", ".dump"):
         with pytest.raises(InputError, match="which is not known here: give the sides by --period"):
             save(tmp_path / f"a{suffix}", PointSets([np.array(FLAT)], (2.0, 4.0), (0.0, 0.0)))
-    with pytest.raises(InputError, match="a PLY file holds one set; got 2"):
+    with pytest.raises(InputError, match="a PLY file holds one set; got several"):
         save(tmp_path / "a.ply", [A, A])
     with pytest.raises(InputError, match="at most three dimensions; got d=4"):
         save(tmp_path / "a.dump", np.zeros((2, 4)))

@@ -137,8 +137,10 @@ def test_the_tables_hold_every_source_and_measure(tmp_path: Path) -> None:
 
 
 def test_a_folder_without_its_manifest_is_no_run(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match=r"not a run of gbnbench: it has no manifest\.json"):
+    with pytest.raises(InputError, match="not a run of gbnbench: there is no such folder"):
         comparison_folder.read_run(tmp_path / "absent")
+    with pytest.raises(InputError, match=r"not a run of gbnbench: it has no manifest\.json"):
+        comparison_folder.read_run(tmp_path)
     folder = write(tmp_path / "run", result())
     assert folder.whole
     folder.begin()

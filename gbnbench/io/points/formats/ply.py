@@ -190,7 +190,7 @@ def _text(
 def _write(x: PointSets) -> bytes:
     d = x.sets[0].shape[1]
     if len(x.sets) > 1:
-        raise InputError(f"a PLY file holds one set; got {len(x.sets)}")
+        raise InputError("a PLY file holds one set; got several, which .npz and .txt hold")
     if d > 3:
         raise InputError(f"a PLY file holds points of at most three dimensions; got d={d}")
     head = [
