@@ -22,12 +22,14 @@ def command(*arguments: object) -> int:
     return run(["library", *map(str, arguments)])
 
 
+ASKED = ("jittered", "bnot", "-n", "16", "-d", "2-3", "--realizations", 2, "--jobs", 1)
+
+
 @pytest.fixture(scope="module")
 def library(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A small library, made by the command once."""
     out = tmp_path_factory.mktemp("made") / "sets"
-    asked = ("jittered", "bnot", "-n", "16", "-d", "2-3", "--realizations", 2, "-o", out, "--jobs", 1)
-    assert command(*asked, "--quiet") == 0
+    assert command(*ASKED, "-o", out, "--quiet") == 0
     return out
 
 
@@ -69,6 +71,8 @@ def test_a_damaged_file_is_named_with_exit_code_1(library, here, capsys):
     out, err = capsys.readouterr()
     assert err == f"gbnbench: {file} was changed: its SHA-256 is not that of the manifest\n"
     assert out == "copy: 1 of 2 files whole; the command that made the library makes the rest again\n"
+    assert command(*ASKED, "-o", "copy", "--quiet") == 0  # as is said: what was unpacked is a library too
+    assert command("--check", "copy") == 0
 
 
 @pytest.mark.parametrize(

@@ -158,7 +158,6 @@ def finished_files(request: LibraryRequest, out: Path) -> list[RequestedSets]:
 
 def _unpack(archive: Path, folder: Path, identity: dict[str, Any]) -> None:
     temporary = folder.with_name(f".{folder.name}.tmp")  # what a killed process left is of no use
-    temporary = folder.with_name(f".{folder.name}.tmp")  # what a killed process left there is no use
     shutil.rmtree(temporary, ignore_errors=True)
     try:
         with open_place(archive) as place:
