@@ -46,7 +46,10 @@ gbnbench.compare({"mine": sets(Mine(), 0)}, out=folder / "trusted", quiet=True)
 
 # %%
 # Later someone makes the jitter wider. The comparison says so. In a job of continuous integration the
-# same is ``gbnbench compare mine=sets.npz --baseline trusted``, whose exit code fails the job.
+# same are two commands: ``gbnbench compare mine.npz --out trusted`` once, with sets of the version that you
+# trust, and ``gbnbench compare mine.npz --baseline trusted`` in each job, with a file of that name which the
+# version at hand has made. The exit code of the second fails the job. A source is held against the one of its
+# own name.
 
 after = gbnbench.compare(
     {"mine": sets(Mine(width=0.8), 1)}, out=folder / "now", baseline=folder / "trusted", quiet=True

@@ -31,7 +31,7 @@ for (plane, ring), name in zip(axes.T, names, strict=True):
     ratio = variance / shells.power[several] ** 2
     ring.plot(shells.nu[several], 10 * np.log10(ratio), ".", markersize=2)
     ring.axhline(-10 * np.log10(REALIZATIONS), color="black", linewidth=0.8)
-    ring.set(xlabel="nu", ylabel="anisotropy in dB", ylim=(-20, 20))
+    ring.set(xlabel="nu", ylabel="anisotropy in dB", ylim=(-20, 5))
     print(f"{name:9} anisotropy {gbnbench.measures(x)['anisotropy_db']:6.1f} dB")
 
 # %%
