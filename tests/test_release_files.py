@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import os
 import re
+import shutil
 import subprocess
 import sys
 import tomllib
@@ -84,6 +86,22 @@ def test_files_keep_to_their_schema(schema, file):
     checker = [sys.executable, "-m", "check_jsonschema", "--builtin-schema", f"vendor.{schema}"]
     outcome = subprocess.run([*checker, str(ROOT / file)], capture_output=True, text=True, timeout=120)
     assert outcome.returncode == 0, outcome.stdout
+
+
+@pytest.mark.skipif(shutil.which("bash") is None or shutil.which("awk") is None, reason="no bash or awk")
+def test_the_page_of_a_release_has_its_own_section_of_the_changelog(tmp_path):
+    workflow = yaml.safe_load((ROOT / ".github" / "workflows" / "release.yml").read_text(encoding="utf-8"))
+    (script,) = [s["run"] for s in workflow["jobs"]["page"]["steps"] if "awk" in s.get("run", "")]
+    earlier, later = "## 0.0.1 - before\n- B\n", "# Changelog\n## 0.1.0.1 - after\n- C\n"
+    (tmp_path / "CHANGELOG.md").write_text(f"{later}## 0.1.0 - then\n- A ([how](docs/a.md))\n{earlier}")
+    place = {"GITHUB_SERVER_URL": "https://host", "GITHUB_REPOSITORY": "who/what"}
+    for tag, code in (("v0.1.0", 0), ("v0.2.0", 1)):
+        environment = {**os.environ, **place, "GITHUB_REF_NAME": tag}
+        done = subprocess.run(["bash", "-e", "-c", script], cwd=tmp_path, env=environment, check=False)
+        assert done.returncode == code
+        if code == 0:
+            expected = "## 0.1.0 - then\n- A ([how](https://host/who/what/blob/v0.1.0/docs/a.md))\n"
+            assert (tmp_path / "notes.md").read_text() == expected
 
 
 def test_the_paper_cites_what_its_bibliography_holds_and_nothing_else():
