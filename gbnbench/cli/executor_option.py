@@ -21,7 +21,8 @@ def executor(command: F) -> F:
             return command(*args, **kwargs)
         from gbnbench.execution.executor_choice import use_executor
 
-        with use_executor(executor, executor_config):
+        tell = None if kwargs.get("quiet") else functools.partial(click.echo, err=True)
+        with use_executor(executor, executor_config, tell):
             return command(*args, **kwargs)
 
     decorated = click.option(

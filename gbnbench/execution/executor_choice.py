@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import threading
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from pathlib import Path
@@ -13,6 +14,8 @@ from gbnbench.execution.executors.local_processes import LocalProcesses
 from gbnbench.execution.executors.registry import find
 from gbnbench.execution.protocol import Executor, Workers
 
+PATIENCE = 3.0  # seconds without an answer of any worker, before that is said
+
 
 class ChosenExecutor:
     """An executor whose workers are started when they are first needed, and then kept.
@@ -21,6 +24,8 @@ class ChosenExecutor:
     ----------
     executor : Executor
         Which.
+    tell : callable, optional
+        Given one line where workers are waited for.
 
     Attributes
     ----------
@@ -28,8 +33,8 @@ class ChosenExecutor:
         What was found out of its workers, such as their device.
     """
 
-    def __init__(self, executor: Executor) -> None:
-        self.executor = executor
+    def __init__(self, executor: Executor, tell: Callable[[str], None] | None = None) -> None:
+        self.executor, self._tell = executor, tell
         self.facts: dict[str, Any] = {}
         self._workers: Workers | None = None
 
@@ -75,6 +80,23 @@ class ChosenExecutor:
             if not self.remote:
                 self.close()
 
+    @contextmanager
+    def waiting(self) -> Iterator[None]:
+        """Say within a block that takes long that workers are waited for: a queue may hold them for hours.
+
+        Yields
+        ------
+        None
+        """
+        who = ":".join(filter(None, (self.executor.name, self.executor.address)))
+        timer = threading.Timer(PATIENCE, self._tell or str, [f"waiting for the first worker of {who}"])
+        timer.daemon = True
+        timer.start()
+        try:
+            yield
+        finally:
+            timer.cancel()
+
     def close(self) -> None:
         """End the workers that were started."""
         if self._workers is not None:
@@ -86,7 +108,9 @@ _chosen: ContextVar[ChosenExecutor | None] = ContextVar("executor", default=None
 
 
 @contextmanager
-def use_executor(text: str | None, config: str | Path | None = None) -> Iterator[None]:
+def use_executor(
+    text: str | None, config: str | Path | None = None, tell: Callable[[str], None] | None = None
+) -> Iterator[None]:
     """Let all work within a ``with`` block be done by an executor.
 
     Parameters
@@ -95,6 +119,8 @@ def use_executor(text: str | None, config: str | Path | None = None) -> Iterator
         As ``find`` takes it. None, without a file, changes nothing.
     config : path, optional
         A TOML file of settings.
+    tell : callable, optional
+        Given one line where its workers are waited for; by default nothing is said.
 
     Yields
     ------
@@ -108,7 +134,7 @@ def use_executor(text: str | None, config: str | Path | None = None) -> Iterator
     if text is None and config is None:
         yield
         return
-    chosen = ChosenExecutor(find(text, config))
+    chosen = ChosenExecutor(find(text, config), tell)
     token = _chosen.set(chosen)
     try:
         yield

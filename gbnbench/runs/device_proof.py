@@ -98,7 +98,7 @@ def run_device(jobs: int) -> Device | None:
     if not chosen.remote:
         return device_here("")
     if "device" not in chosen.facts:
-        with chosen.calls(jobs) as calls:
+        with chosen.waiting(), chosen.calls(jobs) as calls:
             asked = min(chosen.workers(jobs).count, MOST_ASKED)
             for k in range(asked):
                 calls.submit(k, device_here, selected())
