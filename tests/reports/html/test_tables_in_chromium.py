@@ -143,6 +143,24 @@ def test_runs_side_by_side_are_filtered_and_copied_with_their_verdicts(browser, 
     context.close()
 
 
+def test_a_phone_shows_a_value_beside_every_measure_of_runs(browser, tmp_path):
+    """Of what lies to the right of the window nobody knows that it is there."""
+    source = samples.source("gbn[gradients=20]", samples.random(16, 2, 9), 3, measured={"noise_floor": 1.0})
+    run = Run(samples.manifest(), (source,))
+    joined = joined_runs.joined(("before", "after"), (run, run))
+    write_report(joined.run, tmp_path / "both.html", joined=joined)
+    context = browser.new_context(viewport={"width": 390, "height": 844})
+    page = context.new_page()
+    page.set_default_timeout(LONG)
+    page.goto((tmp_path / "both.html").as_uri())
+    first_run = page.locator("table.runs tbody tr td:nth-child(3)").all()
+    card = page.locator(".scroll").first.bounding_box()
+    ends = [box["x"] + box["width"] for box in (cell.bounding_box() for cell in first_run)]
+    assert 0 < max(ends) <= card["x"] + card["width"] <= 390
+    assert page.evaluate("document.documentElement.scrollWidth") == 390
+    context.close()
+
+
 def test_a_definition_opens_beside_its_name(opened):
     note = opened.locator("#about-noise_floor")
     assert not note.is_visible()
