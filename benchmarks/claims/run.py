@@ -25,8 +25,8 @@ from gbnbench.benchmarks.claims.sets import MissingError, SetCache
 from gbnbench.benchmarks.timing.machine import describe
 from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.errors import GbnbenchError, InputError
+from gbnbench.execution.one_thread import ONE_THREAD
 from gbnbench.execution.progress import Progress
-from gbnbench.execution.worker_pool import ONE_THREAD
 from gbnbench.runs.resumable import TaskRun
 from gbnbench.runs.task import Task
 

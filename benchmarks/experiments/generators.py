@@ -29,7 +29,7 @@ from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.errors import GbnbenchError, InputError
 from gbnbench.core.settings import nearest
 from gbnbench.core.torus import FloatArray
-from gbnbench.execution.worker_pool import ONE_THREAD
+from gbnbench.execution.one_thread import ONE_THREAD
 from gbnbench.generators.registry import GENERATORS, generate
 
 CASES = ((1024, 2), (16_384, 2), (1000, 3))

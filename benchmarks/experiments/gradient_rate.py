@@ -23,7 +23,7 @@ import numpy as np
 from gbnbench.benchmarks.timing.interleaved import Timing, interleave
 from gbnbench.benchmarks.timing.machine import Rows, describe
 from gbnbench.core.atomic_write import write_whole
-from gbnbench.execution.worker_pool import ONE_THREAD
+from gbnbench.execution.one_thread import ONE_THREAD
 from gbnbench.generators.gbn.energy import energy_evaluation
 from gbnbench.generators.gbn.energy_cost import EnergyCost
 from gbnbench.generators.gbn.plan import plan_energy

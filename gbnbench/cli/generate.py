@@ -12,6 +12,7 @@ import click
 
 from gbnbench.cli import options
 from gbnbench.cli.executor_option import executor, workers_wanted
+from gbnbench.cli.needed_unless import NeededUnless
 from gbnbench.core.atomic_write import check_folder, remove_leftovers_of
 from gbnbench.core.errors import InputError
 
@@ -28,8 +29,9 @@ PATIENCE = 1.0  # seconds before progress is shown
 @click.option("-n", "n", type=click.IntRange(1), default=1024, show_default=True, help="Points a set.")
 @click.option("-d", "d", type=click.IntRange(1), default=2, show_default=True, help="Dimension.")
 @options.out_file(
-    "File to write, replacing any; its format goes by the suffix. Only --explain needs none.", required=False
-)
+    "File to write, replacing any; its format goes by the suffix. Only --explain needs none.",
+    cls=NeededUnless, unless="explain",
+)  # fmt: skip
 @click.option(
     "--checkpoint", type=click.Path(path_type=Path, dir_okay=False),
     help="File for the state of a long run; the same command goes on from it. Removed at the end.",
@@ -80,11 +82,9 @@ def generate(
         raise InputError(
             f"--spectra-at must be at most {gbn.steps}, the gradients of {name}; got {max(spectra_at)}"
         )
-    if explain:
+    if explain or out is None:  # which only --explain may lack
         click.echo(gbn.explain(n, d, realizations) if gbn else f"{generator.name}: {generator.summary}")
         return
-    if out is None:
-        raise click.UsageError("name the file of the sets: -o FILE, such as -o sets.npz")
     encode(out, [[[0.0] * d]] * min(realizations, 2))  # what cannot be written is refused before the work
     for path in (out, trace, checkpoint):
         check_folder(path)

@@ -110,15 +110,15 @@ class _NewFile(click.Path):
         return super().convert(value, param, ctx)
 
 
-def out_file(text: str, *, required: bool = False) -> Callable[[F], F]:
+def out_file(text: str, **settings: Any) -> Callable[[F], F]:
     """Return ``-o/--out`` of a file.
 
     Parameters
     ----------
     text : str
         Help.
-    required : bool
-        Whether the command does nothing without it.
+    **settings
+        More that ``click.option`` takes, such as ``required``.
 
     Returns
     -------
@@ -126,9 +126,8 @@ def out_file(text: str, *, required: bool = False) -> Callable[[F], F]:
         The decorator of a command.
     """
     return click.option(
-        "-o", "--out", metavar="FILE", type=_NewFile(path_type=Path, dir_okay=False), required=required,
-        help=text,
-    )  # fmt: skip
+        "-o", "--out", metavar="FILE", type=_NewFile(path_type=Path, dir_okay=False), help=text, **settings
+    )
 
 
 def quick_or_full(text: str, *, default: str) -> Callable[[F], F]:

@@ -57,7 +57,7 @@ def test_a_foreign_checkpoint_is_an_error_that_keeps_it(here, capsys):
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
-        (("gbn",), "name the file of the sets: -o FILE, such as -o sets.npz"),
+        (("gbn",), "Missing option '-o' / '--out'"),
         (("gbn", "-o", "x.txt", "--spectra-at", "10"), "--spectra-at goes with --trace"),
         (("gbn", "-o", "x.txt", "--trace", "t.txt"), "a trace is a .csv file; got t.txt"),
         (("random", "-o", "x.txt", "--trace", "t.csv"), "random has no trace"),

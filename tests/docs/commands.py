@@ -61,7 +61,8 @@ def check(arguments: list[str], whole: bool = True) -> None:
     for param in command.params:
         value = given.get(param.name)
         values = [value] if isinstance(value, str) else value if isinstance(value, (list, tuple)) else []
-        if whole and param.required and not values:
+        spared = given.get(getattr(param, "unless", None))
+        if whole and param.required and not values and not spared:
             raise click.MissingParameter(ctx=context, param=param)
         for each in values:
             if not PLACEHOLDER.fullmatch(each):
