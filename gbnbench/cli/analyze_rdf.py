@@ -74,4 +74,6 @@ def write_rdf(
             progress=tell,
         )
     write_atomically(out, data_files.to_csv(found.to_frame()))
-    click.echo(f"wrote {out}: {len(found.r)} bins as far as {found.r[-1]:.4g} densest spacings")
+    count = len(found.r)
+    width = f" of {found.r[1]:.4g} densest spacings, up to {count * found.r[1]:.4g}" if count > 1 else ""
+    click.echo(f"wrote {out}: {count} bins{width}; r is where a bin begins")

@@ -109,7 +109,8 @@ def test_g_of_r_as_far_as_was_asked_for(
     monkeypatch.chdir(tmp_path)
     np.save("two.npy", np.stack([X, X[::-1]]))
     assert run(["analyze", "two.npy", "--rdf", "g.csv", "--range", "4", "--bins", "50"]) == 0
-    assert capsys.readouterr().out == "wrote g.csv: 50 bins as far as 3.92 densest spacings\n"
+    said = "wrote g.csv: 50 bins of 0.08 densest spacings, up to 4; r is where a bin begins\n"
+    assert capsys.readouterr().out == said
     r, g = np.loadtxt("g.csv", delimiter=",", skiprows=1).T
     from gbnbench.analysis.spatial.rdf import rdf
 
