@@ -23,7 +23,8 @@ from gbnbench.generators.gauss_newton.targets import (
     target_amplitudes,
     target_power,
 )
-from gbnbench.generators.gauss_newton.wave_sums import ComplexArray, WaveSums
+from gbnbench.generators.gauss_newton.axis_waves import ComplexArray
+from gbnbench.generators.gauss_newton.wave_sums import WaveSums
 
 LONGEST = 0.5  # spacings: cap of one step's longest displacement
 HALVINGS = 6  # of a step before a start is given up

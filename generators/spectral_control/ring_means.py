@@ -13,7 +13,7 @@ import numpy as np
 from gbnbench.core.memory import too_large
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.gauss_newton.modes import ball_count, largest_square
-from gbnbench.generators.gauss_newton.product_cost import wave_sum_operations
+from gbnbench.generators.gauss_newton.product_cost import list_operations, table_bytes, wave_sum_operations
 from gbnbench.generators.gauss_newton.targets import TargetPower
 from gbnbench.generators.monitor import Monitor, refuse_all_but_progress
 from gbnbench.generators.ranges import check_above, check_least, raise_refusal
@@ -102,9 +102,10 @@ class RingMeans(ABC):
                 f"no frequency of n={n} points in d={d} has nu below {highest:.4g}, so that nothing would be "
                 f"asked of them: the lowest has {math.pow(n, -1 / d):.4g}; raise highest"
             )
-        if reason := too_large(MODE_BYTES * d * ball_count(d, square)):
+        if reason := too_large(MODE_BYTES * d * ball_count(d, square) + table_bytes(n, d, square)):
             return f"the frequencies of n={n} points in d={d} up to nu={highest:.4g} {reason}; lower highest"
-        operations = SUMS * wave_sum_operations(n, d, square) * max(self.iterations, 1)
+        evaluation = SUMS * wave_sum_operations(n, d, square) + list_operations(n, d, square)
+        operations = evaluation * max(self.iterations, 1)
         if operations <= WORK:
             return None
         return (

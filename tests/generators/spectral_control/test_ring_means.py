@@ -123,6 +123,14 @@ def test_more_work_than_can_be_done_is_refused():
         generate("step", n=2**20)
 
 
+def test_work_on_a_line_and_of_few_points_up_to_high_frequencies_is_counted_whole():
+    """On a line tables are what takes time, of few points in many waves the listed frequencies."""
+    assert Step().refusal(4096, 1) is None
+    assert "too much work" in str(Step().refusal(16_384, 1))
+    assert Step(highest=100).refusal(64, 2) is None  # half a minute
+    assert "too much work" in str(Step(highest=400).refusal(64, 2))
+
+
 def test_progress_is_told_of_every_set():
     told: list[tuple[int, int, str]] = []
     monitor = Monitor(progress=lambda *now: told.append(now))
