@@ -9,8 +9,8 @@ import numpy as np
 
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
-from gbnbench.generators.gauss_newton.modes import Modes
 from gbnbench.generators.gauss_newton.axis_waves import ComplexArray
+from gbnbench.generators.gauss_newton.modes import Modes
 
 TargetPower = Callable[[FloatArray], FloatArray]
 PASSES = 4  # corrections of the start's profile by its rings' means

@@ -49,7 +49,7 @@ def test_the_memory_told_for_tables_is_taken():
 
 
 def test_what_lists_take_is_counted_where_products_are_little():
-    """On a line tables are all that takes time, and of few points in many waves the frequencies themselves."""
+    """On a line tables are all that takes time, of few points in many waves the frequencies."""
     line, plane = int(1.06 * 16_384) ** 2, 800**2
     assert list_operations(16_384, 1, line) > 10 * wave_sum_operations(16_384, 1, line)
     assert list_operations(64, 2, plane) > 10 * wave_sum_operations(64, 2, plane)
