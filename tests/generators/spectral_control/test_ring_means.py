@@ -65,6 +65,13 @@ def test_spectra_that_no_process_has_are_met_within_a_decibel(generator):
     assert fit.stray < 2e-3
 
 
+def test_a_generator_measures_its_own_fit():
+    generator = Staircase(iterations=20)
+    x = np.stack([generator(100, 2, realization_rng(1, k)) for k in range(2)])
+    fit, same = generator.fit(x), target_fit(x, generator.profile(2), 2.0)
+    assert (fit.rms_db, fit.stray, fit.highest) == (same.rms_db, same.stray, 2.0)
+
+
 def green(nu: FloatArray) -> FloatArray:
     return 1 - 0.9 * np.exp(-((nu - 0.8) ** 2) / 0.02)
 
