@@ -100,8 +100,13 @@ class TestTargeted:
             find("targeted[target=nowhere.csv]")
         with pytest.raises(InputError, match="target must be one of step, peak, staircase, a file"):
             find("targeted[target=none]")
-        with pytest.raises(InputError, match="target must be finite and >= 0 below the edge"):
-            generate("targeted", n=64, target=lambda nu: nu - 0.5)
+        for method in ("power", "correlation"):
+            for wrong in (lambda nu: nu - 0.5, lambda nu: np.full(len(nu), np.nan)):
+                with pytest.raises(InputError, match="target must be finite and >= 0 below the edge"):
+                    generate("targeted", n=64, target=wrong, method=method)
+            for given in (np.ones(3), "one"):
+                with pytest.raises(InputError, match="target must give a power for each nu; got"):
+                    generate("targeted", n=64, target=lambda nu, given=given: given, method=method)
         with pytest.raises(InputError, match="highest must be at most the last nu of the target, 1"):
             Targeted(target=[[0.0, 1.0], [1.0, 1.0]], highest=1.5)  # type: ignore[arg-type]
 
