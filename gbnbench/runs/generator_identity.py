@@ -1,4 +1,4 @@
-"""What decides the points of a generator, as run folders keep it: its class, settings and files."""
+"""The identity of a generator in a run folder: its class, its settings and the files that they name."""
 
 from __future__ import annotations
 
