@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from gbnbench.analysis.precision import Precision
+from gbnbench.analysis.spectrum.cached_blocks import block_shape, cached_blocks
 from gbnbench.core.torus import FloatArray
-
-BLOCK = 1 << 15  # coordinates that are turned at once: they stay in cache from one step to the next
 
 
 class TurnRows:
@@ -35,8 +34,7 @@ class TurnRows:
     def __init__(self, p: Precision, sets: int, n: int, d: int, stride: int) -> None:
         self.rows = np.zeros((sets, d, stride), p.turn)
         self._n = n
-        self._sets, self._points = max(1, min(sets, BLOCK // (n * d))), max(1, min(n, BLOCK // d))
-        self._reals = np.empty((self._sets, self._points, d))
+        self._reals = np.empty((*block_shape(sets, n, d), d))
         self._runtime, self._cpu = p.runtime, p.runtime.device.is_cpu
         self.buffer = p.runtime.shared(self.rows) if self._cpu else p.runtime.empty(self.rows.nbytes)
         self.nbytes = self.rows.nbytes * (1 if self._cpu else 2) + self._reals.nbytes
@@ -57,17 +55,14 @@ class TurnRows:
         bits = 8 * self.rows.itemsize
         up = (0.0 if bits == 64 else 2.0 ** -(bits + 1)) + 2.0**-53
         signed = self.rows.view(np.int64 if bits == 64 else np.int32)
-        for begin in range(0, len(x), self._sets):
-            sets = slice(begin, min(begin + self._sets, len(x)))
-            for first in range(0, self._n, self._points):
-                points = slice(first, min(first + self._points, self._n))
-                some, rows = x[sets, points], signed[sets, :, points]
-                reals = self._reals[: some.shape[0], : some.shape[1]]
-                np.add(some, up, out=reals)
-                np.rint(reals, out=reals)  # 1 from 1/2 up, which is rounded upwards to be no tie
-                np.subtract(some, reals, out=reals)
-                reals *= 2.0**bits
-                np.rint(reals, out=reals)
-                np.copyto(rows, reals.transpose(0, 2, 1), casting="unsafe")
+        for sets, points in cached_blocks(*x.shape):
+            some, rows = x[sets, points], signed[sets, :, points]
+            reals = self._reals[: some.shape[0], : some.shape[1]]
+            np.add(some, up, out=reals)
+            np.rint(reals, out=reals)  # 1 from 1/2 up, which is rounded upwards to be no tie
+            np.subtract(some, reals, out=reals)
+            reals *= 2.0**bits
+            np.rint(reals, out=reals)
+            np.copyto(rows, reals.transpose(0, 2, 1), casting="unsafe")
         if not self._cpu:
             self._runtime.update(self.buffer, self.rows[: len(x)])
