@@ -115,7 +115,7 @@ class CapacityConstrained(SetBySet):
         return None
 
     def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
-        """Draw one realization that is not refused."""
+        """Draw one realization, as ``SetBySet.one_set`` says."""
         sites, capacity = rng.random((n, d)), self.samples
         for _ in range(SPLITS):
             capacity //= 4 if capacity % 4 == 0 else 1

@@ -92,7 +92,7 @@ class BestCandidate(SetBySet):
         return too_many(n, most, f"for best candidates, {self.candidates} a point, in d={d}")
 
     def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
-        """Draw one realization that is not refused."""
+        """Draw one realization, as ``SetBySet.one_set`` says."""
         x = np.empty((n, d))
         x[0] = rng.random(d)
         points = Nearest(x)

@@ -96,7 +96,7 @@ class Bridson(SetBySet):
         return too_many(n, most, f"for Bridson's method with {self.candidates} candidates in d={d}")
 
     def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
-        """Draw one realization that is not refused."""
+        """Draw one realization, as ``SetBySet.one_set`` says."""
         radius = START[min(d, len(START)) - 1] * saturated_radius(n, d)
         least = LEAST_RADIUS * radius
         for _ in range(RESTARTS):

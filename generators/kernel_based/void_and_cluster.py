@@ -130,7 +130,7 @@ class VoidAndCluster(SetBySet):
         return None
 
     def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
-        """Draw one realization that is not refused."""
+        """Draw one realization, as ``SetBySet.one_set`` says."""
         side = self.side(n, d)
         shape = (side,) * d
         kernel = gaussian(shape, self.sigma)
