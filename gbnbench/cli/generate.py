@@ -69,7 +69,8 @@ def generate(
     from gbnbench.generators.monitor import Trace
     from gbnbench.generators.registry import find
     from gbnbench.generators.registry import generate as draw
-    from gbnbench.io.points import save
+    from gbnbench.generators.spectral_control.ring_means import RingMeans
+    from gbnbench.io.points import load, save
     from gbnbench.io.points.writer import encode, write_atomically
 
     if spectra_at and trace is None:
@@ -96,12 +97,16 @@ def generate(
         by_workers.check_alone()
         reused = by_workers.generate_by_workers(generator, n, d, realizations, seed, out, jobs, quiet)
         click.echo(f"wrote {out}: {sets}{replaced}{reused}")
+        if isinstance(generator, RingMeans):
+            click.echo(generator.fit(load(out)))
         return
     kept = None if trace is None else Trace(keep_at=spectra_at)
     with _monitored(kept, checkpoint, quiet) as monitor:
         x = draw(name, n=n, d=d, seed=seed, realizations=realizations, monitor=monitor)
     save(out, x)
     click.echo(f"wrote {out}: {sets}{replaced}")
+    if isinstance(generator, RingMeans):
+        click.echo(generator.fit(x))
     if trace is not None and kept is not None:
         write_atomically(trace, kept.to_frame().to_csv(index=False).encode())
         click.echo(f"wrote {trace}: {len(kept.rows)} rows")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import hashlib
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
@@ -20,11 +19,10 @@ from gbnbench.core.sides import as_sides
 from gbnbench.core.torus import FloatArray, as_realizations
 from gbnbench.generators.kind_check import of_instance
 from gbnbench.generators.protocol import Generator
-from gbnbench.generators.registry import GENERATORS
-from gbnbench.generators.third_parties.discovery import provenance
 from gbnbench.generators.third_parties.faults import refusal_of
 from gbnbench.io.points import ReadingOptions
 from gbnbench.runs.file_sets import read_groups
+from gbnbench.runs.generator_identity import generator_identity
 from gbnbench.runs.named_groups import expanded
 from gbnbench.runs.source_names import generator_named, told_apart
 
@@ -82,14 +80,11 @@ class Source:
             read = {"reading": dict(self.reading)} if self.reading else {}
             box = {} if as_sides(self.sides, self.d) is None else {"sides": list(self.sides or ())}
             return {**same, "kind": self.kind, "sha256": self.digest, **read, **box}
-        kind = type(self.generator)
-        own = {} if GENERATORS.get(kind.name) is kind else provenance(kind)
         return {
             **same,
             "kind": "generator",
             "generator": self.generator.name,
-            **own,
-            "settings": dataclasses.asdict(self.generator),  # type: ignore[call-overload]
+            **generator_identity(self.generator),
         }
 
 

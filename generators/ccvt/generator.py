@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import warnings
 from dataclasses import dataclass
 from typing import ClassVar
@@ -12,14 +13,15 @@ from gbnbench.core.torus import FloatArray
 from gbnbench.generators.ccvt.assignment import sample_lattice, share_out, short_basis, split
 from gbnbench.generators.ccvt.swaps import Swaps, placed
 from gbnbench.generators.protocol import Family
-from gbnbench.generators.ranges import check_least, outside_plane, raise_refusal
+from gbnbench.generators.ranges import check_least, outside_plane
+from gbnbench.generators.set_by_set import SetBySet, Told
 
 SPLITS = 2  # times that each sample is split into four
 MOST = 2**25  # samples in all: some 2 GB while they are swapped
 
 
 @dataclass(frozen=True)
-class CapacityConstrained:
+class CapacityConstrained(SetBySet):
     """Sites at the centroids of equally many samples each, which no swap of two samples can bring nearer.
 
     Parameters
@@ -112,19 +114,19 @@ class CapacityConstrained:
             )
         return None
 
-    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
-        """Draw one realization, (n, 2) float64; RefusalError where ``refusal`` has a reason."""
-        raise_refusal(self.refusal(n, d))
+    def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
+        """Draw one realization, as ``SetBySet.one_set`` says."""
         sites, capacity = rng.random((n, d)), self.samples
         for _ in range(SPLITS):
             capacity //= 4 if capacity % 4 == 0 else 1
         samples, basis = sample_lattice(n * capacity, rng), short_basis(n * capacity)
         swaps = Swaps(sites, placed(sites, samples[share_out(sites, samples, rng)]))
-        self._settle(swaps, rng)
+        self._settle(swaps, rng, functools.partial(_between, told, 0.0, capacity / self.samples))
         while capacity < self.samples:
             swaps = Swaps(swaps.sites, split(swaps.offsets, basis))
-            capacity, basis = 4 * capacity, basis / 2
-            self._settle(swaps, rng)
+            before, capacity, basis = capacity / self.samples, 4 * capacity, basis / 2
+            after = capacity / self.samples
+            self._settle(swaps, rng, functools.partial(_between, told, before, after))
         if swaps.settled:
             return swaps.sites
         warnings.warn(
@@ -134,9 +136,14 @@ class CapacityConstrained:
         )
         return swaps.sites
 
-    def _settle(self, swaps: Swaps, rng: np.random.Generator) -> None:
-        """Swap until no swap is left, or for so many passes."""
+    def _settle(self, swaps: Swaps, rng: np.random.Generator, told: Told) -> None:
+        """Swap until no swap is left, or for so many passes; tell the share of sites that are at rest."""
         for _ in range(self.passes):
             if swaps.settled:
                 return
             swaps.sweep(rng)
+            told(swaps.at_rest)
+
+
+def _between(told: Told, before: float, after: float, share: float) -> None:
+    told(before + (after - before) * share)

@@ -79,6 +79,11 @@ class Swaps:
         return self._runtime.download(self._offsets_buffer, np.empty(self._shape))
 
     @property
+    def at_rest(self) -> float:
+        """Share of the sites that the last pass left as they were."""
+        return float(np.mean(self._changed == 0))
+
+    @property
     def energy(self) -> float:
         """Mean squared distance of a sample from its site."""
         return float(2 * np.mean(self.offsets**2))

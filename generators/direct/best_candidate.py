@@ -14,8 +14,10 @@ from gbnbench.core.torus import FloatArray
 from gbnbench.generators.direct.toroidal_tree import toroidal_tree
 from gbnbench.generators.lattices.regular_grid import grid_corners
 from gbnbench.generators.protocol import Family
-from gbnbench.generators.ranges import check_range, raise_refusal, too_many
+from gbnbench.generators.ranges import check_range, too_many
+from gbnbench.generators.set_by_set import SetBySet, Told
 
+TOLD = 16  # points after which progress is told
 PLAIN = 64  # points drawn from all their candidates, before cells pay
 CELLS_A_POINT = 64
 LOWER = 0.9  # the aim, when no candidate was as far
@@ -26,7 +28,7 @@ MOST_CELL_DIMENSIONS = 4
 
 
 @dataclass(frozen=True)
-class BestCandidate:
+class BestCandidate(SetBySet):
     """A sequence of points, each the best of candidates whose number grows with the points there are.
 
     Parameters
@@ -89,14 +91,15 @@ class BestCandidate:
         most = max(1, int(most / math.sqrt(self.candidates)))
         return too_many(n, most, f"for best candidates, {self.candidates} a point, in d={d}")
 
-    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
-        """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
-        raise_refusal(self.refusal(n, d))
+    def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
+        """Draw one realization, as ``SetBySet.one_set`` says."""
         x = np.empty((n, d))
         x[0] = rng.random(d)
         points = Nearest(x)
         bounds: Bounds | None = None
         for k in range(1, n):
+            if k % TOLD == 0:
+                told(k / n)
             points.count = k
             if k >= PLAIN and d <= MOST_CELL_DIMENSIONS:
                 if bounds is None or CELLS_A_POINT * k > 4 * len(bounds.high):

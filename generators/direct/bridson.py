@@ -12,13 +12,15 @@ from gbnbench.core.errors import RefusalError
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.direct.poisson_disk import ball_volume, saturated_radius
 from gbnbench.generators.protocol import Family
-from gbnbench.generators.ranges import check_range, raise_refusal, too_many, too_many_axes
+from gbnbench.generators.ranges import check_range, too_many, too_many_axes
+from gbnbench.generators.set_by_set import SetBySet, Told
 
 # First radius over that of a saturated set, d = 1 to 6: with 30 candidates it gives .98 n, as was measured.
 START = (0.92, 0.95, 0.93, 0.905, 0.9, 0.893)
 LARGER, SMALLER = 1.01, 0.99  # the radius after a front that did not close, and after one that closed early
 LEAST_SHARE = 0.96  # of n, in a front that is gone on from
 RESTARTS = 20
+TOLD = 16  # points after which progress is told
 LEAST_RADIUS = 0.5  # of the first: a front that closes early there does so at any radius
 MOST_POINTS = 100_000
 MOST_CANDIDATES = 10_000
@@ -27,7 +29,7 @@ MOST_DIMENSIONS = 100
 
 
 @dataclass(frozen=True)
-class Bridson:
+class Bridson(SetBySet):
     """Points that spread from the first: each is tried at one to two radii from an active point.
 
     Parameters
@@ -93,14 +95,13 @@ class Bridson:
         most = int(min(MOST_POINTS, max(math.sqrt(tried), tried / near)))
         return too_many(n, most, f"for Bridson's method with {self.candidates} candidates in d={d}")
 
-    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
-        """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
-        raise_refusal(self.refusal(n, d))
+    def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
+        """Draw one realization, as ``SetBySet.one_set`` says."""
         radius = START[min(d, len(START)) - 1] * saturated_radius(n, d)
         least = LEAST_RADIUS * radius
         for _ in range(RESTARTS):
             front = Front(n, rng.random(d), rng)
-            front.spread(radius, self.candidates)
+            front.spread(radius, self.candidates, told)
             if front.count == n and front.active:
                 radius *= LARGER
             elif front.count < LEAST_SHARE * n - 1:
@@ -115,7 +116,7 @@ class Bridson:
         while front.count < n:  # ends: any n points fit at some radius
             radius *= SMALLER
             front.active = list(range(front.count))
-            front.spread(radius, self.candidates)
+            front.spread(radius, self.candidates, told)
         return front.x
 
 
@@ -139,7 +140,7 @@ class Front:
         self.count = 1
         self.active = [0]
 
-    def spread(self, radius: float, candidates: int) -> None:
+    def spread(self, radius: float, candidates: int, told: Told) -> None:
         """Try points round active ones until there are n or none is active.
 
         Parameters
@@ -148,10 +149,14 @@ class Front:
             Least distance, in box sides.
         candidates : int
             Trials round an active point.
+        told : callable
+            Takes the share of the points that are there.
         """
         n, d = self.x.shape
         rng, active = self.rng, self.active
         while active and self.count < n:
+            if self.count % TOLD == 0:
+                told(self.count / n)
             place = int(rng.integers(len(active)))
             point = active[place]
             trials = self._shell(candidates, d, radius)

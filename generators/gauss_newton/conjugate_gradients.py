@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from gbnbench.generators.gauss_newton.wave_sums import ComplexArray
+from gbnbench.generators.gauss_newton.axis_waves import ComplexArray
 
 
 def inner(a: ComplexArray, b: ComplexArray) -> float:

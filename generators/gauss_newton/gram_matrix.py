@@ -14,9 +14,10 @@ from scipy import fft
 
 from gbnbench.core.integer_frequencies import IntArray, half_ball
 from gbnbench.core.torus import FloatArray
+from gbnbench.generators.gauss_newton.axis_waves import ComplexArray
 from gbnbench.generators.gauss_newton.modes import Modes
 from gbnbench.generators.gauss_newton.product_cost import convolutions_are_cheaper
-from gbnbench.generators.gauss_newton.wave_sums import ComplexArray, WaveSums
+from gbnbench.generators.gauss_newton.wave_sums import WaveSums
 
 
 class GramProduct(Protocol):

@@ -5,9 +5,11 @@ from __future__ import annotations
 import math
 
 from gbnbench.generators.gauss_newton.modes import ball_count, largest_square
+from gbnbench.generators.gauss_newton.wave_sums import BLOCK, HELD
 
 TRANSFORM = 5.0  # a real transform's operations over N log2 N, in the time of a matrix product's; measured
 LARGEST_GRID = 2**28  # 2 GB; two or three are alive at once
+ENTRY, MODE = 250.0, 5000.0  # operations in the time of an entry of the tables, and of a frequency; measured
 STEPS, PRODUCTS = 8, 300  # of a typical set
 WORK = 5e14  # most operations: some hours; a million points in the plane come to half of it
 
@@ -28,6 +30,61 @@ def wave_sum_operations(n: int, d: int, square: int) -> float:
     """
     lead = math.ceil(d / 2)
     return 2.0 * n * (ball_count(lead, square) + 2) * (ball_count(d - lead, square) + 2)
+
+
+def table_entries(n: int, d: int, square: int) -> float:
+    """Count the entries of the tables of waves of n points, of all |f|**2 <= square.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    square : int
+        Largest |f|**2.
+
+    Returns
+    -------
+    float
+    """
+    lead = math.ceil(d / 2)
+    return n * (ball_count(lead, square) / 2 + ball_count(d - lead, square) / 2 + 2)
+
+
+def table_bytes(n: int, d: int, square: int) -> float:
+    """Bytes that ``WaveSums`` takes for its tables at most: those of a block, in making, and those it keeps.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    square : int
+        Largest |f|**2.
+
+    Returns
+    -------
+    float
+    """
+    entries = table_entries(n, d, square)
+    block = min(entries, max(BLOCK, 64 / n * entries))
+    return 48 * block + (16 * entries if entries <= HELD else 0.0)
+
+
+def list_operations(n: int, d: int, square: int) -> float:
+    """Count what a sum and its gradient take besides products, as operations: tables, and each frequency.
+
+    Parameters
+    ----------
+    n, d : int
+        Points and dimension.
+    square : int
+        Largest |f|**2.
+
+    Returns
+    -------
+    float
+    """
+    entries = table_entries(n, d, square)
+    return ENTRY * entries * (1 if entries <= HELD else 2) + MODE * ball_count(d, square) / 2
 
 
 def convolution_operations(d: int, square: int) -> float:

@@ -14,6 +14,7 @@ import numpy as np
 
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray, wrap
+from gbnbench.generators.gauss_newton.axis_waves import ComplexArray
 from gbnbench.generators.gauss_newton.conjugate_gradients import forcing, inner, solve
 from gbnbench.generators.gauss_newton.gram_matrix import gram_product
 from gbnbench.generators.gauss_newton.modes import Modes, modes_below
@@ -23,7 +24,7 @@ from gbnbench.generators.gauss_newton.targets import (
     target_amplitudes,
     target_power,
 )
-from gbnbench.generators.gauss_newton.wave_sums import ComplexArray, WaveSums
+from gbnbench.generators.gauss_newton.wave_sums import WaveSums
 
 LONGEST = 0.5  # spacings: cap of one step's longest displacement
 HALVINGS = 6  # of a step before a start is given up

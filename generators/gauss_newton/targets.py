@@ -9,8 +9,8 @@ import numpy as np
 
 from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
+from gbnbench.generators.gauss_newton.axis_waves import ComplexArray
 from gbnbench.generators.gauss_newton.modes import Modes
-from gbnbench.generators.gauss_newton.wave_sums import ComplexArray
 
 TargetPower = Callable[[FloatArray], FloatArray]
 PASSES = 4  # corrections of the start's profile by its rings' means
@@ -35,15 +35,38 @@ def target_power(target: TargetPower | float, modes: Modes) -> FloatArray:
     InputError
         If it is negative or not finite anywhere.
     """
-    power = np.broadcast_to(
-        np.asarray(target(modes.nu) if callable(target) else target, dtype=np.float64), (len(modes),)
-    )
+    return power_at(target if callable(target) else lambda nu: np.full(len(nu), target), modes.nu)
+
+
+def power_at(target: TargetPower, nu: FloatArray) -> FloatArray:
+    """Evaluate a target at some nu, and check that it gives a power for each.
+
+    Parameters
+    ----------
+    target : callable
+        Power as a function of nu.
+    nu : (k,) float64
+        Where.
+
+    Returns
+    -------
+    (k,) float64
+
+    Raises
+    ------
+    InputError
+        If it gives anything but one number for all or one for each, or one that is negative or not finite.
+    """
+    given = target(nu)
+    try:
+        power = np.broadcast_to(np.asarray(given, dtype=np.float64), nu.shape)
+    except (TypeError, ValueError):
+        got = f"shape {np.shape(given)} for {len(nu)}" if np.ndim(given) else repr(given)
+        raise InputError(f"target must give a power for each nu; got {got}") from None
     wrong = ~(np.isfinite(power) & (power >= 0))
     if wrong.any():
         k = int(np.argmax(wrong))
-        raise InputError(
-            f"target must be finite and >= 0 below the edge; got {power[k]} at nu={modes.nu[k]:.4g}"
-        )
+        raise InputError(f"target must be finite and >= 0 below the edge; got {power[k]} at nu={nu[k]:.4g}")
     return power
 
 

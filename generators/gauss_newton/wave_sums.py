@@ -15,13 +15,12 @@ from numpy.typing import NDArray
 
 from gbnbench.core.integer_frequencies import IntArray
 from gbnbench.core.torus import FloatArray
+from gbnbench.generators.gauss_newton.axis_waves import ComplexArray, axis_waves, rising_waves
 from gbnbench.generators.gauss_newton.distinct_frequencies import distinct_frequencies
 
-ComplexArray = NDArray[np.complex128]
 BLOCK = 2**20  # entries of the two tables of one block of points
 HELD = 2**25  # entries kept from one product to the next where all blocks fit
 TILE = 64  # side of what BLAS multiplies at once
-SPLIT = 2.0**26  # a coordinate's leading bits, whose product with a frequency below 2**27 is exact
 
 
 class WaveSums:
@@ -151,45 +150,14 @@ class WaveSums:
 
     def _table(self, x: FloatArray, f: IntArray) -> NDArray[Any]:
         """Multiply the waves of each axis: (points, m)."""
-        table = np.ones((len(x), len(f)), np.complex128)
+        table: ComplexArray | None = None
         for a in range(x.shape[1]):
-            axis = axis_waves(x[:, a], int(np.abs(f[:, a]).max()))
-            table *= axis[:, f[:, a]]  # a negative frequency indexes from the end
-        return table.astype(self._kind)
-
-
-def axis_waves(x: FloatArray, fmax: int) -> ComplexArray:
-    """Evaluate exp(2 pi i f x) for f = 0..fmax, then -fmax..-1, to a few roundings.
-
-    Two levels, f = coarse j + i, take a sine and a cosine for about 2 sqrt(fmax) multiples of x alone.
-
-    Parameters
-    ----------
-    x : (n,) float64
-        Coordinates on one axis, box sides.
-    fmax : int
-        Highest frequency.
-
-    Returns
-    -------
-    (n, 2 fmax + 1) complex128
-    """
-    coarse = math.isqrt(fmax) + 1
-    fine = _sines_and_cosines(x, np.arange(coarse))
-    steps = _sines_and_cosines(x, np.arange(0, fmax + 1, coarse))
-    up = (steps[:, :, None] * fine[:, None, :]).reshape(len(x), -1)[:, : fmax + 1]
-    return np.concatenate([up, np.conj(up[:, :0:-1])], axis=1)
-
-
-def _sines_and_cosines(x: FloatArray, f: IntArray) -> ComplexArray:
-    head = np.rint(x * SPLIT) / SPLIT
-    turns = head[:, None] * f
-    turns = turns - np.rint(turns) + (x - head)[:, None] * f
-    out = np.empty(turns.shape, np.complex128)
-    turns *= 2 * math.pi
-    np.cos(turns, out=out.real)
-    np.sin(turns, out=out.imag)
-    return out
+            fmax = int(np.abs(f[:, a]).max())
+            # A negative frequency indexes from the end. The first axis of a half space has none.
+            axis = axis_waves(x[:, a], fmax) if f[:, a].min() < 0 else rising_waves(x[:, a], fmax)
+            waves = np.take(axis, f[:, a], axis=1)
+            table = waves if table is None else np.multiply(table, waves, out=table)
+        return (np.ones((len(x), len(f))) if table is None else table).astype(self._kind, copy=False)
 
 
 def steady_product(a: NDArray[Any], b: NDArray[Any]) -> NDArray[Any]:

@@ -13,15 +13,17 @@ from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.kernel_based.raster_energy import RasterEnergy, pixel_centres
 from gbnbench.generators.kernel_based.raster_kernel import RasterKernel, gaussian
 from gbnbench.generators.protocol import Family
-from gbnbench.generators.ranges import check_above, check_range, raise_refusal, too_many_axes
+from gbnbench.generators.ranges import check_above, check_range, too_many_axes
+from gbnbench.generators.set_by_set import SetBySet, Told
 
 MOST_PIXELS = 2**20
 NARROWEST = 0.1  # pixels: at the next pixel a Gaussian is then 2e-22 of its height, and all are alike
+TOLD = 16  # moves after which progress is told
 LEAST_GAIN = 1e-12  # of a swap, in heights of the Gaussian: above what rounding and ties make
 
 
 @dataclass(frozen=True)
-class VoidAndCluster:
+class VoidAndCluster(SetBySet):
     """The ones of a void-and-cluster dither pattern, at the centres of their pixels.
 
     Parameters
@@ -127,16 +129,19 @@ class VoidAndCluster:
             return f"a raster of {side}**{d} pixels holds no n={n} points; nearest is {side**d}"
         return None
 
-    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
-        """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
-        raise_refusal(self.refusal(n, d))
+    def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
+        """Draw one realization, as ``SetBySet.one_set`` says."""
         side = self.side(n, d)
         shape = (side,) * d
-        pattern = initial_binary_pattern(shape, gaussian(shape, self.sigma), self.initial, rng)
-        for _ in range(pattern.count - n):
-            pattern.remove(pattern.tightest_cluster())
-        for _ in range(n - pattern.count):
-            pattern.add(pattern.largest_void())
+        kernel = gaussian(shape, self.sigma)
+        pattern = initial_binary_pattern(shape, kernel, self.initial, rng, lambda share: told(share / 2))
+        for k in range(swaps := abs(surplus := pattern.count - n)):
+            if surplus > 0:
+                pattern.remove(pattern.tightest_cluster())
+            else:
+                pattern.add(pattern.largest_void())
+            if k % TOLD == 0:
+                told(0.5 + k / swaps / 2)
         x = pixel_centres(np.flatnonzero(pattern.ones), side, d)
         if self.jitter:
             x += (rng.random((n, d)) - 0.5) / side
@@ -144,7 +149,11 @@ class VoidAndCluster:
 
 
 def initial_binary_pattern(
-    shape: Sequence[int], kernel: RasterKernel, share: float, rng: np.random.Generator
+    shape: Sequence[int],
+    kernel: RasterKernel,
+    share: float,
+    rng: np.random.Generator,
+    told: Told = lambda _: None,
 ) -> RasterEnergy:
     """Random ones, moved from the tightest cluster to the largest void until that lowers the energy no more.
 
@@ -158,6 +167,8 @@ def initial_binary_pattern(
         Of ones, of which there is at least one.
     rng : numpy.random.Generator
         Chooses the ones and between equal pixels.
+    told : callable
+        Takes the share that may be done: how many moves there will be is not known.
 
     Returns
     -------
@@ -168,7 +179,11 @@ def initial_binary_pattern(
     pixels = len(pattern.ones)
     for pixel in rng.choice(pixels, size=max(round(share * pixels), 1), replace=False):
         pattern.add(int(pixel))
-    while True:  # ends: each turn lowers the energy, and there are finitely many patterns
+    moves = 0
+    while True:  # ends: each move lowers the energy, and there are finitely many patterns
+        moves += 1
+        if moves % TOLD == 0:
+            told(moves / (moves + pattern.count))
         cluster = pattern.tightest_cluster()
         pattern.remove(cluster)
         void = pattern.largest_void()

@@ -68,7 +68,7 @@ class Deep(BandGenerator):
 
     c: float | None = None
     edge: float | None = None
-    target: TargetSetting = field(default=None, metadata={"read": as_target})
+    target: TargetSetting = field(default=None, metadata={"read": as_target, "file": True})
     gradients: int = 200
 
     def __post_init__(self) -> None:

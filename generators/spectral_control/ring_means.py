@@ -9,11 +9,12 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from gbnbench.core.memory import too_large
-from gbnbench.core.torus import FloatArray, wrap
+from gbnbench.core.torus import FloatArray, as_realizations, wrap
 from gbnbench.generators.gauss_newton.modes import ball_count, largest_square
-from gbnbench.generators.gauss_newton.product_cost import wave_sum_operations
+from gbnbench.generators.gauss_newton.product_cost import list_operations, table_bytes, wave_sum_operations
 from gbnbench.generators.gauss_newton.targets import TargetPower
 from gbnbench.generators.monitor import Monitor, refuse_all_but_progress
 from gbnbench.generators.ranges import check_above, check_least, raise_refusal
@@ -26,6 +27,7 @@ from gbnbench.generators.spectral_control.limited_memory_bfgs import minimise
 from gbnbench.generators.spectral_control.named_profiles import of_the_plane
 from gbnbench.generators.spectral_control.ring_cost import RingCost, rings_below
 from gbnbench.generators.spectral_control.target_correlation import core_of
+from gbnbench.generators.spectral_control.target_fit import TargetFit, target_fit
 
 HIGHEST = 2.0  # nu up to which a target is met by default, in the plane
 BARE = 0.1  # level of the target's pair correlation below which pairs are kept apart
@@ -80,6 +82,27 @@ class RingMeans(ABC):
         """Return the nu up to which the target is met in d dimensions."""
         return of_the_plane(HIGHEST, d) if self.highest is None else self.highest
 
+    def fit(self, x: ArrayLike) -> TargetFit:
+        """Measure how near the power of sets came to the target.
+
+        Parameters
+        ----------
+        x : (n, d) or (realizations, n, d) array_like
+            Points, box sides: sets of this generator, or any others.
+
+        Returns
+        -------
+        TargetFit
+            Of the mean power of the sets; as text it says so in words.
+
+        Raises
+        ------
+        InputError
+            If x is no point set, or too small for any frequency below ``highest``.
+        """
+        d = as_realizations(x).shape[2]
+        return target_fit(x, self.profile(d), self.highest_nu(d))
+
     def refusal(self, n: int, d: int) -> str | None:
         """Say why a set of n points in d dimensions would take too long, or nothing is asked of it.
 
@@ -102,9 +125,10 @@ class RingMeans(ABC):
                 f"no frequency of n={n} points in d={d} has nu below {highest:.4g}, so that nothing would be "
                 f"asked of them: the lowest has {math.pow(n, -1 / d):.4g}; raise highest"
             )
-        if reason := too_large(MODE_BYTES * d * ball_count(d, square)):
+        if reason := too_large(MODE_BYTES * d * ball_count(d, square) + table_bytes(n, d, square)):
             return f"the frequencies of n={n} points in d={d} up to nu={highest:.4g} {reason}; lower highest"
-        operations = SUMS * wave_sum_operations(n, d, square) * max(self.iterations, 1)
+        evaluation = SUMS * wave_sum_operations(n, d, square) + list_operations(n, d, square)
+        operations = evaluation * max(self.iterations, 1)
         if operations <= WORK:
             return None
         return (

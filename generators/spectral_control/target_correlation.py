@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from gbnbench.core.torus import FloatArray
-from gbnbench.generators.gauss_newton.targets import TargetPower
+from gbnbench.generators.gauss_newton.targets import TargetPower, power_at
 
 STEPS = 2000  # of the integral over nu
 RADII = np.linspace(0.0, 0.6, 61)  # in spacings, where a core is looked for
@@ -32,6 +32,11 @@ def pair_correlation_of(target: TargetPower, d: int, highest: float, r: FloatArr
     (k,) float64
         Where it is negative no process has the spectrum.
 
+    Raises
+    ------
+    InputError
+        If the target gives no power somewhere below ``highest``.
+
     Notes
     -----
     g(r) = 1 + integral of (P - 1) exp(2 pi i nu.r) over nu, by the midpoint rule: about 1e-3 where the target
@@ -48,7 +53,7 @@ def pair_correlation_of(target: TargetPower, d: int, highest: float, r: FloatArr
 
     nu = (np.arange(STEPS) + 0.5) * highest / STEPS
     sphere = 2 * math.exp(d / 2 * math.log(math.pi) - math.lgamma(d / 2))
-    weight = sphere * nu ** (d - 1) * (np.asarray(target(nu), np.float64) - 1) * highest / STEPS
+    weight = sphere * nu ** (d - 1) * (power_at(target, nu) - 1) * highest / STEPS
     z = np.maximum(2 * math.pi * np.outer(r, nu), 1e-6)
     wave = math.gamma(d / 2) * (2 / z) ** (d / 2 - 1) * jv(d / 2 - 1, z)
     correlation: FloatArray = 1 + np.einsum("ij,j->i", wave, weight)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,7 +14,7 @@ from gbnbench.generators.gauss_newton.targets import TargetPower
 from gbnbench.generators.gauss_newton.wave_sums import WaveSums
 from gbnbench.generators.spectral_control.ring_cost import rings_below
 
-AUDIBLE = 1e-2  # rings with a lower target have no part in the deviation in dB
+AUDIBLE = 0.01  # rings with a target no higher have no part in the deviation in dB
 
 
 @dataclass(frozen=True)
@@ -30,6 +31,8 @@ class TargetFit:
         Frequencies a ring, one of each pair f, -f.
     stray : float
         Mean power over the frequencies whose target is 0; nan where there are none.
+    highest : float
+        nu up to which they are compared.
     """
 
     nu: FloatArray
@@ -37,6 +40,7 @@ class TargetFit:
     power: FloatArray
     count: FloatArray
     stray: float
+    highest: float
 
     @property
     def rms_db(self) -> float:
@@ -46,6 +50,19 @@ class TargetFit:
             return float("nan")
         deviation = 10 * np.log10(self.power[heard] / self.target[heard])
         return float(np.sqrt(np.mean(deviation**2)))
+
+    def __str__(self) -> str:
+        """Say in words how near the power came to its target."""
+        said, faint = [], self.target <= AUDIBLE
+        if not faint.all():
+            said.append(f"ring means of the power are within {self.rms_db:.2g} dB (rms) of the target")
+        if faint.any():
+            share = self.count[faint] / self.count[faint].sum()
+            power, target = share @ self.power[faint], share @ self.target[faint]
+            said.append(f"where it asks for {AUDIBLE} or less, {target:.2g} on average, they are {power:.2g}")
+        if not math.isnan(self.stray):
+            said.append(f"where it asks for no power, there is {self.stray:.2g}")
+        return f"Up to nu = {self.highest:.4g}: {'; '.join(said)}."
 
 
 def target_fit(x: ArrayLike, target: TargetPower, highest: float) -> TargetFit:
@@ -75,7 +92,7 @@ def target_fit(x: ArrayLike, target: TargetPower, highest: float) -> TargetFit:
     >>> from gbnbench.generators.spectral_control.step import Step
     >>> generator = Step()
     >>> x = generator(256, 2, np.random.default_rng(0))
-    >>> fit = target_fit(x, generator.profile(2), generator.highest_nu(2))
+    >>> fit = target_fit(x, generator.profile(2), generator.highest_nu(2))  # or generator.fit(x)
     >>> fit.rms_db < 0.01, fit.stray < 1e-6
     (True, True)
     """
@@ -92,4 +109,5 @@ def target_fit(x: ArrayLike, target: TargetPower, highest: float) -> TargetFit:
         rings.means(power[filled]),
         rings.count,
         float(np.mean(power[empty])) if empty.any() else float("nan"),
+        highest,
     )

@@ -86,7 +86,7 @@ class Targeted(RingMeans):
     toroidal: ClassVar[bool] = True
     reference: ClassVar[str] = "Zhou, Huang, Wei & Wang, 2012; Heck, Schlömer & Deussen, 2013"
 
-    target: TargetSetting = field(default="step", metadata={"read": _as_target})
+    target: TargetSetting = field(default="step", metadata={"read": _as_target, "file": True})
 
     def __post_init__(self) -> None:
         super().__post_init__()

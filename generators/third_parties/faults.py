@@ -70,8 +70,10 @@ def refusal_of(generator: Generator, n: int, d: int) -> str | None:
     kind = type(generator)
     with faults_in_words(kind, f"refusal(n={n}, d={d})"):
         reason = generator.refusal(n, d)
-    if reason is None or isinstance(reason, str):
-        return reason
+    if reason is None:
+        return None
+    if isinstance(reason, str):
+        return " ".join(reason.split())
     raise InputError(f"{_named(kind)}: refusal(n, d) must return a reason or None; got {reason!r}")
 
 

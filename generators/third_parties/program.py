@@ -113,7 +113,7 @@ class ExternalProgram:
             )
             return f"d must be {fits} for {self.name}; got d={d}, nearest is {max(least, min(d, most or d))}"
         if self.definition.program is None:
-            return f"its program {self.definition.command[0]} is not there, or may not be run"
+            return f"{self.name}: its program {self.definition.command[0]} is not there, or may not be run"
         return size_refusal(self.definition.sizes, self.name, n, d)
 
     def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:

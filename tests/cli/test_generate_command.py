@@ -10,7 +10,7 @@ import pandas as pd
 import pytest
 
 from gbnbench.cli import run
-from gbnbench.generators.registry import generate
+from gbnbench.generators.registry import find, generate
 
 
 def command(*arguments: object) -> int:
@@ -38,6 +38,15 @@ def test_explain_needs_no_file(here, capsys):
     assert command("gbn", "-n", 4096, "--explain", "-o", "x.npy") == 0
     assert capsys.readouterr().out == without != ""
     assert list(Path().iterdir()) == []
+
+
+def test_sets_of_a_target_are_told_with_how_near_they_came(here, capsys):
+    """By this process and by workers alike, of the sets in the file."""
+    asked = ("targeted[target=staircase,iterations=20]", "-n", 100, "--realizations", 2, "-o", "x.npy")
+    fit = find(asked[0]).fit(generate(asked[0], n=100, realizations=2))
+    for more in ((), ("--jobs", 1)):
+        assert command(*asked, *more) == 0
+        assert capsys.readouterr().out.splitlines()[-1] == str(fit)
 
 
 def test_a_checkpoint_is_removed_when_the_points_are_written(here):

@@ -23,6 +23,10 @@ QUICK = {
     "oztireli": "oztireli[iterations=2]",
     "bnot": "bnot[alternations=2]",
     "fpo": "fpo[target=0.7]",
+    "ccvt": "ccvt[samples=64]",
+    "voidcluster": "voidcluster",
+    "bridson": "bridson",
+    "bestcandidate": "bestcandidate",
 }
 
 

@@ -8,14 +8,21 @@ from functools import cache
 import numpy as np
 import pytest
 
+import gbnbench
 from gbnbench.analysis.measure_definitions import BY_NAME
 from gbnbench.analysis.measures import measures
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.registry import find, generate
 from gbnbench.verification.published import PUBLISHED
+from gbnbench.verification.published.bnot_radial_power import (
+    PUBLISHED_POWER,
+    PowerOverPublished,
+    ring_power,
+)
 from gbnbench.verification.published.set_figures import gain_in_integration, spread_of_voronoi_areas
 from gbnbench.verification.published_figure import PublishedFigure
 from gbnbench.verification.verify import Verified, verify
+from tests.published_sets import published_files
 
 
 @pytest.mark.parametrize("figure", PUBLISHED, ids=lambda f: f"{f.generator}-{f.measure_name}")
@@ -64,3 +71,18 @@ def test_independent_points_gain_nothing_in_integration_and_a_lattice_has_equal_
     sets = generate("random", n=200, d=2, seed=1, realizations=40)
     assert 1 / np.mean([1 / gain_in_integration(x) for x in sets]) == pytest.approx(1, abs=0.2)
     assert spread_of_voronoi_areas(generate("grid", n=64, d=2)) == pytest.approx(0, abs=1e-9)
+
+
+def test_the_published_radial_power_of_bnot_is_that_of_the_published_sets() -> None:
+    """Means over the four sets to three digits, those of |f| = 3 and 40 summed wave by wave too."""
+    sets = np.array([gbnbench.load(path) for path in published_files("bnot-1024/*")])
+    mean = np.mean([ring_power(x) for x in sets], axis=0)
+    np.testing.assert_allclose(PUBLISHED_POWER, mean, rtol=6e-3)
+    for ring in (3, 40):
+        f = np.array(
+            [(a, b) for a in range(-41, 42) for b in range(-41, 42) if round(math.hypot(a, b)) == ring]
+        )
+        waves = np.exp(-2j * np.pi * np.einsum("snd,fd->sfn", sets, f)).sum(axis=2)
+        assert np.mean(np.abs(waves) ** 2) / 1024 == pytest.approx(mean[ring - 3], rel=1e-9)
+    ratio = [PowerOverPublished(16, 23)(x) for x in sets]
+    assert np.mean(ratio) == pytest.approx(1, abs=2e-3)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -11,10 +10,10 @@ from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.least_values import require
 from gbnbench.core.settings import specification
 from gbnbench.generators.protocol import Generator
-from gbnbench.generators.registry import GENERATORS, find
-from gbnbench.generators.third_parties.discovery import provenance
+from gbnbench.generators.registry import find
 from gbnbench.generators.third_parties.faults import refusal_of
 from gbnbench.io.set_library.entries import RefusedSets, set_file_stem
+from gbnbench.runs.generator_identity import generator_identity
 from gbnbench.runs.source_names import unique_key
 
 DEFAULT_GENERATORS = ("gbn", "deep", "stealthy", "bnot")
@@ -61,9 +60,8 @@ class RequestedSets:
     @property
     def settings(self) -> dict[str, Any]:
         """All settings of the generator, and where it is from if it is not gbnbench's own."""
-        kind = type(self.generator)
-        own = {} if GENERATORS.get(kind.name) is kind else provenance(kind)
-        return {**dataclasses.asdict(self.generator), **own}  # type: ignore[call-overload]
+        identity = generator_identity(self.generator)
+        return {**identity.pop("settings"), **identity}
 
 
 @dataclass(frozen=True)

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 
+from gbnbench.verification.published.bnot import BNOT_FIGURES, BNOT_SETS
 from gbnbench.verification.published.set_figures import gain_in_integration, spread_of_voronoi_areas
 from gbnbench.verification.published_figure import PublishedFigure
 
-BNOT = "de Goes, Breeden, Ostromoukhov & Desbrun, Blue noise through optimal transport, SIGGRAPH Asia 2012"
-BNOT_SETS = "measured on ten sets published by the deepsampling project"
 CAPCVT = "measured on a set made by the method of Chen et al., Variational blue noise sampling, 2012"
 CAPCVT_PROGRAM = "capcvt[energy=program]"  # the published sets are those of the authors' program
 CCVT = "measured on a set made by the method of Balzer, Schlömer & Deussen, SIGGRAPH 2009"
@@ -19,87 +18,7 @@ FPO = "Schlömer, Heck & Deussen, Farthest-point optimized point sets, HPG 2011"
 SPREADS = "2.5 times the spread over sets,"
 
 CELLULAR = (
-    PublishedFigure(
-        "bnot",
-        "noise_floor",
-        "1.21e-4",
-        6e-5,
-        2.4e-4,
-        "a factor of 2: it halves from 8 alternations to 20",
-        BNOT_SETS,
-    ),
-    PublishedFigure(
-        "bnot",
-        "power_at_1",
-        "5e-8 to 4e-7",
-        2e-8,
-        8e-7,
-        "four frequencies a set, of which each is exponentially distributed",
-        BNOT_SETS,
-    ),
-    PublishedFigure(
-        "bnot",
-        "min_distance",
-        ".732 to .783",
-        0.712,
-        0.803,
-        "one published set spreads by .01 about the rest; twice that",
-        BNOT,
-    ),
-    PublishedFigure(
-        "bnot",
-        "mean_distance",
-        ".872 to .899",
-        0.866,
-        0.905,
-        "one published set spreads by .003 about the rest; twice that",
-        BNOT,
-    ),
-    PublishedFigure(
-        "bnot",
-        "bond_order",
-        ".428 to .547",
-        0.394,
-        0.581,
-        "one published set spreads by .017 about the rest; twice that",
-        BNOT,
-    ),
-    PublishedFigure(
-        "bnot",
-        "effective_nyquist",
-        ".855 to .900",
-        0.842,
-        0.913,
-        "one published set spreads by .0063 about the rest; twice that",
-        BNOT,
-    ),
-    PublishedFigure(
-        "bnot",
-        "oscillations",
-        "2.00 to 2.81",
-        1.84,
-        2.97,
-        "one published set spreads by .08 about the rest; twice that",
-        BNOT,
-    ),
-    PublishedFigure(
-        "bnot",
-        "peak",
-        "2.79",
-        2.5,
-        3.1,
-        "a tenth: one alternation is a twentieth",
-        BNOT_SETS,
-    ),
-    PublishedFigure(
-        "bnot",
-        "valence6",
-        ".581",
-        0.533,
-        0.629,
-        "one published set spreads by .024 about the rest; twice that",
-        BNOT_SETS,
-    ),
+    *BNOT_FIGURES,
     PublishedFigure(
         "capcvt",
         "min_distance",
@@ -247,15 +166,6 @@ CELLULAR = (
         "likewise; less is no disagreement",
         SLICED,
         sets=3,
-    ),
-    PublishedFigure(
-        "bnot",
-        spread_of_voronoi_areas,
-        ".0448 to .0502",
-        0.042,
-        0.053,
-        "four published sets spread by .002 about .047",
-        BNOT_SETS,
     ),
     PublishedFigure(
         "ccvt",

@@ -11,9 +11,10 @@ import numpy as np
 import pytest
 
 from gbnbench.analysis.spectrum.periodogram import periodogram
+from gbnbench.generators.gauss_newton.axis_waves import axis_waves
 from gbnbench.generators.gauss_newton.gram_matrix import Convolutions, PointSums, gram_product
 from gbnbench.generators.gauss_newton.modes import modes_below
-from gbnbench.generators.gauss_newton.wave_sums import WaveSums, axis_waves
+from gbnbench.generators.gauss_newton.wave_sums import WaveSums
 from tests.oracles.gauss_newton import scaled_jacobian
 from tests.oracles.power import amplitudes
 

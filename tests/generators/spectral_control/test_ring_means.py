@@ -65,6 +65,13 @@ def test_spectra_that_no_process_has_are_met_within_a_decibel(generator):
     assert fit.stray < 2e-3
 
 
+def test_a_generator_measures_its_own_fit():
+    generator = Staircase(iterations=20)
+    x = np.stack([generator(100, 2, realization_rng(1, k)) for k in range(2)])
+    fit, same = generator.fit(x), target_fit(x, generator.profile(2), 2.0)
+    assert (fit.rms_db, fit.stray, fit.highest) == (same.rms_db, same.stray, 2.0)
+
+
 def green(nu: FloatArray) -> FloatArray:
     return 1 - 0.9 * np.exp(-((nu - 0.8) ** 2) / 0.02)
 
@@ -93,8 +100,13 @@ class TestTargeted:
             find("targeted[target=nowhere.csv]")
         with pytest.raises(InputError, match="target must be one of step, peak, staircase, a file"):
             find("targeted[target=none]")
-        with pytest.raises(InputError, match="target must be finite and >= 0 below the edge"):
-            generate("targeted", n=64, target=lambda nu: nu - 0.5)
+        for method in ("power", "correlation"):
+            for wrong in (lambda nu: nu - 0.5, lambda nu: np.full(len(nu), np.nan)):
+                with pytest.raises(InputError, match="target must be finite and >= 0 below the edge"):
+                    generate("targeted", n=64, target=wrong, method=method)
+            for given in (np.ones(3), "one"):
+                with pytest.raises(InputError, match="target must give a power for each nu; got"):
+                    generate("targeted", n=64, target=lambda nu, given=given: given, method=method)
         with pytest.raises(InputError, match="highest must be at most the last nu of the target, 1"):
             Targeted(target=[[0.0, 1.0], [1.0, 1.0]], highest=1.5)  # type: ignore[arg-type]
 
@@ -121,6 +133,14 @@ def test_more_work_than_can_be_done_is_refused():
     assert Step().refusal(16_384, 2) is None
     with pytest.raises(RefusalError, match=r"n=1048576 points in d=2 .* too much work"):
         generate("step", n=2**20)
+
+
+def test_work_on_a_line_and_of_few_points_up_to_high_frequencies_is_counted_whole():
+    """On a line tables are what takes time, of few points in many waves the listed frequencies."""
+    assert Step().refusal(4096, 1) is None
+    assert "too much work" in str(Step().refusal(16_384, 1))
+    assert Step(highest=100).refusal(64, 2) is None  # half a minute
+    assert "too much work" in str(Step(highest=400).refusal(64, 2))
 
 
 def test_progress_is_told_of_every_set():

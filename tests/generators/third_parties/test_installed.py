@@ -164,6 +164,15 @@ def test_what_it_raises_is_told_with_its_package(
     assert "Traceback" not in out + err
 
 
+def test_a_reason_of_several_lines_is_told_in_one(install) -> None:
+    reason = "return 'n must be even;\\n  nearest is 4'"
+    install(
+        "wordy_halves", CLASS.format(name="half").replace("return None", reason), "half = wordy_halves:Half"
+    )
+    with pytest.raises(GbnbenchError, match=r"^n must be even; nearest is 4$"):
+        gbnbench.generate("half", n=5)
+
+
 def test_of_two_packages_with_one_name_the_first_is_taken(install) -> None:
     install("halves_d", CLASS.format(name="half"), "half = halves_d:Half")
     install("halves_c", CLASS.format(name="half"), "half = halves_c:Half")

@@ -120,7 +120,7 @@ def test_a_setting_may_be_called_steps(programs, tmp_path: Path) -> None:
 
 def test_a_program_that_is_not_there_is_a_refusal(programs) -> None:
     programs("[generators.mine]\ncommand = './absent {n} {seed}'\n")
-    with pytest.raises(RefusalError, match=r"its program .*absent is not there, or may not be run"):
+    with pytest.raises(RefusalError, match=r"mine: its program .*absent is not there, or may not be run"):
         gbnbench.generate("mine", n=3)
     with pytest.raises(RefusalError, match=r"d must be 2 for mine; got d=3, nearest is 2"):
         gbnbench.generate("mine", n=3, d=3)

@@ -186,3 +186,14 @@ def test_floors_against_time_name_every_generator():
     shown = [text.get_text() for ax in drawn.axes for text in ax.texts]
     assert sorted(shown) == sorted(names)
     assert png(drawn)
+
+
+def test_a_name_stands_left_of_its_mark_where_it_would_cover_another():
+    rows = [
+        (1024, 2, "gbn", 0.1, 6e-10),
+        (1024, 2, "progressivegbn", 0.2, 6e-10),
+        (1024, 2, "deep", 0.1, 1e-20),
+    ]
+    drawn = generators.figure(pd.DataFrame(rows, columns=["n", "d", "generator", "cpu_s", "noise_floor"]))
+    sides = {text.get_text(): text.get_ha() for text in drawn.axes[0].texts}
+    assert sides == {"gbn": "right", "progressivegbn": "left", "deep": "left"}
