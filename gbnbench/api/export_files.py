@@ -62,7 +62,7 @@ def default_type(path: Path, number_type: str | None) -> NumberType:
 
 
 def written_files(path: Path) -> tuple[Path, ...]:
-    """Return the files that an export of sets writes: the file itself, and the description of a binary one."""
+    """Return the files that an export of sets writes: its own, and the description of a binary one."""
     return (path, side_file(path)) if path.suffix.lower() in RAW else (path,)
 
 
