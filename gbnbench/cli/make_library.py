@@ -127,9 +127,10 @@ def _unpack(where: str, out: Path | None) -> None:
     from gbnbench.cli.set_library_text import count
     from gbnbench.io.set_library.archive import unpack
     from gbnbench.io.set_library.places import open_place
+    from gbnbench.runs.resumable_folder import SETTINGS
 
     if out is None:
         raise click.UsageError("--unpack goes with -o FOLDER")
     with open_place(where) as place:
-        files = unpack(place, out)
+        files = unpack(place, out, [SETTINGS])  # with them it can be added to
     click.echo(f"wrote {out}: {count(files, 'file')} of point sets")
