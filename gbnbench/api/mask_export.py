@@ -23,6 +23,7 @@ from gbnbench.io.exports.raw_numbers import raw_numbers
 from gbnbench.io.points.writer import write_atomically
 from gbnbench.opencl import use_device
 
+LONGEST = 16  # times as long as wide, of a mask that is drawn
 SUFFIXES = (".png", ".exr", ".h", ".bin", ".raw", ".json")
 
 
@@ -90,6 +91,11 @@ def export_mask(
         check_folder(place)
     if picture is not None and picture.suffix.lower() not in (".png", ".pdf"):
         raise InputError(f"{picture}: the picture of a mask is a .png or .pdf; got {picture.suffix!r}")
+    if picture is not None and max(sides[-2:]) > LONGEST * min(sides[-2:]):
+        raise InputError(
+            f"{picture}: a mask that is drawn must be at most {LONGEST} times as long as wide; got "
+            f"{sides[-1]} x {sides[-2]} pixels: leave the picture out"
+        )
     if picture is not None and picture.absolute() == path.absolute():
         raise InputError(f"{picture}: the picture needs a file of its own")
     ranks = dither_mask(sides, seed=seed, sigma=sigma, sigma_time=sigma_time, progress=progress)
@@ -146,13 +152,12 @@ def _encoded(
         name = c_name(path.stem)
         constants = {"frames": frames[0]} if frames else {}
         index = "[frame][row][column]" if frames else "[row][column]"
+        of = ", first frame" if frames else ""
+        below = "power below half the principal frequency"
         comments = [
             f"{name}_ranks{index}: {made}.",
             f"Written by {software}. Thresholds are (rank + 0.5) / {ranks.size}, in (0, 1).",
-            *(
-                f"Level {one.level:g}: power below half the principal frequency {number(one.low)} of white."
-                for one in levels
-            ),
+            *(f"Level {one.level:g}{of}: {below} {number(one.low)} of white." for one in levels),
         ]
         constants |= {"rows": rows, "columns": columns, "pixels": ranks.size}
         return {path: c_header(name, "ranks", numbers, constants, comments)}
@@ -162,6 +167,7 @@ def _encoded(
         "thresholds": f"(rank + 1/2) / {ranks.size}",
         "settings": settings,
         "levels": [vars(one) for one in levels],
+        **({"levels_of": "the first frame"} if frames else {}),
     }
     if suffix == ".json":
         return {path: json.dumps({**about, "ranks": ranks.tolist()}).encode() + b"\n"}

@@ -105,7 +105,7 @@ def checked_shape(shape: int | Sequence[int]) -> tuple[int, ...]:
         )
     sides: tuple[int, ...] = tuple(given.tolist() * (2 if len(given) == 1 else 1))
     if not all(SMALLEST <= side <= LARGEST for side in sides):
-        raise InputError(f"each side of a mask must have 2 or more pixels; got {shape!r}")
+        raise InputError(f"each side of a mask must have {SMALLEST} to {LARGEST:,} pixels; got {shape!r}")
     if math.prod(sides) > MOST_PIXELS:
         raise InputError(
             f"a mask must have at most {MOST_PIXELS:,} pixels, such as 512 x 512, since each is searched for "

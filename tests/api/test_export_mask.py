@@ -55,6 +55,13 @@ def test_its_picture_shows_the_patterns(tmp_path: Path):
     assert width > 1000 > height > 500
 
 
+def test_levels_of_a_mask_with_frames_are_said_to_be_those_of_the_first(tmp_path: Path):
+    gbnbench.export_mask(tmp_path / "mask.h", (2, 8, 8))
+    assert "Level 0.25, first frame: power below" in (tmp_path / "mask.h").read_text()
+    gbnbench.export_mask(tmp_path / "mask.json", (2, 8, 8))
+    assert json.loads((tmp_path / "mask.json").read_text())["levels_of"] == "the first frame"
+
+
 def test_all_levels_are_measured_and_blue(tmp_path: Path):
     table = gbnbench.export_mask(tmp_path / "mask.h", 64).to_frame()
     assert len(table) == 9
@@ -68,8 +75,9 @@ def test_all_levels_are_measured_and_blue(tmp_path: Path):
         ("mask.gif", {}, "masks are exported as .png, .exr, .h, .bin, .raw, .json; got extension '.gif'"),
         ("mask.png", {"bits": 12}, "bits must be 8 or 16; got 12"),
         ("mask.h", {"bits": 8}, "bits are those of a .png"),
-        ("mask.png", {"shape": 1}, "2 or more pixels"),
+        ("mask.png", {"shape": 1}, "2 to 65,536 pixels"),
         ("mask.png", {"picture": "look.gif"}, "the picture of a mask is a .png or .pdf"),
+        ("mask.png", {"shape": (40, 2), "picture": "look.png"}, "16 times as long as wide; got 2 x 40"),
         ("mask.png", {"picture": "mask.png"}, "needs a file of its own"),
         ("nowhere/mask.png", {}, "there is no folder"),
     ],
