@@ -122,6 +122,10 @@ def test_rounding_that_costs_is_remarked_upon(tmp_path: Path):
     assert export(tmp_path / "sets.h", "stealthy", n=256, number_type="float64").remarks == ()
     near = np.array([[0.5, 0.5], [0.5 + 1e-9, 0.5], [0.1, 0.1]])
     assert "rounding to float32 makes points coincide" in export(tmp_path / "sets.h", near).remarks
+    last = np.concatenate([np.random.default_rng(0).random((9, 3, 2)), near[None]])  # beyond those measured
+    assert "rounding to float32 makes points coincide" in export(tmp_path / "sets.h", last).remarks
+    twice = np.array([[0.5, 0.5], [0.5, 0.5], [0.1, 0.1]])  # not by rounding
+    assert export(tmp_path / "sets.h", twice).remarks == ()
 
 
 def test_sets_of_several_files_go_together(tmp_path: Path):
