@@ -104,7 +104,8 @@ def export_mask(
         some = (level for level in LEVELS if 0 < round(level * one.size) < one.size)
         levels = tuple(pattern_power(one, level) for level in some)
         drawn = {} if picture is None else {picture: _picture(picture, one)}
-    settings = {"seed": seed, "sigma": sigma} | ({"sigma_time": sigma_time} if ranks.ndim == 3 else {})
+    widths = {"sigma": float(sigma)} | ({"sigma_time": float(sigma_time)} if ranks.ndim == 3 else {})
+    settings = {"seed": int(seed), **widths}
     files = {**drawn, **_encoded(path, ranks, depth, settings, levels)}
     for file, data in files.items():
         write_atomically(file, data)
@@ -129,7 +130,7 @@ def _checked_bits(path: Path, bits: int | None, pixels: int) -> int:
         return 32 if suffix == ".exr" or pixels > 2**16 else 16
     if bits is None:
         return 8 if pixels <= 2**8 else 16
-    if bits not in (8, 16):
+    if bits not in (8, 16) or isinstance(bits, float):
         raise InputError(f"bits must be 8 or 16; got {bits!r}")
     return bits
 

@@ -20,6 +20,7 @@ from gbnbench.api.exports import ExportedSets, SetCopy
 from gbnbench.api.source_arguments import SourceLike, as_sources
 from gbnbench.core.atomic_write import check_folder
 from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.least_values import whole_number
 from gbnbench.core.memory import too_large
 from gbnbench.core.repeated_tile import check_counts, repeated
 from gbnbench.core.sides import as_sides
@@ -121,8 +122,7 @@ def export_sets(
     path = Path(path)
     numbers = default_type(path, number_type)
     check_folder(path)
-    if not isinstance(copies, int) or isinstance(copies, bool) or copies < 1:
-        raise InputError(f"copies must be a whole number of at least 1; got {copies!r}")
+    copies, seed = whole_number("copies", copies, 1), whole_number("seed", seed, 0)
     sources, _ = as_sources(source, n, d, realizations)
     first = _alike(sources)
     rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=COPIES_STREAM))

@@ -47,6 +47,13 @@ def test_a_compiled_header_holds_the_ranks(tmp_path: Path, standard):
     assert list(map(int, said(built(source, standard, tmp_path)).stdout.split())) == ranks.ravel().tolist()
 
 
+def test_numbers_of_numpy_are_described(tmp_path: Path):
+    given = {"seed": np.int64(3), "sigma": np.float32(1.5), "sigma_time": np.float32(2)}
+    gbnbench.export_mask(tmp_path / "m.json", (2, 8, 8), **given)
+    described = json.loads((tmp_path / "m.json").read_text())
+    assert described["settings"] == {"seed": 3, "sigma": 1.5, "sigma_time": 2.0}
+
+
 def test_its_picture_shows_the_patterns(tmp_path: Path):
     made = gbnbench.export_mask(tmp_path / "mask.png", (24, 32), picture=tmp_path / "look.png")
     assert made.files == (tmp_path / "mask.png", tmp_path / "look.png")
@@ -74,6 +81,7 @@ def test_all_levels_are_measured_and_blue(tmp_path: Path):
     [
         ("mask.gif", {}, "masks are exported as .png, .exr, .h, .bin, .raw, .json; got extension '.gif'"),
         ("mask.png", {"bits": 12}, "bits must be 8 or 16; got 12"),
+        ("mask.png", {"bits": 8.0}, "bits must be 8 or 16; got 8.0"),
         ("mask.h", {"bits": 8}, "bits are those of a .png"),
         ("mask.png", {"shape": 1}, "2 to 65,536 pixels"),
         ("mask.png", {"picture": "look.gif"}, "the picture of a mask is a .png or .pdf"),

@@ -128,6 +128,13 @@ def test_rounding_that_costs_is_remarked_upon(tmp_path: Path):
     assert export(tmp_path / "sets.h", twice).remarks == ()
 
 
+def test_whole_numbers_of_numpy_are_whole_numbers(tmp_path: Path):
+    made = export(tmp_path / "sets.json", X[0], copies=np.int64(2), seed=np.uint8(3), repeat=np.array([2, 1]))
+    same = export(tmp_path / "same.json", X[0], copies=2, seed=3, repeat=(2, 1))
+    assert np.array_equal(made.points, same.points)
+    assert (tmp_path / "sets.json").read_text() == (tmp_path / "same.json").read_text()
+
+
 def test_sets_of_several_files_go_together(tmp_path: Path):
     for k, x in enumerate(X):
         gbnbench.save(tmp_path / f"{k}.txt", x)
@@ -147,7 +154,12 @@ def test_sets_of_several_files_go_together(tmp_path: Path):
         ("sets.xyz", {}, "XYZ holds points of three dimensions; got d=2"),
         ("sets.ply", {}, "a PLY file holds one set; got 2"),
         ("sets.h", {"number_type": "half"}, "type must be one of"),
-        ("sets.h", {"copies": 0}, "copies must be a whole number of at least 1; got 0"),
+        ("sets.h", {"copies": 0}, "copies must be a whole number >= 1; got 0"),
+        ("sets.h", {"seed": -1}, "seed must be a whole number >= 0; got -1"),
+        ("sets.h", {"seed": 1.5}, "seed must be a whole number >= 0; got 1.5"),
+        ("sets.h", {"swap": [0, 1]}, "swap must name two axes of 0 to 1, each once; got 0"),
+        ("sets.h", {"flip": 0}, "flip must name axes of 0 to 1, each once; got 0"),
+        ("sets.h", {"repeat": 2}, "repeat must be 2 whole numbers of at least 1, one for each axis; got 2"),
         ("sets.h", {"flip": [2]}, "flip must name axes of 0 to 1"),
         ("sets.h", {"swap": [(0,)]}, "swap must name two axes"),
         ("sets.h", {"shift": "far"}, "shift must be random or 2 numbers"),
