@@ -199,7 +199,8 @@ def comment_lines(made: ExportedSets, array: str, seed: int) -> Iterator[str]:
     for k, one in enumerate(made.copies):
         if sets > 1 or not all(step.is_identity() for step in one.done):
             yield f"Set {k}: {one.words()}."
-    yield f"Noise floor (1 for random points): {number(made.quality.noise_floor)}."
+    measured = f", of the first {made.measured} sets" if made.measured < sets else ""
+    yield f"Noise floor (1 for random points{measured}): {number(made.quality.noise_floor)}."
     for projection in made.projections:
         axes = f"{'axis' if len(projection.axes) == 1 else 'axes'} {'+'.join(map(str, projection.axes))}"
         yield (

@@ -135,6 +135,13 @@ def test_whole_numbers_of_numpy_are_whole_numbers(tmp_path: Path):
     assert (tmp_path / "sets.json").read_text() == (tmp_path / "same.json").read_text()
 
 
+def test_a_header_says_of_which_sets_its_noise_floor_is(tmp_path: Path):
+    for sets, said in ((8, "(1 for random points): "), (9, "(1 for random points, of the first 8 sets): ")):
+        made = export(tmp_path / "sets.h", np.random.default_rng(4).random((sets, 5, 2)))
+        assert made.measured == 8
+        assert f"Noise floor {said}" in (tmp_path / "sets.h").read_text()
+
+
 def test_sets_of_several_files_go_together(tmp_path: Path):
     for k, x in enumerate(X):
         gbnbench.save(tmp_path / f"{k}.txt", x)
