@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import numbers
-
 import numpy as np
 
 from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.least_values import whole_number
 from gbnbench.core.memory import too_large
 from gbnbench.core.settings import configure, nearest, parse
 from gbnbench.core.torus import FloatArray
@@ -216,8 +215,8 @@ def generate(
     ((16, 2), (3, 10, 2))
     """
     generator = find(name, **settings) if isinstance(name, str) else of_instance(name, settings)
-    seed, realizations = _whole("seed", seed, 0), _whole("realizations", realizations, 1)
-    n, d = _whole("n", n, 1), _whole("d", d, 1)
+    seed, realizations = whole_number("seed", seed, 0), whole_number("realizations", realizations, 1)
+    n, d = whole_number("n", n, 1), whole_number("d", d, 1)
     if reason := too_large(8.0 * realizations * n * d):
         raise RefusalError(f"{realizations} sets of n={n} points in d={d} {reason}; draw fewer at a time")
     if reason := refusal_of(generator, n, d):
@@ -240,9 +239,3 @@ def _draw(
         if monitor.progress is not None:
             monitor.progress(k + 1, len(rngs), generator.name)
     return np.stack(sets)
-
-
-def _whole(what: str, value: object, least: int) -> int:
-    if not isinstance(value, numbers.Integral) or isinstance(value, bool) or int(value) < least:
-        raise InputError(f"{what} must be a whole number >= {least}; got {value!r}")
-    return int(value)

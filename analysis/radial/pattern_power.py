@@ -73,9 +73,8 @@ def pattern_power(ranks: NDArray[np.int64], level: float) -> PatternPower:
     ones = round(level * pixels)
     if not 0 < ones < pixels:
         raise InputError(f"a pattern has ones and zeros; level {level:g} of {pixels} pixels has {ones} ones")
-    rows, columns = ranks.shape
     principal = min(math.sqrt(min(ones, pixels - ones)), math.sqrt(pixels) / 2)  # cycles a side, area 1
-    spectrum = pattern_spectrum(ranks, ones, math.ceil(principal / 2 + max(rows / columns, columns / rows)))
+    spectrum = pattern_spectrum(ranks, ones, math.ceil(principal / 2) + 1)  # the lowest |k| is 1 or less
     white = (pixels - ones) / (pixels - 1)
     return PatternPower(
         level, ones, *(_mean(spectrum, principal * part) / white for part in (0.5, 0.25))

@@ -39,7 +39,8 @@ class ProjectionQuality:
         Smallest toroidal distance of two points, in sides of a torus of volume 1, mean over the sets; nan for
         a single point or beyond 24 dimensions.
     over_random : float
-        The same over ``random_min_distance``; above 1 points keep apart, and 0 is where some coincide.
+        The same over ``random_min_distance``; above 1 points keep apart, and 0 is where some of every set
+        coincide.
     """
 
     axes: tuple[int, ...]

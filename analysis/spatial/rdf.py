@@ -36,11 +36,14 @@ class RadialDistribution:
         Mean over realizations; 1 in expectation for uniform random points.
     g_by_set : (realizations, bins) float64
         The same for each set.
+    width : float
+        Width of a bin, in densest spacings.
     """
 
     r: FloatArray
     g: FloatArray
     g_by_set: FloatArray
+    width: float
 
     def to_frame(self) -> pd.DataFrame:
         """Columns r, g."""
@@ -109,7 +112,7 @@ def rdf(
         raise RefusalError(_no_bin(n, d, bins))
     g = pair_density(sets, count, width, lengths, progress)
     mean: FloatArray = g.mean(axis=0)
-    return RadialDistribution(np.arange(count, dtype=np.float64) * (width / unit), mean, g)
+    return RadialDistribution(np.arange(count, dtype=np.float64) * (width / unit), mean, g, width / unit)
 
 
 def _no_bin(n: int, d: int, bins: int | None) -> str:

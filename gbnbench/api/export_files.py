@@ -18,7 +18,7 @@ from gbnbench.core.number_text import number
 from gbnbench.core.torus import FloatArray
 from gbnbench.io.exports.c_header import c_header, c_name
 from gbnbench.io.exports.number_types import NumberType, check_number_type
-from gbnbench.io.exports.raw_numbers import raw_numbers
+from gbnbench.io.exports.raw_numbers import raw_numbers, side_file
 from gbnbench.io.points.point_sets import PointSets, in_own_unit
 from gbnbench.io.points.writer import WRITTEN, encode, suffix_of
 
@@ -59,6 +59,11 @@ def default_type(path: Path, number_type: str | None) -> NumberType:
     if checked == "uint32" and not compact:
         raise InputError(f"{path}: uint32 is written to .h, .bin and .raw; take float32 or float64")
     return checked
+
+
+def written_files(path: Path) -> tuple[Path, ...]:
+    """Return the files that an export of sets writes: its own, and the description of a binary one."""
+    return (path, side_file(path)) if path.suffix.lower() in RAW else (path,)
 
 
 def check_format(path: Path, sets: int, d: int, sides: Sequence[float] | None) -> None:
@@ -194,7 +199,8 @@ def comment_lines(made: ExportedSets, array: str, seed: int) -> Iterator[str]:
     for k, one in enumerate(made.copies):
         if sets > 1 or not all(step.is_identity() for step in one.done):
             yield f"Set {k}: {one.words()}."
-    yield f"Noise floor (1 for random points): {number(made.quality.noise_floor)}."
+    measured = f", of the first {made.measured} sets" if made.measured < sets else ""
+    yield f"Noise floor (1 for random points{measured}): {number(made.quality.noise_floor)}."
     for projection in made.projections:
         axes = f"{'axis' if len(projection.axes) == 1 else 'axes'} {'+'.join(map(str, projection.axes))}"
         yield (

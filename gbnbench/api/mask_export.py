@@ -23,6 +23,7 @@ from gbnbench.io.exports.raw_numbers import raw_numbers
 from gbnbench.io.points.writer import write_atomically
 from gbnbench.opencl import use_device
 
+LONGEST = 16  # times as long as wide, of a mask that is drawn
 SUFFIXES = (".png", ".exr", ".h", ".bin", ".raw", ".json")
 
 
@@ -90,6 +91,11 @@ def export_mask(
         check_folder(place)
     if picture is not None and picture.suffix.lower() not in (".png", ".pdf"):
         raise InputError(f"{picture}: the picture of a mask is a .png or .pdf; got {picture.suffix!r}")
+    if picture is not None and max(sides[-2:]) > LONGEST * min(sides[-2:]):
+        raise InputError(
+            f"{picture}: a mask that is drawn must be at most {LONGEST} times as long as wide; got "
+            f"{sides[-1]} x {sides[-2]} pixels: leave the picture out"
+        )
     if picture is not None and picture.absolute() == path.absolute():
         raise InputError(f"{picture}: the picture needs a file of its own")
     ranks = dither_mask(sides, seed=seed, sigma=sigma, sigma_time=sigma_time, progress=progress)
@@ -98,7 +104,8 @@ def export_mask(
         some = (level for level in LEVELS if 0 < round(level * one.size) < one.size)
         levels = tuple(pattern_power(one, level) for level in some)
         drawn = {} if picture is None else {picture: _picture(picture, one)}
-    settings = {"seed": seed, "sigma": sigma} | ({"sigma_time": sigma_time} if ranks.ndim == 3 else {})
+    widths = {"sigma": float(sigma)} | ({"sigma_time": float(sigma_time)} if ranks.ndim == 3 else {})
+    settings = {"seed": int(seed), **widths}
     files = {**drawn, **_encoded(path, ranks, depth, settings, levels)}
     for file, data in files.items():
         write_atomically(file, data)
@@ -123,7 +130,7 @@ def _checked_bits(path: Path, bits: int | None, pixels: int) -> int:
         return 32 if suffix == ".exr" or pixels > 2**16 else 16
     if bits is None:
         return 8 if pixels <= 2**8 else 16
-    if bits not in (8, 16):
+    if bits not in (8, 16) or isinstance(bits, float):
         raise InputError(f"bits must be 8 or 16; got {bits!r}")
     return bits
 
@@ -146,13 +153,12 @@ def _encoded(
         name = c_name(path.stem)
         constants = {"frames": frames[0]} if frames else {}
         index = "[frame][row][column]" if frames else "[row][column]"
+        of = ", first frame" if frames else ""
+        below = "power below half the principal frequency"
         comments = [
             f"{name}_ranks{index}: {made}.",
             f"Written by {software}. Thresholds are (rank + 0.5) / {ranks.size}, in (0, 1).",
-            *(
-                f"Level {one.level:g}: power below half the principal frequency {number(one.low)} of white."
-                for one in levels
-            ),
+            *(f"Level {one.level:g}{of}: {below} {number(one.low)} of white." for one in levels),
         ]
         constants |= {"rows": rows, "columns": columns, "pixels": ranks.size}
         return {path: c_header(name, "ranks", numbers, constants, comments)}
@@ -162,6 +168,7 @@ def _encoded(
         "thresholds": f"(rank + 1/2) / {ranks.size}",
         "settings": settings,
         "levels": [vars(one) for one in levels],
+        **({"levels_of": "the first frame"} if frames else {}),
     }
     if suffix == ".json":
         return {path: json.dumps({**about, "ranks": ranks.tolist()}).encode() + b"\n"}

@@ -20,6 +20,7 @@ from gbnbench.api.exports import ExportedSets, SetCopy
 from gbnbench.api.source_arguments import SourceLike, as_sources
 from gbnbench.core.atomic_write import check_folder
 from gbnbench.core.errors import InputError, RefusalError
+from gbnbench.core.least_values import whole_number
 from gbnbench.core.memory import too_large
 from gbnbench.core.repeated_tile import check_counts, repeated
 from gbnbench.core.sides import as_sides
@@ -121,8 +122,7 @@ def export_sets(
     path = Path(path)
     numbers = default_type(path, number_type)
     check_folder(path)
-    if not isinstance(copies, int) or isinstance(copies, bool) or copies < 1:
-        raise InputError(f"copies must be a whole number of at least 1; got {copies!r}")
+    copies, seed = whole_number("copies", copies, 1), whole_number("seed", seed, 0)
     sources, _ = as_sources(source, n, d, realizations)
     first = _alike(sources)
     rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=COPIES_STREAM))
@@ -161,7 +161,7 @@ def export_sets(
             projections=qualities(points[:some], renderers_projections(first.d), whole, progress),
             remarks=(),
         )
-    exported = replace(exported, remarks=_remarks(exported, sources))
+    exported = replace(exported, remarks=_remarks(exported, sources, x))
     identities = [one.identity() for one in sources]
     files = encode_sets(path, exported, values, identities, seed)
     for file, data in files.items():
@@ -206,7 +206,7 @@ def _whole(sides: Sequence[float] | None, tiles: Sequence[int]) -> tuple[float, 
     return tuple(float(side * count) for side, count in zip(sides or (1.0,) * len(tiles), tiles, strict=True))
 
 
-def _remarks(made: ExportedSets, sources: Sequence[Source]) -> tuple[str, ...]:
+def _remarks(made: ExportedSets, sources: Sequence[Source], unrounded: FloatArray) -> tuple[str, ...]:
     """Say what the user should know: rounding that costs, points that coincide, boxes that are no torus."""
     remarks = [f"{one.label}: {NO_TORUS}" for one in sources if one.toroidal is False]
     before, after = made.unrounded.noise_floor, made.quality.noise_floor
@@ -215,6 +215,13 @@ def _remarks(made: ExportedSets, sources: Sequence[Source]) -> tuple[str, ...]:
             f"rounding to {made.number_type} raises the noise floor from {before:.3g} to {after:.3g}"
             + ("; float64 keeps it" if made.number_type != "float64" else "")
         )
-    if made.quality.min_distance == 0 and made.unrounded.min_distance > 0:
+    pairs = () if made.number_type == "float64" else zip(unrounded, made.points, strict=True)
+    if any(_different(y) < _different(x) for x, y in pairs):
         remarks.append(f"rounding to {made.number_type} makes points coincide")
     return tuple(remarks)
+
+
+def _different(x: FloatArray) -> int:
+    """Count the points of a set, (n, d), of which no two are the same."""
+    ordered = x[np.lexsort(x.T)]
+    return 1 + int((ordered[1:] != ordered[:-1]).any(axis=1).sum())

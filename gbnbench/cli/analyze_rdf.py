@@ -51,6 +51,7 @@ def write_rdf(
     import numpy as np
 
     from gbnbench.analysis.spatial.rdf import RANGE, rdf
+    from gbnbench.cli.spectrum_output import check_outs
     from gbnbench.core.sides import as_sides
     from gbnbench.io import data_files
     from gbnbench.io.points.writer import write_atomically
@@ -61,6 +62,7 @@ def write_rdf(
         raise InputError(f"--rdf writes a .csv; got {out}")
     if not out.parent.is_dir():
         raise InputError(f"cannot write {out}: there is no folder {out.parent}")
+    check_outs([out], [path for path in files if path.exists()], each=False)
     read = read_torus(files[0], reading)
     if len({x.shape for x in read.sets}) > 1:
         raise InputError(f"--rdf averages sets of one size, and those in {files[0]} differ; part the file")
@@ -75,5 +77,5 @@ def write_rdf(
         )
     write_atomically(out, data_files.to_csv(found.to_frame()))
     count = len(found.r)
-    width = f" of {found.r[1]:.4g} densest spacings, up to {count * found.r[1]:.4g}" if count > 1 else ""
-    click.echo(f"wrote {out}: {count} bins{width}; r is where a bin begins")
+    bins_of = f"{count:,} bin{'' if count == 1 else 's'} of {found.width:.4g} densest spacings"
+    click.echo(f"wrote {out}: {bins_of}, up to {count * found.width:.4g}; r is where a bin begins")

@@ -83,16 +83,20 @@ def _sets(
     sources: tuple[str, ...], out: Path, seed: int, reading: ReadingOptions, given: dict[str, Any], *,
     as_json: bool, quiet: bool,
 ) -> None:  # fmt: skip
+    from gbnbench.api.export_files import written_files
     from gbnbench.api.set_export import export_sets
     from gbnbench.cli.export_text import set_lines, sets_record
     from gbnbench.cli.spectrum_output import check_outs
+    from gbnbench.runs.file_sets import files_of
+    from gbnbench.runs.source_names import generator_named
     from gbnbench.runs.sources import resolve
 
-    check_outs([out], [path for path in map(Path, sources) if path.is_file()], each=False)
     n, d = given["points"] or 1024, given["dimension"] or 2
     found, skipped = resolve(sources, [n], [d], given["realizations"] or 1, reading)
     for remark in skipped:
         click.echo(f"gbnbench: warning: left out {remark}", err=True)
+    paths = [Path(name) for name in sources if Path(name).exists() and generator_named(name) is None]
+    check_outs(written_files(out), [file for path in paths for file in files_of(path)], each=False)
     replaced = out.exists()
     with stages(quiet) as told:
         made = export_sets(

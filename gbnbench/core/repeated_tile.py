@@ -61,8 +61,7 @@ def check_counts(counts: Sequence[int], d: int) -> tuple[int, ...]:
     InputError
         If they are not d whole numbers of at least 1.
     """
-    if len(counts) != d or not all(isinstance(c, (int, np.integer)) and c >= 1 for c in counts):
-        raise InputError(
-            f"repeat must be {d} whole numbers of at least 1, one for each axis; got {tuple(counts)}"
-        )
+    whole = np.ndim(counts) == 1 and all(isinstance(c, (int, np.integer)) and c >= 1 for c in counts)
+    if not whole or len(counts) != d:
+        raise InputError(f"repeat must be {d} whole numbers of at least 1, one for each axis; got {counts!r}")
     return tuple(int(c) for c in counts)

@@ -154,11 +154,14 @@ def random_isometries(
 
 
 def _axes(what: str, given: Sequence[int], d: int, count: int | None) -> tuple[int, ...]:
-    axes = tuple(given)
+    listed = np.ndim(given) == 1
+    axes = tuple(given) if listed else ()
     wrong = [a for a in axes if not isinstance(a, (int, np.integer)) or not 0 <= a < d]
-    if wrong or len(set(axes)) < len(axes) or (count is not None and len(axes) != count):
+    if not listed or wrong or len(set(axes)) < len(axes) or (count is not None and len(axes) != count):
         how_many = "two axes" if count == 2 else "axes"
-        raise InputError(f"{what} must name {how_many} of 0 to {d - 1}, each once; got {axes}")
+        raise InputError(
+            f"{what} must name {how_many} of 0 to {d - 1}, each once; got {axes if listed else given}"
+        )
     return tuple(int(a) for a in axes)
 
 

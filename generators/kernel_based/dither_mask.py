@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-import numbers
 from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.core.errors import InputError
+from gbnbench.core.least_values import whole_number
 from gbnbench.generators.kernel_based.raster_kernel import RasterKernel, gaussian, spatiotemporal
 from gbnbench.generators.kernel_based.void_and_cluster import initial_binary_pattern
 from gbnbench.generators.ranges import check_range
@@ -74,10 +74,9 @@ def dither_mask(
     sides = checked_shape(shape)
     check_range("sigma", sigma, 0.1, 20, "pixels")
     check_range("sigma_time", sigma_time, 0.1, 20, "frames")
-    if not isinstance(seed, numbers.Integral) or isinstance(seed, bool) or seed < 0:
-        raise InputError(f"seed must be a whole number >= 0; got {seed!r}")
+    seed = whole_number("seed", seed, 0)
     kernel = gaussian(sides, sigma) if len(sides) == 2 else spatiotemporal(sides, sigma, sigma_time)
-    return mask_ranks(sides, kernel, np.random.default_rng(int(seed)), progress)
+    return mask_ranks(sides, kernel, np.random.default_rng(seed), progress)
 
 
 def checked_shape(shape: int | Sequence[int]) -> tuple[int, ...]:
@@ -105,7 +104,7 @@ def checked_shape(shape: int | Sequence[int]) -> tuple[int, ...]:
         )
     sides: tuple[int, ...] = tuple(given.tolist() * (2 if len(given) == 1 else 1))
     if not all(SMALLEST <= side <= LARGEST for side in sides):
-        raise InputError(f"each side of a mask must have 2 or more pixels; got {shape!r}")
+        raise InputError(f"each side of a mask must have {SMALLEST} to {LARGEST:,} pixels; got {shape!r}")
     if math.prod(sides) > MOST_PIXELS:
         raise InputError(
             f"a mask must have at most {MOST_PIXELS:,} pixels, such as 512 x 512, since each is searched for "

@@ -47,12 +47,26 @@ def test_a_compiled_header_holds_the_ranks(tmp_path: Path, standard):
     assert list(map(int, said(built(source, standard, tmp_path)).stdout.split())) == ranks.ravel().tolist()
 
 
+def test_numbers_of_numpy_are_described(tmp_path: Path):
+    given = {"seed": np.int64(3), "sigma": np.float32(1.5), "sigma_time": np.float32(2)}
+    gbnbench.export_mask(tmp_path / "m.json", (2, 8, 8), **given)
+    described = json.loads((tmp_path / "m.json").read_text())
+    assert described["settings"] == {"seed": 3, "sigma": 1.5, "sigma_time": 2.0}
+
+
 def test_its_picture_shows_the_patterns(tmp_path: Path):
     made = gbnbench.export_mask(tmp_path / "mask.png", (24, 32), picture=tmp_path / "look.png")
     assert made.files == (tmp_path / "mask.png", tmp_path / "look.png")
     with Image.open(tmp_path / "look.png") as picture:
         width, height = picture.size
     assert width > 1000 > height > 500
+
+
+def test_levels_of_a_mask_with_frames_are_said_to_be_those_of_the_first(tmp_path: Path):
+    gbnbench.export_mask(tmp_path / "mask.h", (2, 8, 8))
+    assert "Level 0.25, first frame: power below" in (tmp_path / "mask.h").read_text()
+    gbnbench.export_mask(tmp_path / "mask.json", (2, 8, 8))
+    assert json.loads((tmp_path / "mask.json").read_text())["levels_of"] == "the first frame"
 
 
 def test_all_levels_are_measured_and_blue(tmp_path: Path):
@@ -67,9 +81,11 @@ def test_all_levels_are_measured_and_blue(tmp_path: Path):
     [
         ("mask.gif", {}, "masks are exported as .png, .exr, .h, .bin, .raw, .json; got extension '.gif'"),
         ("mask.png", {"bits": 12}, "bits must be 8 or 16; got 12"),
+        ("mask.png", {"bits": 8.0}, "bits must be 8 or 16; got 8.0"),
         ("mask.h", {"bits": 8}, "bits are those of a .png"),
-        ("mask.png", {"shape": 1}, "2 or more pixels"),
+        ("mask.png", {"shape": 1}, "2 to 65,536 pixels"),
         ("mask.png", {"picture": "look.gif"}, "the picture of a mask is a .png or .pdf"),
+        ("mask.png", {"shape": (40, 2), "picture": "look.png"}, "16 times as long as wide; got 2 x 40"),
         ("mask.png", {"picture": "mask.png"}, "needs a file of its own"),
         ("nowhere/mask.png", {}, "there is no folder"),
     ],

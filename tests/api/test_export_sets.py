@@ -122,6 +122,24 @@ def test_rounding_that_costs_is_remarked_upon(tmp_path: Path):
     assert export(tmp_path / "sets.h", "stealthy", n=256, number_type="float64").remarks == ()
     near = np.array([[0.5, 0.5], [0.5 + 1e-9, 0.5], [0.1, 0.1]])
     assert "rounding to float32 makes points coincide" in export(tmp_path / "sets.h", near).remarks
+    last = np.concatenate([np.random.default_rng(0).random((9, 3, 2)), near[None]])  # beyond those measured
+    assert "rounding to float32 makes points coincide" in export(tmp_path / "sets.h", last).remarks
+    twice = np.array([[0.5, 0.5], [0.5, 0.5], [0.1, 0.1]])  # not by rounding
+    assert export(tmp_path / "sets.h", twice).remarks == ()
+
+
+def test_whole_numbers_of_numpy_are_whole_numbers(tmp_path: Path):
+    made = export(tmp_path / "sets.json", X[0], copies=np.int64(2), seed=np.uint8(3), repeat=np.array([2, 1]))
+    same = export(tmp_path / "same.json", X[0], copies=2, seed=3, repeat=(2, 1))
+    assert np.array_equal(made.points, same.points)
+    assert (tmp_path / "sets.json").read_text() == (tmp_path / "same.json").read_text()
+
+
+def test_a_header_says_of_which_sets_its_noise_floor_is(tmp_path: Path):
+    for sets, said in ((8, "(1 for random points): "), (9, "(1 for random points, of the first 8 sets): ")):
+        made = export(tmp_path / "sets.h", np.random.default_rng(4).random((sets, 5, 2)))
+        assert made.measured == 8
+        assert f"Noise floor {said}" in (tmp_path / "sets.h").read_text()
 
 
 def test_sets_of_several_files_go_together(tmp_path: Path):
@@ -143,7 +161,12 @@ def test_sets_of_several_files_go_together(tmp_path: Path):
         ("sets.xyz", {}, "XYZ holds points of three dimensions; got d=2"),
         ("sets.ply", {}, "a PLY file holds one set; got several, which .npz and .txt hold"),
         ("sets.h", {"number_type": "half"}, "type must be one of"),
-        ("sets.h", {"copies": 0}, "copies must be a whole number of at least 1; got 0"),
+        ("sets.h", {"copies": 0}, "copies must be a whole number >= 1; got 0"),
+        ("sets.h", {"seed": -1}, "seed must be a whole number >= 0; got -1"),
+        ("sets.h", {"seed": 1.5}, "seed must be a whole number >= 0; got 1.5"),
+        ("sets.h", {"swap": [0, 1]}, "swap must name two axes of 0 to 1, each once; got 0"),
+        ("sets.h", {"flip": 0}, "flip must name axes of 0 to 1, each once; got 0"),
+        ("sets.h", {"repeat": 2}, "repeat must be 2 whole numbers of at least 1, one for each axis; got 2"),
         ("sets.h", {"flip": [2]}, "flip must name axes of 0 to 1"),
         ("sets.h", {"swap": [(0,)]}, "swap must name two axes"),
         ("sets.h", {"shift": "far"}, "shift must be random or 2 numbers"),

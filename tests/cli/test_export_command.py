@@ -66,6 +66,12 @@ def test_a_mask(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert json.loads(capsys.readouterr().out)["shape"] == [3, 4, 8]
 
 
+def test_a_folder_of_a_generators_name_is_not_read(here: Path) -> None:
+    (here / "jittered").mkdir()
+    for _ in range(2):
+        assert run(["export", "jittered", "-n", "16", "-o", "jittered/sets.npy", "--quiet"]) == 0
+
+
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
@@ -86,6 +92,8 @@ def test_a_mask(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
         (["empty.txt", "-o", "x.h"], "empty.txt: the file is empty"),
         (["nan.txt", "-o", "x.h"], "nan.txt, line 1"),
         (["good.txt", "-o", "good.txt"], "good.txt is read here, and writing would replace it"),
+        (["./sets", "-o", "sets/b.txt"], "sets/b.txt is read here, and writing would replace it"),
+        (["points.bin.json", "-o", "points.bin"], "points.bin.json is read here, and writing would replace"),
         (["good.txt", "-o", "x.doc"], "sets are exported as .h, .bin, .raw, "),
         (["good.txt", "-o", "folder.h"], "is a directory"),
     ],
@@ -95,6 +103,10 @@ def test_what_is_refused_is_one_line(here: Path, capsys: pytest.CaptureFixture[s
     (here / "nan.txt").write_text("nan 0.5\n0.2 0.3\n")
     (here / "good.txt").write_text("0.1 0.5\n0.2 0.3\n")
     (here / "folder.h").mkdir()
+    (here / "sets").mkdir()
+    (here / "sets" / "a.txt").write_text("0.1 0.5\n0.2 0.3\n")
+    (here / "sets" / "b.txt").write_text("0.4 0.5\n0.2 0.3\n")
+    (here / "points.bin.json").write_text('{"points": [[0.1, 0.5], [0.2, 0.3]]}')
     before = sorted(here.rglob("*"))
     assert run(["export", *arguments]) == 2
     error = capsys.readouterr().err

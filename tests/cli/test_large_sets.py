@@ -116,6 +116,19 @@ def test_g_of_r_as_far_as_was_asked_for(
 
     np.testing.assert_allclose(g, rdf(X, reach=4, bins=50).g, rtol=1e-12)
     np.testing.assert_allclose(r, np.arange(50) * 0.08, rtol=1e-12)
+    assert run(["analyze", "two.npy", "--rdf", "g.csv", "--range", "4", "--bins", "1"]) == 0
+    assert capsys.readouterr().out == "wrote g.csv: 1 bin as far as 4 densest spacings\n"
+
+
+def test_g_of_r_is_not_written_over_the_points(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    np.savetxt("x.csv", X[:50], delimiter=",")
+    before = Path("x.csv").read_bytes()
+    assert run(["analyze", "x.csv", "--rdf", "./x.csv"]) == 2
+    assert "x.csv is read here, and writing would replace it" in capsys.readouterr().err
+    assert Path("x.csv").read_bytes() == before
 
 
 @pytest.mark.parametrize(

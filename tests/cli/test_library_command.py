@@ -60,6 +60,13 @@ def test_what_is_made_can_be_listed_checked_and_loaded(library, capsys):
     assert np.array_equal(x, gbnbench.generate("jittered", n=16, realizations=2)[1])
 
 
+def test_what_was_unpacked_can_be_added_to(library, here, capsys):
+    assert command("--unpack", library, "-o", "copy") == 0
+    asked = ("jittered", "-n", "16,64", "-d", 2, "--realizations", 2, "-o", "copy", "--jobs", 1)
+    assert command(*asked, "--quiet") == 0
+    assert "3 files (1 made, 1 found; " in capsys.readouterr().out
+
+
 def test_a_damaged_file_is_named_with_exit_code_1(library, here, capsys):
     assert command("--unpack", library, "-o", "copy") == 0
     file = Path("copy/bnot/2d/bnot-2d-16.npy")

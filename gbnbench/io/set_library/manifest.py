@@ -148,7 +148,7 @@ def decoded(data: bytes, path: Path) -> Manifest:
         )
     except FormatError:
         raise
-    except (ValueError, KeyError, TypeError, AttributeError) as error:
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise FormatError(path, f"is not what gbnbench wrote ({type(error).__name__}: {error})") from None
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import lzma
 import tarfile
 import zipfile
 import zlib
@@ -19,6 +20,9 @@ BUNDLED = "bundled"  # the name of the choice that is installed
 INSTALLED = "ready_sets.zip"  # its file, beside this module
 TAR = (".tar.gz", ".tgz", ".tar")
 ARCHIVES = (".zip", *TAR)
+UNREADABLE = (  # raised of archives that are damaged, locked by a password or of other kinds
+    zipfile.BadZipFile, tarfile.TarError, zlib.error, lzma.LZMAError, EOFError, RuntimeError
+)  # fmt: skip
 
 
 class Place(Protocol):
@@ -66,8 +70,10 @@ class Folder:
         """Return the content of a file, as ``Place.read`` does."""
         try:
             return (self.path / name).read_bytes()
-        except (FileNotFoundError, IsADirectoryError):
+        except (FileNotFoundError, IsADirectoryError, NotADirectoryError):
             raise KeyError(name) from None
+        except OSError as error:
+            raise FormatError(self.path / name, f"cannot be read ({error.strerror})") from None
 
 
 class Zip:
@@ -88,7 +94,7 @@ class Zip:
         """Return the content of a file, as ``Place.read`` does."""
         try:
             return self._archive.read(name)
-        except (zipfile.BadZipFile, zlib.error, EOFError) as error:
+        except (*UNREADABLE, OSError) as error:
             raise FormatError(self.path / name, f"cannot be read ({error})") from None
 
 
@@ -118,7 +124,7 @@ class Tar:
             if member is None:
                 raise KeyError(name)
             return member.read()
-        except (tarfile.TarError, EOFError, zlib.error, OSError) as error:
+        except (*UNREADABLE, OSError) as error:
             raise FormatError(self.path / name, f"cannot be read ({error})") from None
 
 
@@ -170,7 +176,7 @@ def open_place(where: str | Path = BUNDLED) -> Iterator[Place]:
                 place = Zip(path, stack.enter_context(zipfile.ZipFile(path)))
             else:
                 place = Tar(path, stack.enter_context(tarfile.open(path)))
-        except (zipfile.BadZipFile, tarfile.TarError, EOFError, zlib.error) as error:
+        except UNREADABLE as error:
             raise FormatError(path, f"is no archive that can be read ({error})") from None
         yield place
 

@@ -92,9 +92,15 @@ def read_sets(place: Place, entry: ReadySets) -> FloatArray:
     Raises
     ------
     FormatError
-        If the file is missing, was changed, cannot be read, or is no such array.
+        If the file is missing, was changed, cannot be read, or is no such array of points.
     """
-    sets: FloatArray = np.load(io.BytesIO(content(place, entry)), allow_pickle=False)
+    data = io.BytesIO(content(place, entry))
+    try:
+        sets: FloatArray = np.lib.format.read_array(data, allow_pickle=False)
+    except (ValueError, EOFError, MemoryError) as error:
+        raise FormatError(place.path / entry.file, f"holds no array of numbers ({error})") from None
     if sets.shape != entry.shape or sets.dtype != np.float64:
         raise FormatError(place.path / entry.file, f"holds {sets.dtype} of shape {sets.shape}")
+    if not ((sets >= 0) & (sets < 1)).all():
+        raise FormatError(place.path / entry.file, "holds coordinates that do not lie in [0, 1)")
     return sets

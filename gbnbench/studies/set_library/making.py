@@ -82,7 +82,8 @@ def make_library(
     Raises
     ------
     InputError
-        If there is something else, or a library of another seed, device or version.
+        If there is something else, a library of another seed, device or version, or an archive beside a
+        folder ``NAME.unfinished`` that lacks sets of it.
     FormatError
         If an archive that is there is damaged.
     UnfinishedError
@@ -102,6 +103,8 @@ def make_library(
     store = LibraryFolder(folder, identity, request.sets)
     with store.lock(), explain_interruption(folder):
         store = LibraryFolder(folder, identity, request.sets)  # as the last holder of the lock left it
+        if folder != out and out.exists():
+            _check_archive(out, folder, store.manifest)
         store.begin()
         missing = [sets for sets in request.sets if store.finished(sets) is None]
         if missing:
@@ -112,7 +115,8 @@ def make_library(
             progress.advance("packing", 0)
             pack(folder, store.names(), out)
     if folder != out:
-        shutil.rmtree(folder)
+        folder.replace(_temporary(folder))  # at once: half a folder would be taken for a library
+        shutil.rmtree(_temporary(folder), ignore_errors=True)
     found = len(request.sets) - len(missing)
     return MadeLibrary(store.manifest, out, len(missing), found, time.monotonic() - began)
 
@@ -156,8 +160,26 @@ def finished_files(request: LibraryRequest, out: Path) -> list[RequestedSets]:
     return [sets for sets, entry in entries if entry is not None and entry.tried >= sets.realizations]
 
 
+def _temporary(folder: Path) -> Path:
+    """Return where the folder of an archive is unpacked to and deleted from."""
+    return folder.with_name(f".{folder.name}.tmp")
+
+
+def _check_archive(archive: Path, folder: Path, manifest: Manifest) -> None:
+    """Refuse to replace an archive by a folder that lacks some of its sets: that of another library."""
+    with open_place(archive) as place:
+        packed = manifest_of(place)
+    for sets in packed.files:
+        entry = manifest.entry(sets.generator, sets.n, sets.d)
+        if packed.seed != manifest.seed or entry is None or entry.tried < sets.tried:
+            raise InputError(
+                f"{archive} has sets of {sets.file} that {folder} lacks, the folder that a stopped command "
+                "left and this one would go on with: rename or delete the one of the two that is not wanted"
+            )
+
+
 def _unpack(archive: Path, folder: Path, identity: dict[str, Any]) -> None:
-    temporary = folder.with_name(f".{folder.name}.tmp")  # what a killed process left is of no use
+    temporary = _temporary(folder)  # what a killed process left there is of no use
     shutil.rmtree(temporary, ignore_errors=True)
     try:
         with open_place(archive) as place:

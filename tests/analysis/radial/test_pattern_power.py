@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gbnbench.analysis.radial.pattern_power import pattern_power
+from gbnbench.analysis.radial.pattern_power import pattern_power, pattern_spectrum
 from gbnbench.core.errors import InputError
 
 
 @pytest.mark.parametrize("level", [1 / 16, 1 / 4, 1 / 2, 7 / 8])
-@pytest.mark.parametrize("shape", [(32, 32), (24, 48)])
+@pytest.mark.parametrize("shape", [(32, 32), (24, 48), (2, 512), (512, 4)])
 def test_it_is_that_of_a_fourier_transform(shape, level):
     ranks = np.random.default_rng(1).permutation(shape[0] * shape[1]).reshape(shape)
     found = pattern_power(ranks, level)
@@ -24,6 +24,19 @@ def test_it_is_that_of_a_fourier_transform(shape, level):
         low = (length <= principal * part + 1e-12) & (length > 0)
         assert value == pytest.approx(power[low].mean(), rel=1e-9)
     assert found.ones == m
+
+
+def test_a_long_mask_needs_no_more_frequencies_than_a_square(monkeypatch):
+    farthest = []
+
+    def watched(ranks, ones, fmax):
+        farthest.append(fmax)
+        return pattern_spectrum(ranks, ones, fmax)
+
+    monkeypatch.setattr("gbnbench.analysis.radial.pattern_power.pattern_spectrum", watched)
+    ranks = np.random.default_rng(2).permutation(2 * 512).reshape(2, 512)
+    assert pattern_power(ranks, 1 / 2) != pattern_power(ranks.reshape(32, 32), 1 / 2)
+    assert farthest == [9, 9]
 
 
 def test_a_level_without_ones_is_refused():

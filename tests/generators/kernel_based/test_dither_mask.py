@@ -98,8 +98,8 @@ def test_the_spatiotemporal_sum_is_that_of_all_pairs():
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        ({"shape": 1}, "2 or more pixels; got 1"),
-        ({"shape": (8, 0)}, "2 or more pixels"),
+        ({"shape": 1}, "2 to 65,536 pixels; got 1"),
+        ({"shape": (8, 0)}, "2 to 65,536 pixels"),
         ({"shape": 8.5}, "in whole numbers; got 8.5"),
         ({"shape": (2, 2, 2, 2)}, "rows and columns"),
         ({"shape": 4096}, "at most 262,144 pixels"),

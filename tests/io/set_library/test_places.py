@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 from collections.abc import Callable
 from pathlib import Path
@@ -87,6 +88,36 @@ def test_a_file_that_is_missing_or_changed_is_named(library):
         read_sets(place, first)
 
 
+@pytest.mark.parametrize(
+    ("data", "says"),
+    [
+        (b"garbage", "holds no array of numbers"),
+        (encoded(np.full((2, 8, 3), np.nan)), r"holds coordinates that do not lie in \[0, 1\)"),
+        (encoded(np.ones((2, 8, 3))), r"holds coordinates that do not lie in \[0, 1\)"),
+        (encoded(np.zeros((2, 8, 2))), r"holds float64 of shape \(2, 8, 2\)"),
+    ],
+)
+def test_what_is_no_point_set_is_refused_whatever_the_manifest_says(library, data, says):
+    name = "random/3d/random-3d-8.npy"
+    (library / name).write_bytes(data)
+    record = json.loads((library / "manifest.json").read_text())
+    for entry in record["files"]:
+        entry["sha256"] = hashlib.sha256(data).hexdigest() if entry["file"] == name else entry["sha256"]
+    (library / "manifest.json").write_text(json.dumps(record))
+    manifest = manifest_of(Folder(library))
+    entry = next(entry for entry in manifest.files if entry.file == name)
+    with pytest.raises(FormatError, match=says):
+        read_sets(Folder(library), entry)
+
+
+def test_a_file_in_the_place_of_a_folder_is_a_fault_of_those_in_it(library):
+    manifest = manifest_of(Folder(library))
+    (library / "random" / "3d" / "random-3d-8.npy").unlink()
+    (library / "random" / "3d").rmdir()
+    (library / "random" / "3d").write_text("")
+    assert faults(Folder(library), manifest) == {"random/3d/random-3d-8.npy": "is missing"}
+
+
 def read_all(path: Path) -> list[str]:
     """Read everything of a library; what is wrong with its files."""
     with open_place(path) as place:
@@ -124,6 +155,23 @@ def test_a_flipped_bit_in_a_zip_is_a_fault_of_its_file(library):
         assert set(faults(place, manifest_of(place))) == {"random/3d/random-3d-8.npy"}
 
 
+@pytest.mark.parametrize(
+    ("central", "local", "value", "says"),
+    [(8, 6, 1, "password"), (10, 8, 99, "compression method")],
+)
+def test_a_zip_that_is_locked_or_of_another_method_is_told(library, central, local, value, says):
+    path = packed(library, ".zip")
+    data = bytearray(path.read_bytes())
+    for mark, offset in ((b"PK\x01\x02", central), (b"PK\x03\x04", local)):
+        at = data.find(mark)
+        while at >= 0:
+            data[at + offset] = value
+            at = data.find(mark, at + 4)
+    path.write_bytes(data)
+    with pytest.raises(FormatError, match=rf"manifest\.json: cannot be read \(.*{says}"):
+        read_all(path)
+
+
 def damaged(library: Path, change: Callable[[dict[str, Any]], object]) -> Path:
     record = json.loads((library / "manifest.json").read_text())
     change(record)
@@ -149,9 +197,10 @@ def test_a_manifest_that_is_something_else_is_refused(library, change, says):
 
 
 def test_a_manifest_that_is_no_json_is_refused(library):
-    (library / "manifest.json").write_bytes(b"\xff{")
-    with pytest.raises(FormatError, match=r"manifest\.json: is not what gbnbench wrote"):
-        manifest_of(Folder(library))
+    for data in (b"\xff{", b"[" * 200_000):
+        (library / "manifest.json").write_bytes(data)
+        with pytest.raises(FormatError, match=r"manifest\.json: is not what gbnbench wrote"):
+            manifest_of(Folder(library))
 
 
 def test_what_is_no_library_is_refused(library):

@@ -149,6 +149,42 @@ def test_an_archive_of_another_seed_or_one_that_is_damaged_is_refused_and_left_a
     assert [path.name for path in tmp_path.iterdir()] == ["sets.zip"]
 
 
+def test_an_archive_is_not_replaced_by_a_folder_that_lacks_its_sets(tmp_path):
+    archive = tmp_path / "sets.zip"
+    made(archive, ("random",), (16,), (2, 3))
+    whole = archive.read_bytes()
+    made(tmp_path / "sets.zip.unfinished", ("random",), (16,), (2,))
+    with pytest.raises(InputError, match=r"sets\.zip has sets of random/3d/random-3d-16\.npy that "):
+        made(archive, ("random",), (64,), (2,))
+    assert archive.read_bytes() == whole
+    shutil.rmtree(tmp_path / "sets.zip.unfinished")
+    made(tmp_path / "sets.zip.unfinished", ("random",), (16,), (2, 3), realizations=2)
+    with pytest.raises(InputError, match=r"sets\.zip has sets of random/2d/random-2d-16\.npy that "):
+        made(archive, ("random",), (64,), (2,))
+    assert archive.read_bytes() == whole
+
+
+@pytest.mark.parametrize("gone", ["manifest.json", "settings.json", "random"])
+def test_killed_while_the_folder_of_an_archive_is_deleted_nothing_is_lost(tmp_path, monkeypatch, gone):
+    archive, rmtree = tmp_path / "sets.zip", shutil.rmtree
+
+    def half(path: Path, **options: object) -> None:
+        """Delete one file of the finished folder, and then be killed."""
+        found = Path(path) / gone
+        if not found.exists():
+            return
+        rmtree(found) if found.is_dir() else found.unlink()
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patched:
+        patched.setattr("gbnbench.studies.set_library.making.shutil.rmtree", half)
+        with pytest.raises(KeyboardInterrupt):
+            made(archive, ("random",), (16,), (2, 3))
+    done = made(archive, ("random",), (64,), (2,))
+    assert [(entry.n, entry.d) for entry in done.manifest.files] == [(16, 2), (64, 2), (16, 3)]
+    assert [path.name for path in tmp_path.iterdir()] == ["sets.zip"]
+
+
 @dataclass(frozen=True)
 class Moody:
     """Random points, but none from the streams that begin below a half."""
