@@ -54,8 +54,8 @@ class WeightedOptimalTransport(AdaptiveMethod):
     goes to the centroid without a line search, and regular regions are not broken up, which is for runs that
     are longer than these. Islands of ink in white (``islands``) are drawn one by one: each gets the whole
     number of points next to its share, and its cells have equal masses among themselves. One cell for two
-    islands would have its centroid in the white between, and masses hardly change while its sides move through
-    it: Newton's steps were halved some fifteen times each, and the points did not come to rest. So that cells
+    islands would have its centroid in the white between, and masses hardly change while its sides move
+    through it: Newton's steps were halved some fifteen times each, and the points did not come to rest. So that cells
     on what hangs together loosely have neighbours, one point's mass is spread over all pixels in the first
     alternation, a tenth of it in the next, and a thousandth from the fourth on; where twenty steps do not
     make masses equal, the points move all the same.
