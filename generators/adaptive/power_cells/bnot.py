@@ -55,10 +55,11 @@ class WeightedOptimalTransport(AdaptiveMethod):
     are longer than these. Islands of ink in white (``islands``) are drawn one by one: each gets the whole
     number of points next to its share, and its cells have equal masses among themselves. One cell for two
     islands would have its centroid in the white between, and masses hardly change while its sides move
-    through it: Newton's steps were halved some fifteen times each, and the points did not come to rest. So that cells
-    on what hangs together loosely have neighbours, one point's mass is spread over all pixels in the first
-    alternation, a tenth of it in the next, and a thousandth from the fourth on; where twenty steps do not
-    make masses equal, the points move all the same.
+    through it: Newton's steps were halved some fifteen times each, and the points did not come to rest.
+
+    So that cells on what hangs together loosely have neighbours, one point's mass is spread over all pixels
+    in the first alternation, a tenth of it in the next, and a thousandth from the fourth on; where twenty
+    steps do not make masses equal, the points move all the same.
     A centroid may lie on a pixel without ink; such a point goes to the nearest one that has some at the end.
 
     Cost: 6 to 9 CPU s for 10,000 points on 512 x 512 pixels, half a second for 1,500 on twelve islands.
