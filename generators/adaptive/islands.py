@@ -121,7 +121,7 @@ def _joined(
 def _cut_out(density: Density, own: NDArray[np.bool_], n: int) -> Island:
     """Take an island by itself; on the torus as it is where it takes more than half of a side."""
     values = np.where(own, density.values, 0.0)
-    spans = [_span(own.any(axis=1 - a), toroidal=density.toroidal) for a in range(2)]
+    spans = [_span(np.asarray(own.any(axis=1 - a)), toroidal=density.toroidal) for a in range(2)]
     if density.toroidal and any(2 * size > side for (_, size), side in zip(spans, own.shape, strict=True)):
         return Island(Density(values, toroidal=True), n, np.zeros(2))
     (row, rows), (column, columns) = spans
