@@ -12,12 +12,13 @@ from gbnbench.analysis.measuring_plan import MeasuringPlan
 from gbnbench.analysis.radial.psa import too_many_points
 from gbnbench.analysis.spatial.discrepancy import too_many_terms
 from gbnbench.analysis.spatial.slabs import SLAB_POINTS, WHOLE
+from gbnbench.analysis.spectrum.evaluators.kept_memory import KEPT_BYTES
 from gbnbench.analysis.spectrum.plan import plan as spectrum_plan
 from gbnbench.core.memory import PROCESS_BYTES
 
 CUBE_BYTES = 64  # for each frequency of a cube while its shells are told apart
 TREE_BYTES, DISTANCE_BYTES = 400, 16  # for each point of a slab, and of the set whose distances are kept
-STAR_BYTES = 2400  # for each point of a slab that is triangulated
+STAR_BYTES = 2500  # for each point of a slab that is triangulated
 PLANE_BYTES = 300  # for each point, to the next power of two, of a discrepancy in the plane
 GRID_SECONDS, TREE_SECONDS, STAR_SECONDS, PLANE_SECONDS = 1e-6, 2.5e-6, 5e-5, 1e-5  # a point, one core
 
@@ -50,7 +51,8 @@ class MeasuringCost:
     points : int
         Bytes of the points.
     stages : tuple of MeasuringStage
-        In the order in which they are done; what one takes is free again before the next.
+        In the order in which they are done, the spectrum first; what one takes is free again before the
+        next, but for what is kept of the spectrum.
     reach : float
         nu as far as the spectrum goes.
     left_out : dict
@@ -65,7 +67,9 @@ class MeasuringCost:
     @property
     def nbytes(self) -> int:
         """Memory of the process where it needs most."""
-        return PROCESS_BYTES + self.points + max(stage.nbytes for stage in self.stages)
+        spectrum, *others = (stage.nbytes for stage in self.stages)
+        later = max(others) + min(spectrum, KEPT_BYTES)  # what a thread keeps of the spectrum stays
+        return PROCESS_BYTES + self.points + max(spectrum, later)
 
     @property
     def seconds(self) -> float:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gbnbench.analysis.spectrum.cached_blocks import block_shape, cached_blocks
 from gbnbench.core.results.resolution import RESOLVED, resolvable_power
 from gbnbench.core.torus import FloatArray
 
@@ -156,18 +157,27 @@ def _of_blocks(x: FloatArray, precision: str, weights: FloatArray | None) -> Coo
 
 def _all_rounded(x: FloatArray, weights: FloatArray | None, share: float) -> Coordinates:
     """Measure the rounding of all coordinates in float."""
-    away = x * 2.0 ** BITS["float"]
-    away -= np.rint(away)
-    np.abs(away, out=away)
-    norm: FloatArray | float = float(x.shape[1])
-    if weights is not None:
-        dealt = np.broadcast_to(weights, x.shape[:2])
-        away *= np.abs(dealt)[:, :, None]
-        norm = (dealt**2).sum(axis=1)
+    sets, n, d = x.shape
     unit = 2.0 ** -BITS["float"]
-    each = away.reshape(len(x), -1)
-    coherent = each.sum(axis=1) / np.sqrt(norm)
-    scattered = np.sqrt(np.einsum("ij,ij->i", each, each) / norm)
+    coherent, square = np.zeros(sets), np.zeros(sets)
+    scaled, nearest = np.empty((2, *block_shape(sets, n, d), d))
+    norm: FloatArray | float = float(n)
+    dealt = None if weights is None else np.abs(np.broadcast_to(weights, (sets, n)))
+    if dealt is not None:
+        norm = (dealt**2).sum(axis=1)
+    for of_sets, points in cached_blocks(sets, n, d):
+        some = x[of_sets, points]
+        away, whole = scaled[: some.shape[0], : some.shape[1]], nearest[: some.shape[0], : some.shape[1]]
+        np.multiply(some, 1 / unit, out=away)
+        np.rint(away, out=whole)
+        np.subtract(away, whole, out=away)
+        np.abs(away, out=away)
+        if dealt is not None:
+            away *= dealt[of_sets, points, None]
+        each = away.reshape(len(away), -1)
+        coherent[of_sets] += each.sum(axis=1)
+        square[of_sets] += np.einsum("ij,ij->i", each, each)
+    coherent, scattered = coherent / np.sqrt(norm), np.sqrt(square / norm)
     return Coordinates(unit * float(coherent.max()), unit * float(scattered.max()), share)
 
 
