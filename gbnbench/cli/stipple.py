@@ -188,8 +188,8 @@ def _stipple_one(
     kept = FormingDots(moving.steps, moving.frames) if moving is not None and moving.steps else None
     with late_progress(quiet) as told, late_progress(quiet) as ordering:
         made = drawn(plan, given, told, kept, ordering)
-    for name, length in made.lengths.items():
-        click.echo(f"tour of {name}: {length:.4g} m")
+    for tour in made.tours(out.suffix.lower()):
+        click.echo(tour)
     replaced = ", replacing what was there" if out.exists() else ""
     if moving is None:
         write_stippling(out, made.layers, plan.style, dpi=given.dpi, template=given.template)
@@ -199,4 +199,4 @@ def _stipple_one(
         from gbnbench.cli.braille import braille
 
         click.echo(braille(made.layers.values()))
-    click.echo(f"wrote {out}: {made.summary}{replaced}")
+    click.echo(f"wrote {out}: {made.summary(out.suffix.lower())}{replaced}")

@@ -189,5 +189,5 @@ def drawn_file(image: str, content: bytes | None, suffix: str, given: StippleOpt
             said = error.format_message() if isinstance(error, click.ClickException) else str(error)
             raise InputError(named(said)) from None
     data = encoded(suffix, made.layers, plan.style, dpi=given.dpi, template=given.template)
-    tours = "".join(f", tour of {name} {length:.4g} m" for name, length in made.lengths.items())
-    return StippledFile(data, f"{made.summary}{tours}", tuple(map(named, plan.remarks)))
+    said = ", ".join([made.summary(suffix), *made.tours(suffix)])
+    return StippledFile(data, said, tuple(map(named, plan.remarks)))

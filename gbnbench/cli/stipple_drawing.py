@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from gbnbench.api.drawing import draw_inks, in_progressive_order
 from gbnbench.api.page_style import PageStyle, page_of
-from gbnbench.api.stippled_page import in_tour_order
+from gbnbench.api.stippled_page import TEXTS, in_tour_order
 from gbnbench.cli import stipple_input
 from gbnbench.cli.stipple_text import summary
 from gbnbench.generators.adaptive.protocol import AdaptiveGenerator
@@ -127,10 +127,14 @@ class DrawnImage:
     mm: float
     lengths: dict[str, float]
 
-    @property
-    def summary(self) -> str:
-        """Say how many dots there are, how large, on what page."""
-        return summary(self.page)
+    def summary(self, suffix: str) -> str:
+        """Say how many dots a file has, and unless it holds points alone how large, on what page."""
+        return summary(self.page, sized=suffix not in TEXTS)
+
+    def tours(self, suffix: str) -> list[str]:
+        """Say how long the tour of each ink is; of a file without a page, by what width."""
+        wide = f" on a page {self.page.width:g} mm wide" if suffix in TEXTS else ""
+        return [f"tour of {name}: {length:.4g} m{wide}" for name, length in self.lengths.items()]
 
 
 def planned(image: str, given: StippleOptions, suffix: str) -> PlannedImage:

@@ -9,13 +9,15 @@ from gbnbench.reports.stippling.page import Page
 DIGITS = 3  # of a diameter below a millimetre, and decimals of a larger one
 
 
-def summary(page: Page) -> str:
+def summary(page: Page, *, sized: bool = True) -> str:
     """Tell how many dots there are of each ink, how large, and on what page.
 
     Parameters
     ----------
     page : Page
         The page, with at least one dot.
+    sized : bool
+        Whether sizes are told: a file of points has none.
 
     Returns
     -------
@@ -27,10 +29,14 @@ def summary(page: Page) -> str:
     >>> dot = DotLayer("black", "#000000", np.array([[2.0, 1.0]]), np.array([0.000005]))
     >>> summary(Page(160, 120, (dot,)))
     '1 dot of black, 0.00001 mm across, on 160 x 120 mm'
+    >>> summary(Page(160, 120, (dot,)), sized=False)
+    '1 dot of black'
     """
     said = ", ".join(
         f"{len(layer.radii):,} dot{'s' * (len(layer.radii) != 1)} of {layer.name}" for layer in page.layers
     )
+    if not sized:
+        return said
     radii = np.concatenate([layer.radii for layer in page.layers])
     least, most = (_millimetres(2 * float(radius)) for radius in (radii.min(), radii.max()))
     across = least if least == most else f"{least} to {most}"

@@ -7,7 +7,7 @@ import math
 from gbnbench.core.readable_text import in_one_line
 from gbnbench.reports.stippling.page import DotLayer, Page, rgb_of
 from gbnbench.reports.stippling.pdf import POINTS_A_MM
-from gbnbench.reports.stippling.svg import short
+from gbnbench.reports.stippling.svg import short, short_size
 from gbnbench.reports.stippling.tiles import drawn_layers
 
 HEAD = """\
@@ -72,7 +72,7 @@ def _paper(page: Page) -> str:
 def _layer(layer: DotLayer) -> str:
     red, green, blue = layer.rgb
     dots = "".join(
-        f"{short(x)} {short(y)} {short(r)} d\n"
+        f"{short(x)} {short(y)} {short_size(r)} d\n"
         for (x, y), r in zip(layer.centres.tolist(), layer.radii.tolist(), strict=True)
     )
     return f"% {_comment(layer.name)}\n{red:.4f} {green:.4f} {blue:.4f} setrgbcolor\n{dots}"

@@ -45,7 +45,7 @@ class GcodeTemplate:
     """
 
     start: str = "; {title}\nG21 ; millimetres\nG90 ; absolute\nG0 Z5"
-    layer: str = "; {dots} dots of {layer}\nM0 ; put in the pen"
+    layer: str = "; dots of {layer}: {dots}\nM0 ; put in the pen"
     move: str = "G0 X{x:.3f} Y{y:.3f}"
     down: str = "G1 Z0 F1000"
     up: str = "G0 Z2"

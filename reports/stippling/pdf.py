@@ -6,7 +6,7 @@ import zlib
 
 from gbnbench.core.readable_text import in_one_line
 from gbnbench.reports.stippling.page import DotLayer, Page, rgb_of
-from gbnbench.reports.stippling.svg import short
+from gbnbench.reports.stippling.svg import short, short_size
 from gbnbench.reports.stippling.tiles import drawn_layers
 
 POINTS_A_MM = 72 / 25.4
@@ -78,7 +78,7 @@ def _paper(page: Page) -> str:
 def _layer(k: int, layer: DotLayer) -> str:
     red, green, blue = layer.rgb
     dots = "".join(
-        f"q {short(r)} 0 0 {short(r)} {short(x)} {short(y)} cm /D Do Q\n"
+        f"q {short_size(r)} 0 0 {short_size(r)} {short(x)} {short(y)} cm /D Do Q\n"
         for (x, y), r in zip(layer.centres.tolist(), layer.radii.tolist(), strict=True)
     )
     return f"/OC /L{k} BDC\n{red:.4f} {green:.4f} {blue:.4f} rg\n{dots}EMC\n"

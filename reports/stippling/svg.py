@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from xml.sax.saxutils import escape, quoteattr
 
 from gbnbench.core.readable_text import in_one_line
@@ -27,6 +28,7 @@ CLIP = """\
 <clipPath id="page"><rect width="{width}" height="{height}"/></clipPath>
 """
 CLIPPED = ' clip-path="url(#page)"'
+LEAST_DIGITS = 3  # of the radius of a dot, whatever its size
 MULTIPLY = ' style="mix-blend-mode:multiply"'
 
 
@@ -68,11 +70,25 @@ def short(value: float) -> str:
     return "0" if text == "-0" else text
 
 
+def short_size(value: float) -> str:
+    """Write a size as ``short`` does, but with three digits at least, so that no dot vanishes.
+
+    Examples
+    --------
+    >>> short_size(0.25), short_size(0.00123456), short_size(0.00005), short_size(0.0)
+    ('0.25', '0.00123', '0.00005', '0')
+    """
+    if value <= 0:
+        return short(value)
+    decimals = max(DIGITS, LEAST_DIGITS - 1 - math.floor(math.log10(value)))
+    return f"{value:.{decimals}f}".rstrip("0").rstrip(".")
+
+
 def _layer(number: int, layer: DotLayer, look: str) -> str:
     name = quoteattr(in_one_line(layer.name))
     begin = LAYER.format(number=number, name=name, colour=layer.colour, look=look)
     dots = "".join(
-        f'<circle cx="{short(x)}" cy="{short(y)}" r="{short(r)}"/>\n'
+        f'<circle cx="{short(x)}" cy="{short(y)}" r="{short_size(r)}"/>\n'
         for (x, y), r in zip(layer.centres.tolist(), layer.radii.tolist(), strict=True)
     )
     return f"{begin}{dots}</g>\n"

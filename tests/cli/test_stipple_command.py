@@ -103,7 +103,7 @@ def test_dots_of_a_size_are_as_many_as_cover_what_is_dark(here, capsys):
     assert command("g.png", "-o", "g.csv", "--dot-mm", 1, "--width-mm", 40, *QUICK) == 0
     wanted = round(39**2 * (128 / 255) / (np.pi / 4))  # half a dot is left free on each side
     assert len(pd.read_csv("g.csv")) == wanted
-    assert f"{wanted:,} dots of black, 1 mm across" in capsys.readouterr().out
+    assert f"{wanted:,} dots of black\n" in capsys.readouterr().out
 
 
 def test_dots_by_tone_cover_what_is_dark(picture):
@@ -131,6 +131,10 @@ def test_a_tour_is_shorter_and_its_length_is_told(picture, capsys):
     assert {*map(tuple, drawn)} == {*map(tuple, toured)}
     lengths = [np.hypot(*np.diff(x[:, :2] * (40, 30), axis=0).T).sum() for x in (drawn, toured)]
     assert lengths[1] < 0.95 * lengths[0]
+    assert "m on a page 160 mm wide\nwrote t.csv: 300 dots of black\n" in said  # points have no size
+    assert command("x.png", "-n", 300, "-o", "t.svg", "--order", "tour", *QUICK) == 0
+    said = capsys.readouterr().out
+    assert f"tour of black: {told:.4g} m\n" in said
     across = float(re.search(r"(\S+) mm across", said)[1])  # half of it is left free on each side
     assert told == pytest.approx(lengths[1] * (160 - across) / 40 / 1000, rel=1e-3)
 

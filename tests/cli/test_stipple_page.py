@@ -6,6 +6,7 @@ import re
 import shutil
 import subprocess
 import xml.etree.ElementTree as ElementTree
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -125,8 +126,8 @@ def test_inverted_dots_are_white_on_black(picture, capsys):
     assert root.get("style") == "background:#002244"
     assert [child.get("pagecolor") for child in root if child.tag.startswith("{http://sodi")] == ["#002244"]
     assert "rectfill" in Path("gold.eps").read_text()
-    assert "; 900 dots of #ffd700" in Path("gold.gcode").read_text()
-    assert "; 900 dots of white" in Path("white.gcode").read_text()
+    assert "; dots of #ffd700: 900\n" in Path("gold.gcode").read_text()
+    assert "; dots of white: 900\n" in Path("white.gcode").read_text()
 
 
 @pytest.mark.parametrize(
@@ -139,3 +140,18 @@ def test_inverted_dots_are_white_on_black(picture, capsys):
 def test_a_negative_is_told(picture, capsys, options, says):
     assert command("x.png", "-n", 50, "-o", "o.png", *options, *QUICK) == 0
     assert says in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("diameter", [2e-5, 3e-9])
+def test_the_smallest_dots_do_not_vanish(picture, diameter):
+    for suffix in ("svg", "pdf", "eps"):
+        assert command("x.png", "-n", 20, "-o", f"o.{suffix}", "--dot-mm", f"{diameter}", *QUICK) == 0
+    stream = re.search(rb"/FlateDecode >>\nstream\n(.*?)\nendstream", Path("o.pdf").read_bytes(), re.DOTALL)
+    found = {
+        "svg": [circle.get("r") for circle in drawing("o.svg").iter(f"{SVG}circle")],
+        "eps": re.findall(r"^\S+ \S+ (\S+) d$", Path("o.eps").read_text(), re.MULTILINE),
+        "pdf": re.findall(r"^q (\S+) 0 0 ", zlib.decompress(stream[1]).decode(), re.MULTILINE),
+    }
+    for radii in found.values():
+        assert len(radii) == 20
+        assert [float(radius) for radius in radii] == pytest.approx([diameter / 2] * 20, rel=5e-3)

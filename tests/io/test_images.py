@@ -205,7 +205,7 @@ def test_arrays_that_are_no_image_are_refused(here, array, says):
 @pytest.mark.parametrize(
     ("content", "name", "says"),
     [
-        (b"", "x.png", "is no image that Pillow reads"),
+        (b"", "x.png", "the file is empty"),
         (b"hello", "x.png", "is no image that Pillow reads"),
         (b"x,y\n1,2\n", "x.csv", "is no image that Pillow reads"),
         (b"hello", "x.npy", "is no array that can be read"),

@@ -54,8 +54,10 @@ def read_file(path: Path, name: str) -> Image:
         raise
     except UnidentifiedImageError:
         with path.open("rb") as file:
-            if file.read(4) not in TIFF:
-                raise FormatError(path, "is no image that Pillow reads") from None
+            first = file.read(4)
+        if first not in TIFF:
+            said = "is no image that Pillow reads" if first else "the file is empty"
+            raise FormatError(path, said) from None
         return _by_tifffile(path, name)
     except (Pillow.DecompressionBombWarning, Pillow.DecompressionBombError):
         raise _too_large(path) from None
