@@ -117,7 +117,8 @@ def test_g_of_r_as_far_as_was_asked_for(
     np.testing.assert_allclose(g, rdf(X, reach=4, bins=50).g, rtol=1e-12)
     np.testing.assert_allclose(r, np.arange(50) * 0.08, rtol=1e-12)
     assert run(["analyze", "two.npy", "--rdf", "g.csv", "--range", "4", "--bins", "1"]) == 0
-    assert capsys.readouterr().out == "wrote g.csv: 1 bin as far as 4 densest spacings\n"
+    said = "wrote g.csv: 1 bin of 4 densest spacings, up to 4; r is where a bin begins\n"
+    assert capsys.readouterr().out == said
 
 
 def test_g_of_r_is_not_written_over_the_points(
