@@ -18,6 +18,7 @@ from gbnbench.runs.comparison_result import Run, SourceResult
 
 FEW = 40  # with fewer shells than this each one gets a dot
 NEAR = 0.25  # of 4 pi^2, within which a fitted c is Gaussian blue noise's
+FITTED = 6.0  # dB, the largest residual of a fit that says so; a step's is 25 though its c may be near
 # Where power is exactly 0, double precision leaves some 1e-30 and float 1e-13; deep sets reach 1e-26.
 ZERO = {"double": 1e-27, "float": 1e-12}
 
@@ -25,7 +26,12 @@ ZERO = {"double": 1e-27, "float": 1e-12}
 def guide(sources: list[SourceResult]) -> tuple[float, float] | None:
     """Return epsilon of the deepest source with a fitted c near 4 pi^2, and the nu where its guide is 1."""
     measured = [s.measures.measured for s in sources]
-    near = [m for m in measured if abs(m.get("profile_c", math.nan) / (4 * math.pi**2) - 1) <= NEAR]
+    near = [
+        m
+        for m in measured
+        if abs(m.get("profile_c", math.nan) / (4 * math.pi**2) - 1) <= NEAR
+        and m.get("profile_residual_db", math.nan) <= FITTED
+    ]
     fits = [m.get("profile_epsilon", math.nan) for m in near]
     deep = [e for e in fits if math.isfinite(e) and ZERO["double"] < e < 1e-3]
     if not deep:
