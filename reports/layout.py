@@ -82,8 +82,8 @@ def sheet(
     Sheet
         The figure with empty axes.
     """
-    columns = max(1, min(columns, count))
-    rows = -(-count // columns)
+    rows = -(-count // max(1, min(columns, count)))
+    columns = -(-count // rows)  # rows of like length
     head, title_strip = 0.42, 0.26 if titles else 0.06
     total_width = max(left + columns * width + (columns - 1) * between + right, 3.6)
     lines = textwrap.wrap(shown(caption, len(caption)), max(30, int((min(total_width, 13.0) - 0.3) / 0.0545)))
