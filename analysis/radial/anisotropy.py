@@ -59,6 +59,8 @@ def anisotropy(spectrum: Spectrum | ShellSpectrum) -> pd.DataFrame:
     Where the torus has unequal sides the exact shells hold little more than mirror images, which tell nothing
     of direction: they are pooled (``gbnbench.analysis.spectrum.box_shells``), and a ring is round(|k|) = j.
 
+    A ring of which a band holds a part (``gbnbench.shells(x, band=...)``) pools the shells that it holds.
+
     References
     ----------
     Ulichney, "Dithering with blue noise", Proceedings of the IEEE 76(1), 1988. Schlömer & Deussen, "Accurate
