@@ -22,8 +22,8 @@ from gbnbench.runs.device_proof import run_device
 from gbnbench.runs.every_task import run_tasks
 from gbnbench.runs.resumable_folder import SETTINGS, explain_interruption
 from gbnbench.studies.set_library.cost_progress import CostProgress
-from gbnbench.studies.set_library.library_folder import LibraryFolder
 from gbnbench.studies.set_library.request import LibraryRequest, RequestedSets
+from gbnbench.studies.set_library.set_folder import LibraryFolder
 from gbnbench.studies.set_library.tasks import library_tasks, step_costs
 
 UNFINISHED = ".unfinished"  # ends the name of the folder in which an archive is made
