@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import subprocess
+import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from gbnbench.execution.executors.dask_scheduler import DaskScheduler
 from tests.execution.cluster_processes import ASKED, cluster, ended, finished_pieces, spread, sums, until
 from tests.processes import COMMAND, NO_DEVICE
 
@@ -141,3 +144,18 @@ def test_workers_with_threads_and_a_scheduler_that_is_not_there_are_refused(tmp_
     code, said = ended(spread(address, tmp_path / "run"))
     assert code == 2, said
     assert "no Dask scheduler answers at" in said
+
+
+def test_results_that_went_with_their_worker_are_given_up_without_a_word(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    with cluster(tmp_path / "dask") as started:
+        victim = started.worker()
+        workers = DaskScheduler(address=started.address).start(1)
+        made = workers.submit(np.ones, 100_000_000)  # on its way for half a second
+        until(lambda: "finished" in {state.status for state in list(workers._client.futures.values())})
+        started.lose(victim)
+        time.sleep(1.5)  # until it is missed, and waits for another worker
+        workers.shutdown()
+        assert not made.done()
+    assert [record.message for record in caplog.records if record.exc_info] == []

@@ -212,9 +212,12 @@ def _started_here(jobs: int) -> Any:
 
 
 def _silence() -> None:
-    """Keep distributed's logs off the terminal: what matters of them is said by ``trouble``."""
-    for name in list(logging.root.manager.loggerDict):
-        if name == "distributed" or name.startswith("distributed."):
+    """Keep logs of distributed off the terminal: what matters of them is said by ``trouble``.
+
+    A result that went with its worker raises in the loop of tornado when it is given up, and only there.
+    """
+    for name in [*logging.root.manager.loggerDict, "tornado.application"]:
+        if name.partition(".")[0] in ("distributed", "tornado"):
             logging.getLogger(name).setLevel(logging.CRITICAL)
 
 
