@@ -5,11 +5,12 @@ of points over a Gaussian of variance (t s)^2 + 1/12, s being the kernels' width
 of a square pixel. At t = 1 a set that has the density leaves nothing to be gained (the method is faithful);
 near 0 pixels are points, edges are sharpened, and points gather in clumps.
 
-At the borders of a bounded density T falls off over max(t, .8) of the kernels' width: the density is continued
-by its mirror image, spread, and multiplied by the share of a Gaussian of that width around each place that
-lies inside. At t = 1 a constant density then is the uniform method's in a box (Eq. 24). Below, the outermost
-points lie about half a spacing from the border, as they should, where at 1 they lie at a third of it. Where T
-fell off much more steeply than the points' Gaussians can, they would line up along the border.
+At the borders of a bounded density T falls off over max(t, .8) of the kernels' width: the density is
+continued by its mirror image, spread, and multiplied by the share of a Gaussian of that width around each
+place that lies inside. At t = 1 a constant density then is the uniform method's in a box (Eq. 24). Below,
+the outermost points lie about half a spacing from the border, as they should, where at 1 they lie at a
+third of it. Where T fell off much more steeply than the points' Gaussians can, they would line up along the
+border.
 """
 
 from __future__ import annotations
