@@ -102,7 +102,8 @@ def test_darts_keep_the_relative_radius(n: int, d: int) -> None:
 
 
 def test_darts_that_find_no_room_make_the_radius_smaller() -> None:
-    x = DartThrowing(radius=1.0)(100, 2, np.random.default_rng(1))
+    with pytest.warns(RuntimeWarning, match="n=100 points in d=2 found room at a relative radius of 0.7"):
+        x = DartThrowing(radius=1.0)(100, 2, np.random.default_rng(1))
     assert 0.7 < least_distance(x) / densest_spacing(100, 2) < 0.85
 
 
