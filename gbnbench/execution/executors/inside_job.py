@@ -1,4 +1,4 @@
-"""What a job of Slurm does: its calls, one after another, as long as it has time."""
+"""Calls in a job of Slurm: one after another, as long as it has time."""
 
 from __future__ import annotations
 
