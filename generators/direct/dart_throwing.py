@@ -11,7 +11,8 @@ import numpy as np
 from gbnbench.core.torus import HERMITE, FloatArray, densest_spacing
 from gbnbench.generators.direct.poisson_disk import throw_darts
 from gbnbench.generators.protocol import Family
-from gbnbench.generators.ranges import check_above, check_range, raise_refusal, too_many, too_many_axes
+from gbnbench.generators.ranges import check_above, check_range, too_many, too_many_axes
+from gbnbench.generators.set_by_set import SetBySet, Told
 
 SHRINK = 0.99  # the radius, when no dart finds room
 CELL_DIMENSIONS = 6  # beyond, discs hold few cells and nearly all darts are thrown
@@ -19,7 +20,7 @@ MOST_POINTS = 4096  # there, at a hundred darts a point: a few minutes
 
 
 @dataclass(frozen=True)
-class DartThrowing:
+class DartThrowing(SetBySet):
     """Points no two of which are nearer than a radius, drawn one after another from those that are left.
 
     Parameters
@@ -89,12 +90,11 @@ class DartThrowing:
         most = n if d <= CELL_DIMENSIONS else int(MOST_POINTS * math.sqrt(100 / self.attempts))
         return too_many(n, most, f"for dart throwing with {self.attempts} darts a point in d={d}")
 
-    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
-        """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
-        raise_refusal(self.refusal(n, d))
+    def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
+        """Draw one realization, as ``SetBySet.one_set`` says."""
         radius = self.radius * densest_spacing(n, d)
         x: FloatArray = np.empty((0, d))
         while len(x) < n:  # ends: any n points fit at some radius, and it halves in 69 rounds
-            x, _ = throw_darts(x, radius, n, rng, darts_a_point=self.attempts)
+            x, _ = throw_darts(x, radius, n, rng, darts_a_point=self.attempts, told=told)
             radius *= SHRINK
         return x

@@ -16,7 +16,8 @@ from gbnbench.generators.direct.poisson_disk import (
     throw_darts,
 )
 from gbnbench.generators.protocol import Family
-from gbnbench.generators.ranges import raise_refusal, too_many, too_many_axes
+from gbnbench.generators.ranges import too_many, too_many_axes
+from gbnbench.generators.set_by_set import SetBySet, Told
 
 MOST_DIMENSIONS = 4
 MOST_POINTS_4D = 2048
@@ -27,7 +28,7 @@ CELL_SHARE = 1 / 16  # of the radius: cells that are searched again at every rad
 
 
 @dataclass(frozen=True)
-class MaximalPoisson:
+class MaximalPoisson(SetBySet):
     """Saturated dart throwing: the discs of one radius leave no point of the torus uncovered.
 
     Notes
@@ -78,20 +79,21 @@ class MaximalPoisson:
         most = MOST_POINTS_4D if d == MOST_DIMENSIONS else n
         return too_many(n, most, "for a maximal Poisson-disk set in 4D")
 
-    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
-        """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
-        raise_refusal(self.refusal(n, d))
+    def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
+        """Draw one realization, as ``SetBySet.one_set`` says."""
         if n == 1:
             return rng.random((1, d))
         for _ in range(DRAWS):
-            found = self.saturated_set(n, d, rng)
+            found = self.saturated_set(n, d, rng, told)
             if found is not None:
                 return found[0]
         raise RefusalError(
             f"none of {DRAWS} maximal Poisson-disk sets came to n={n} points in d={d}; try another seed or n"
         )
 
-    def saturated_set(self, n: int, d: int, rng: np.random.Generator) -> tuple[FloatArray, float] | None:
+    def saturated_set(
+        self, n: int, d: int, rng: np.random.Generator, told: Told | None = None
+    ) -> tuple[FloatArray, float] | None:
         """Draw a maximal set of n points and its radius, or fail.
 
         Parameters
@@ -100,6 +102,8 @@ class MaximalPoisson:
             Points, >= 2, and dimension.
         rng : Generator
             The stream.
+        told : callable, optional
+            Takes the share of the set that is done.
 
         Returns
         -------
@@ -111,7 +115,7 @@ class MaximalPoisson:
         """
         few = 1.5 * (0.05 * n) ** 0.5  # one and a half standard deviations of the number of points
         high = saturated_radius(max(n - few, 1), d)
-        x, _ = throw_darts(np.empty((0, d)), high, n + 1, rng)
+        x, _ = throw_darts(np.empty((0, d)), high, n + 1, rng, told=told)
         if len(x) == n:
             return x, high
         if len(x) > n:

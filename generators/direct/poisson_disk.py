@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -172,6 +173,7 @@ def throw_darts(
     rng: np.random.Generator,
     cells: Cells | None = None,
     darts_a_point: float = math.inf,
+    told: Callable[[float], None] | None = None,
 ) -> tuple[FloatArray, bool]:
     """Throw darts until there are so many points, or no room for another.
 
@@ -189,6 +191,8 @@ def throw_darts(
         Where there may be room; by default everywhere.
     darts_a_point : float
         Stop after so many darts for each of ``most`` points, where cells are too many to be divided.
+    told : callable, optional
+        Takes the share of ``most`` points that there are, after each round.
 
     Returns
     -------
@@ -211,6 +215,8 @@ def throw_darts(
         count = max(most if cells.too_large(radius) else 16, int(DARTS_A_CELL * len(cells.corners)))
         stood = in_turn(cells.throw(count, rng), x, radius)
         x = np.concatenate([x, stood])[:most]
+        if told is not None:
+            told(len(x) / most)
         few = len(cells.corners) * 2**d <= max(MOST_CELLS_A_POINT * most, MOST_CELLS)
         if few or (
             not len(stood) and darts_a_point == math.inf

@@ -14,9 +14,12 @@ from gbnbench.core.torus import FloatArray, displacement
 from gbnbench.generators.direct.poisson_disk import ball_volume
 from gbnbench.generators.direct.toroidal_tree import toroidal_tree
 from gbnbench.generators.protocol import Family
-from gbnbench.generators.ranges import check_above, check_range, raise_refusal, too_many
+from gbnbench.generators.ranges import check_above, check_range, too_many
+from gbnbench.generators.set_by_set import SetBySet, Told
 
 MOST_PAIRS = 10_000_000  # of points within reach of each other: a minute and 3 GB
+TOLD = 256  # points removed after which progress is told
+WEIGHTS = 0.4  # of the time is spent on them
 FEWEST = 3  # a progressive order is sought down to as many points
 
 
@@ -38,7 +41,7 @@ def largest_radius(n: int, d: int) -> float:
 
 
 @dataclass(frozen=True)
-class SampleElimination:
+class SampleElimination(SetBySet):
     """The n points that are left of random ones, the one with the nearest neighbours removed at each step.
 
     Parameters
@@ -108,11 +111,10 @@ class SampleElimination:
         what = f"for sample elimination of {self.inputs:g} random points a point in d={d}"
         return too_many(n, self._most_points(d), what)
 
-    def __call__(self, n: int, d: int, rng: np.random.Generator) -> FloatArray:
-        """Draw one realization, (n, d) float64; RefusalError where ``refusal`` has a reason."""
-        raise_refusal(self.refusal(n, d))
+    def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
+        """Draw one realization, as ``SetBySet.one_set`` says."""
         start = rng.random((math.ceil(self.inputs * n), d))
-        kept, _ = self.eliminate(start, n)
+        kept, _ = self.eliminate(start, n, told)
         x: FloatArray = start[kept]
         if not self.progressive:
             return x
@@ -124,7 +126,9 @@ class SampleElimination:
             left = left[kept]
         return np.asarray(x[np.concatenate([left, *order[::-1]])])
 
-    def eliminate(self, x: FloatArray, n: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    def eliminate(
+        self, x: FloatArray, n: int, told: Told | None = None
+    ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         """Remove the heaviest of the points, again and again.
 
         Parameters
@@ -133,6 +137,8 @@ class SampleElimination:
             Points on the torus.
         n : int
             Points to leave.
+        told : callable, optional
+            Takes the share of the work that is done.
 
         Returns
         -------
@@ -158,6 +164,8 @@ class SampleElimination:
             heapq.heappop(heap)
             stands[i] = False
             removed.append(i)
+            if told is not None and len(removed) % TOLD == 0:
+                told(WEIGHTS + (1 - WEIGHTS) * len(removed) / (m - n))
             for j, share in zip(neighbours[i], shares[i], strict=True):
                 weight[j] -= share
         return np.flatnonzero(stands), np.array(removed, dtype=np.intp)

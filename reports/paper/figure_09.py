@@ -22,7 +22,12 @@ from gbnbench.studies.integration.blocks import instances_of
 FAMILIES = ("gaussians", "half-space")
 TITLES = {"gaussians": "64 Gaussians", "half-space": "half spaces"}
 DIMENSIONS = (2, 3, 8)
-SOURCES = ("random", "jittered", "sobol", "gbn")
+COMMON = ("random", "jittered", "sobol", "gbn")
+SOURCES: dict[int, tuple[str, ...]] = {
+    2: (*COMMON, "fpo", "bnot"),
+    3: (*COMMON, "sliced"),
+    8: (*COMMON, "sliced"),
+}
 SIZES: dict[str, dict[int, tuple[int, ...]]] = {
     "tiny": {2: (16, 64), 3: (8, 27), 8: (4, 16)},
     "quick": {
@@ -64,11 +69,9 @@ def needs(options: FigureOptions) -> Mapping[str, DataRequest]:
     instances = options.pick(4, 50, 100)
     requests: dict[str, DataRequest] = {"integrands": TableRequest(pictures, {"plane": (options.seed, 96)})}
     for d in DIMENSIONS:
-        sources = SOURCES + (("fpo",) if d == 2 else ())
         sets = options.pick(2, 8, 1000 if d == 2 else 100)
-        requests[f"d{d}"] = IntegrationRequest(
-            sources, SIZES[options.scale][d], (d,), sets, FAMILIES, instances
-        )
+        ours = tuple(name for name in SOURCES[d] if name not in options.sets)
+        requests[f"d{d}"] = IntegrationRequest(ours, SIZES[options.scale][d], (d,), sets, FAMILIES, instances)
     for name, path in options.sets.items():
         requests[_user_study(name)] = IntegrationRequest(
             (path,), (1,), (1,), 1, FAMILIES, instances, reading=options.reading
@@ -122,7 +125,7 @@ def draw(data: Mapping[str, Any], options: FigureOptions) -> Drawing:
         names.append("1/n")
         panel.legend(handles, names, loc="outside lower center", ncols=len(names), columnspacing=1.2)
 
-    return Drawing(PAGE, 4.4, paint, _caption(data, options))
+    return Drawing(PAGE, 4.4, paint, _caption(data))
 
 
 def _user_study(name: str) -> str:
@@ -150,11 +153,11 @@ def _inset(ax: Axes, picture: Any) -> None:
         spine.set_visible(True)
 
 
-def _caption(data: Mapping[str, Any], options: FigureOptions) -> str:
+def _caption(data: Mapping[str, Any]) -> str:
     counts = []
     for d in DIMENSIONS:
         table = data[f"d{d}"].variance
-        generated = table[table["source"].isin((*SOURCES, "fpo"))]
+        generated = table[table["source"].isin(SOURCES[d])]
         counts.append(f"{int(generated['realizations'].max()):,} sets in {d}D")
     plane = data["d2"].slopes
     slopes = []
@@ -164,16 +167,13 @@ def _caption(data: Mapping[str, Any], options: FigureOptions) -> str:
             f"{row.source} {row.slope:.2f} ± {row.standard_error:.2f} for {TITLES[family]}"
             for row in found.itertuples()
         ]
-    left = (
-        "" if options.sets else " Methods without a generator here are left out; --sets NAME=PATH adds them."
-    )
     return (
         "Variance of the integral estimated by the mean over n points: (a) toroidal sums of 64 Gaussians of "
         "width 512^(-1/d), (b) half spaces by a random point and direction; insets: one of each. "
         f"{int(data['d2'].variance['instances'].max())} integrands of each family, {', '.join(counts)}, "
         "all estimated with all. Bands: 95%. Crosses: what the sets' power spectra predict. Grey: 1/n; "
         "dashed upright: n = 512, the nominal grid that the Gaussians' width is of. jittered is made at "
-        f"n = m^d alone. Slopes over all n in 2D: {'; '.join(slopes)}.{left}"
+        f"n = m^d alone. Slopes over all n in 2D: {'; '.join(slopes)}."
     )
 
 

@@ -9,6 +9,7 @@ NAMES = {
     "random": "Random", "jittered": "Stratified", "sobol": "Owen-Sobol", "halton": "Halton", "lloyd": "CVT",
     "fpo": "FPO", "gbn": "GBN", "deep": "Deep", "stealthy": "Stealthy", "bnot": "BNOT", "kdm": "KDM",
     "vnc": "VnC", "bluenets": "BlueNets", "ccvt": "CCVT", "step": "Step", "staircase": "Staircase",
+    "sliced": "Sliced OT",
 }  # fmt: skip
 # Methods of the paper whose sets a user may give, in place of our generator's where there is one.
 GIVEN = ("bnot", "kdm", "vnc", "bluenets", "ccvt", "step", "staircase")
@@ -32,6 +33,7 @@ STROKES = {
     "halton": style.Stroke(_C[6], _D[1]),
     "staircase": style.Stroke(_C[7], _D[1]),
     "ccvt": style.Stroke(_C[1], _D[2]),
+    "sliced": style.Stroke(_C[2], _D[2]),
     "latin": style.Stroke(_C[3], _D[2]),
     "grid": style.Stroke(_C[6], _D[2]),
     "hexagonal": style.Stroke(_C[7], _D[2]),

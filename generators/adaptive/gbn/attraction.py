@@ -5,10 +5,12 @@ of points over a Gaussian of variance (t s)^2 + 1/12, s being the kernels' width
 of a square pixel. At t = 1 a set that has the density leaves nothing to be gained (the method is faithful);
 near 0 pixels are points, edges are sharpened, and points gather in clumps.
 
-At the borders of a bounded density T falls off as it does at t = 1, whatever t is: the density is continued
-by its mirror image, spread, and multiplied by the share of a Gaussian of width s around each place that lies
-inside. A constant density then is the uniform method's in a box (Eq. 24). Where T fell off more steeply than
-the points' Gaussians can, they would line up along the border.
+At the borders of a bounded density T falls off over max(t, .8) of the kernels' width: the density is
+continued by its mirror image, spread, and multiplied by the share of a Gaussian of that width around each
+place that lies inside. At t = 1 a constant density then is the uniform method's in a box (Eq. 24). Below,
+the outermost points lie about half a spacing from the border, as they should, where at 1 they lie at a
+third of it. Where T fell off much more steeply than the points' Gaussians can, they would line up along the
+border.
 """
 
 from __future__ import annotations
@@ -25,6 +27,7 @@ from gbnbench.generators.adaptive.gbn.kernel_widths import BORDER, LADDER, Kerne
 from gbnbench.generators.adaptive.gbn.pixel_blocks import in_blocks, mean_over_blocks
 from gbnbench.generators.adaptive.gbn.smoothing import ComplexArray, PaddedGrid, padded_grid
 
+EDGE = 0.8  # width over which T falls off at a border, over that of the kernels, unless t is larger
 PIXEL = 1 / 12  # variance of a pixel's square along an axis
 LEAST_ROOM = 64  # pixels beyond the border that any image may have; larger ones up to half their longest side
 BEYOND_INK = 1.5  # width of a kernel on ink over the largest at an inked pixel's centre, at most
@@ -108,7 +111,7 @@ def attraction_levels(
     if blocks > 1:
         spectrum = grid.without_blocks(spectrum)
     if margin:
-        field = grid.sampled(spectrum, grid.padded) * _share_inside(grid, np.exp(log_width))
+        field = grid.sampled(spectrum, grid.padded) * _share_inside(grid, max(part, EDGE) * np.exp(log_width))
         spectrum = grid.transform(field * (n / field.sum()))
     largest = BEYOND_INK * on_ink
     levels: list[Level] = []
@@ -129,7 +132,7 @@ def attraction_levels(
 
 
 def _share_inside(grid: PaddedGrid, width: FloatArray) -> FloatArray:
-    """Part of a Gaussian around each padded pixel that lies over the domain."""
+    """Part of a Gaussian of that width around each padded pixel that lies over the domain."""
     share = np.ones(grid.padded)
     for a, (size, whole) in enumerate(zip(grid.shape, grid.padded, strict=True)):
         at = (np.arange(whole) + 0.5 - grid.margin).reshape([-1 if b == a else 1 for b in range(share.ndim)])

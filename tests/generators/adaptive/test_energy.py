@@ -96,12 +96,11 @@ def test_a_constant_density_gives_the_gradient_of_the_uniform_method(shape, n):
     assert found.gradient * mass == pytest.approx(uniform, abs=1e-12 * np.abs(uniform).max())
 
 
-@pytest.mark.parametrize("spread", [0.0, 0.6, 1.0])
-def test_a_constant_density_in_a_box_gives_the_gradient_of_the_bounded_method(spread):
+def test_a_constant_density_in_a_box_gives_the_gradient_of_the_bounded_method():
     n, side = 100, 60
     density = as_density(np.ones((side, side)))
     x = np.random.default_rng(5).random((n, 2)) * side
-    found = _energy(density, n, "double", spread=spread)(x)
+    found = _energy(density, n, "double", spread=1.0)(x)
     spacing = side / math.sqrt(n)
     uniform = numpy_box_gradient(x / side, 1.0) / spacing
     mass = 2 * math.pi * spacing**2

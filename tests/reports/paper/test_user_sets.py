@@ -81,6 +81,13 @@ def test_figure_9_names_the_users_sets_by_their_method_whatever_their_folder_is_
     assert [text.get_text() for text in page.legends[0].get_texts()] == ["GBN", "VnC", "1/n"]
 
 
+def test_the_users_sets_take_the_place_of_ours_in_figure_9():
+    requests = find(["9"])[0].needs(FigureOptions("tiny", {"bnot": "sets/theirs"}))
+    assert "bnot" in find(["9"])[0].needs(FigureOptions("tiny"))["d2"].sources
+    assert "bnot" not in requests["d2"].sources
+    assert requests["sets of bnot"].sources == ("sets/theirs",)
+
+
 def test_a_folder_of_something_else_is_left_alone(tmp_path, capsys):
     folder = tmp_path / "mine"
     folder.mkdir()
