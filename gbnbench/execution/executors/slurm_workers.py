@@ -113,8 +113,9 @@ class JobWorkers:
                 with contextlib.suppress(Exception):
                     job.cancel()
         self._folder.close(keep=self._failed, dead=dead)
-        for number, handler in self._handlers.items():
-            signal.signal(number, handler)
+        with contextlib.suppress(ValueError):  # only the main thread sets handlers
+            for number, handler in self._handlers.items():
+                signal.signal(number, handler)
 
     def trouble(self) -> str:
         """Say why jobs cannot be sent."""
