@@ -8,11 +8,11 @@ import zlib
 import numpy as np
 from numpy.typing import NDArray
 
-EFFORT = 1  # of zlib: pictures of noise take twice as long at 4 and become no smaller
+EFFORT = 1  # of zlib, up to 9: pictures of noise take twice as long at 4 and become no smaller
 METRE = 39.3700787  # inches
 
 
-def plain_png(pixels: NDArray[np.uint8], dpi: float) -> bytes:
+def plain_png(pixels: NDArray[np.uint8], dpi: float, effort: int = EFFORT) -> bytes:
     """Write a picture as PNG without the filters that the format offers, all of which Pillow tries on each row.
 
     Figures are flat areas and noise, which filters do not make smaller; without them the file is written in
@@ -24,6 +24,8 @@ def plain_png(pixels: NDArray[np.uint8], dpi: float) -> bytes:
         Red, green and blue, the top row first.
     dpi : float
         Pixels an inch, kept in the file.
+    effort : int
+        Of zlib, from 1, the fastest, to 9, the smallest.
 
     Returns
     -------
@@ -38,7 +40,7 @@ def plain_png(pixels: NDArray[np.uint8], dpi: float) -> bytes:
         (
             _chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)),
             _chunk(b"pHYs", struct.pack(">IIB", dots, dots, 1)),
-            _chunk(b"IDAT", zlib.compress(rows, EFFORT)),
+            _chunk(b"IDAT", zlib.compress(rows, effort)),
             _chunk(b"IEND", b""),
         )
     )
