@@ -16,7 +16,12 @@ def without_bytes(name: object) -> str:
     >>> print(without_bytes(os.fsdecode(b"caf\xe9.txt")), without_bytes("café"))
     caf\xe9.txt café
     """
-    return "".join(_byte(sign) if "\ud800" <= sign <= "\udfff" else sign for sign in str(name))
+    text = str(name)
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        return "".join(_byte(sign) if "\ud800" <= sign <= "\udfff" else sign for sign in text)
+    return text
 
 
 def in_one_line(name: object) -> str:
