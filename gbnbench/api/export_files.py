@@ -15,6 +15,7 @@ from gbnbench import __version__
 from gbnbench.api.exports import QUALITY_COLUMNS, ExportedSets, quality_row
 from gbnbench.core.errors import InputError
 from gbnbench.core.number_text import number
+from gbnbench.core.readable_text import counted
 from gbnbench.core.torus import FloatArray
 from gbnbench.io.exports.c_header import c_header, c_name
 from gbnbench.io.exports.number_types import NumberType, check_number_type
@@ -193,8 +194,8 @@ def comment_lines(made: ExportedSets, array: str, seed: int | None) -> Iterator[
     """
     sets, n, d = made.points.shape
     unit = "as counts of 2^-32 of a side" if made.number_type == "uint32" else "in [0, 1)"
-    how_many = "1 set" if sets == 1 else f"{sets} sets"
-    yield f"{array}: {how_many} of {n} points of the unit torus, d={d}, {made.number_type} {unit}."
+    held = f"{counted(sets, 'set')} of {counted(n, 'point')} of the unit torus, d={d}"
+    yield f"{array}: {held}, {made.number_type} {unit}."
     drawn = "" if seed is None else f", seed {seed}"
     yield f"Written by gbnbench {__version__} from {made.source}{drawn}."
     if made.sides is not None:

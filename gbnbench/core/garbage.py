@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import gc
 
-OBJECTS = 50_000  # Python looks each time that so many more were made than freed; by itself, at 700
+OBJECTS = 200_000  # Python looks each time that so many more were made than freed; by itself, at 700
 
 
 def collect_rarely() -> None:

@@ -16,7 +16,12 @@ def without_bytes(name: object) -> str:
     >>> print(without_bytes(os.fsdecode(b"caf\xe9.txt")), without_bytes("café"))
     caf\xe9.txt café
     """
-    return "".join(_byte(sign) if "\ud800" <= sign <= "\udfff" else sign for sign in str(name))
+    text = str(name)
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        return "".join(_byte(sign) if "\ud800" <= sign <= "\udfff" else sign for sign in text)
+    return text
 
 
 def in_one_line(name: object) -> str:
@@ -29,6 +34,28 @@ def in_one_line(name: object) -> str:
     """
     return "".join(sign if _harmless(sign) else sign.encode("unicode_escape").decode() for sign in
                    without_bytes(name))  # fmt: skip
+
+
+def counted(number: int, noun: str) -> str:
+    """Write how many there are of something whose plural has an s.
+
+    Parameters
+    ----------
+    number : int
+        How many.
+    noun : str
+        Of one.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> counted(1, "set"), counted(200, "point")
+    ('1 set', '200 points')
+    """
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
 def display_width(text: str) -> int:

@@ -12,6 +12,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from distributed import Client
+
 from gbnbench.execution.one_thread import ONE_THREAD
 from tests.processes import COMMAND
 
@@ -42,13 +44,14 @@ class Cluster:
 
     def worker(self, *options: object, **environment: str) -> subprocess.Popen[bytes]:
         """Start a worker with these variables in its environment; wait until the scheduler knows it."""
-        made = self._start(
-            "worker", self.address, "--nthreads", "1", "--no-nanny", "--no-dashboard", "--host", "127.0.0.1",
-            "--local-directory", self.folder, *options, **environment,
-        )  # fmt: skip
-        self._workers += 1
-        known = f"Client('{self.address}').wait_for_workers({self._workers}, timeout=120)"
-        subprocess.run([sys.executable, "-c", f"from distributed import Client; {known}"], check=True)
+        made = self._start_worker(*options, **environment)
+        self._until_known()
+        return made
+
+    def several(self, count: int) -> list[subprocess.Popen[bytes]]:
+        """Start so many workers at once; wait until the scheduler knows all."""
+        made = [self._start_worker() for _ in range(count)]
+        self._until_known()
         return made
 
     def lose(self, *workers: subprocess.Popen[bytes]) -> None:
@@ -57,6 +60,17 @@ class Cluster:
             worker.kill()
             worker.wait()
         self._workers -= len(workers)
+
+    def _start_worker(self, *options: object, **environment: str) -> subprocess.Popen[bytes]:
+        self._workers += 1
+        return self._start(
+            "worker", self.address, "--nthreads", "1", "--no-nanny", "--no-dashboard", "--host", "127.0.0.1",
+            "--local-directory", self.folder, *options, **environment,
+        )  # fmt: skip
+
+    def _until_known(self) -> None:
+        with Client(self.address, set_as_default=False) as client:  # type: ignore[no-untyped-call]
+            client.wait_for_workers(self._workers, timeout=120)
 
     def _start(self, *arguments: object, **environment: str) -> subprocess.Popen[bytes]:
         process = subprocess.Popen(
@@ -83,9 +97,12 @@ def cluster(folder: Path) -> Iterator[Cluster]:
 
 
 def spread(address: str, out: Path, *options: object, asked: Sequence[str] = ASKED) -> subprocess.Popen[str]:
-    """Begin a command by the workers of a scheduler, a comparison unless another is asked for."""
+    """Begin a command by the workers of a scheduler, a comparison unless another is asked for.
+
+    It waits for a scheduler and for workers that are not there, but a few seconds.
+    """
     config = out.parent / "dask.toml"
-    config.write_text("[dask]\nwait_seconds = 8\n")
+    config.write_text("[dask]\nwait_seconds = 4\nconnect_seconds = 10\n")
     return subprocess.Popen(
         [*COMMAND, *asked, "--out", str(out), "--executor", f"dask:{address}",
          "--executor-config", str(config), *map(str, options)],

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import subprocess
 import time
 from pathlib import Path
@@ -27,8 +28,7 @@ def alone(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_a_worker_that_is_killed_costs_nothing_but_time(alone: Path, tmp_path: Path) -> None:
     out = tmp_path / "run"
     with cluster(tmp_path / "dask") as workers:
-        workers.worker()
-        victim = workers.worker()
+        victim, _ = workers.several(2)
         process = spread(workers.address, out)
         until(lambda: finished_pieces(out) >= 3)
         workers.lose(victim)
@@ -40,7 +40,7 @@ def test_a_worker_that_is_killed_costs_nothing_but_time(alone: Path, tmp_path: P
 def test_all_workers_killed_and_new_ones_go_on_where_they_were(alone: Path, tmp_path: Path) -> None:
     out = tmp_path / "run"
     with cluster(tmp_path / "dask") as workers:
-        victims = [workers.worker(), workers.worker()]
+        victims = workers.several(2)
         process = spread(workers.address, out)
         until(lambda: finished_pieces(out) >= 3)
         workers.lose(*victims)
@@ -123,11 +123,13 @@ def test_another_version_of_gbnbench_is_refused_in_words(tmp_path: Path) -> None
 def test_a_worker_with_threads_that_comes_later_is_left_out(tmp_path: Path) -> None:
     out = tmp_path / "run"
     with cluster(tmp_path / "dask") as workers:
-        workers.worker()
-        many = ["compare", "gbn[gradients=400]", "-n", "256", "--realizations", "300"]
-        process = spread(workers.address, out, asked=many)
+        first = workers.worker()
+        process = spread(workers.address, out, asked=ASKED[:-1])  # not --quiet: it tells whom it leaves out
         until(lambda: finished_pieces(out) >= 1)
+        first.send_signal(signal.SIGSTOP)  # so that there is work left for the other
         workers.worker("--nthreads", "2")
+        time.sleep(2)  # the other is given what waits, and says that it cannot serve
+        first.send_signal(signal.SIGCONT)
         code, said = ended(process)
     assert code == 0, said
     assert "left out: the Dask worker" in said

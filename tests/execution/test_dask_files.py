@@ -35,8 +35,7 @@ def kept(out: Path) -> int:
 def test_sets_by_workers_are_those_of_one_process(alone: bytes, tmp_path: Path, count: int) -> None:
     out = tmp_path / "x.npy"
     with cluster(tmp_path / "dask") as workers:
-        for _ in range(count):
-            workers.worker()
+        workers.several(count)
         code, said = ended(spread(workers.address, out, asked=SETS))
     assert code == 0, said
     assert out.read_bytes() == alone
@@ -46,8 +45,7 @@ def test_sets_by_workers_are_those_of_one_process(alone: bytes, tmp_path: Path, 
 def test_sets_whose_driver_and_a_worker_are_killed_go_on(alone: bytes, tmp_path: Path) -> None:
     out = tmp_path / "x.npy"
     with cluster(tmp_path / "dask") as workers:
-        victim = workers.worker()
-        workers.worker()
+        victim, _ = workers.several(2)
         process = spread(workers.address, out, asked=SETS)
         until(lambda: kept(out) >= 3)
         process.kill()
@@ -75,8 +73,7 @@ def test_stipplings_whose_driver_is_killed_go_on_and_a_bad_image_costs_itself(tm
     out = tmp_path / "dots"
     asked = [*DOTS, *images]
     with cluster(tmp_path / "dask") as workers:
-        workers.worker()
-        workers.worker()
+        workers.several(2)
         process = spread(workers.address, out, asked=asked)
         until(lambda: out.is_dir() and len(list(out.glob("*.txt"))) >= 3)
         process.kill()

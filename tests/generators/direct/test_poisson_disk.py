@@ -119,7 +119,7 @@ def test_bridson_s_front_leaves_no_large_hole(n: int, d: int) -> None:
 @pytest.mark.parametrize(("candidates", "n", "d"), [(1, 64, 2), (4, 200, 1)])
 def test_a_front_that_dies_out_gives_no_set(candidates: int, n: int, d: int) -> None:
     """Its radius would be lowered to nothing; two candidates in 2D are enough."""
-    with pytest.raises(RefusalError, match=f"front with {candidates} candidates dies out"):
+    with pytest.raises(RefusalError, match=f"front with candidates={candidates} dies out"):
         Bridson(candidates)(n, d, np.random.default_rng(1))
     assert least_distance(Bridson(2)(64, 2, np.random.default_rng(1))) > 0.5 * densest_spacing(64, 2)
 
