@@ -19,6 +19,7 @@ from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.errors import InputError
 
 HEAD = "head.md"  # how the page begins, a count of verdicts left to be filled in
+CRITERIA = "criteria.md"  # how it ends: a list that names claims, which become links
 PACKAGE = "gbnbench.benchmarks.claims"
 PLACEHOLDER = re.compile(r"\{([A-Za-z0-9.\-]+)\}")
 
@@ -126,8 +127,11 @@ def page(table: Table) -> str:
     verdicts = [of_claim(claim.name, table) for claim in CLAIMS]
     words = {"yes": "hold", "partly": "hold in part", "no": "do not", VERDICTS[-1]: "cannot be tried here"}
     counts = f"Of {len(CLAIMS)}, " + ", ".join(f"{verdicts.count(v)} {words[v]}" for v in VERDICTS)
-    head = resources.files(PACKAGE).joinpath(HEAD).read_text(encoding="utf-8").format(counts=counts)
-    lines = [head, "| claim | place | the paper states | holds |", "|---|---|---|---|"]
+    lines = [
+        _text(HEAD).format(counts=counts),
+        "| claim | place | the paper states | holds |",
+        "|---|---|---|---|",
+    ]
     lines += [
         f"| [`{claim.name}`](#{anchor(claim, found)}) | {claim.place} | {cell(claim.says)} | {found} |"
         for claim, found in zip(CLAIMS, verdicts, strict=True)
@@ -138,7 +142,16 @@ def page(table: Table) -> str:
             subject = claim.subject
             lines.append(f"\n## {subject}\n")
         lines += section(claim, table)
+    links = {
+        claim.name: f"[`{claim.name}`](#{anchor(claim, found)})"
+        for claim, found in zip(CLAIMS, verdicts, strict=True)
+    }
+    lines.append(re.sub(r"^- `([^`]+)`", lambda match: f"- {links[match[1]]}", _text(CRITERIA), flags=re.M))
     return "\n".join(lines).rstrip() + "\n"
+
+
+def _text(name: str) -> str:
+    return resources.files(PACKAGE).joinpath(name).read_text(encoding="utf-8")
 
 
 def anchor(claim: Claim, found: str) -> str:

@@ -21,14 +21,19 @@ Examples:
   gbnbench generators --family cellular
   gbnbench generators lloyd                    its settings, and which n and d it serves
   gbnbench generators 'gbn[sigma=0.8]' -o gbn.png
-  gbnbench generators --verify --only fpo      held against published figures: minutes for all
+  gbnbench generators --verify --only fpo      held against published figures, sets, theory: minutes for all
 """
 
 
 @click.command(cls=options.Command, epilog=EPILOG)
 @click.argument("name", required=False)
 @click.option("--family", metavar="NAME", help="Only the generators of this family.")
-@click.option("--verify", "verifying", is_flag=True, help="Hold them against published figures.")
+@click.option(
+    "--verify",
+    "verifying",
+    is_flag=True,
+    help="Hold them against published figures, others' sets and theory.",
+)
 @click.option("--only", multiple=True, metavar="NAME", help="With --verify: only this one; may come again.")
 @options.out_file("With a name its picture, .png or .pdf; with --verify the table, .md.")
 @click.option("-n", "n", type=click.IntRange(1), help="Points of the picture's sets.  [default: 1024]")

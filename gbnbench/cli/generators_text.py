@@ -1,4 +1,4 @@
-"""The lines of ``gbnbench generators``: the list, one described, published figures beside ours."""
+"""The lines of ``gbnbench generators``: the list, one described, figures to agree with beside ours."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from gbnbench.core.number_text import number
-from gbnbench.core.readable_text import display_width, left
 from gbnbench.core.text_table import aligned
 from gbnbench.generators.listing import OWN, GeneratorEntry, cost_machine, record
 
@@ -123,7 +122,7 @@ def description_record(one: GeneratorEntry, description: Description) -> dict[st
 
 
 def verified_lines(found: Sequence[Verified]) -> Iterator[str]:
-    """Lay out published figures beside ours.
+    """Lay out figures to agree with beside ours.
 
     Parameters
     ----------
@@ -133,31 +132,32 @@ def verified_lines(found: Sequence[Verified]) -> Iterator[str]:
     Yields
     ------
     str
-        A line each, ours agreeing if it lies between "from" and "to"; then how many agree, then the reasons
-        of failures.
+        A line each, its room and its source below it; then how many agree, and the reasons of failures.
     """
-    lines = list(
-        aligned(
-            ("", "generator", "measure", "published", "ours", "from", "to"),
-            [
-                (
-                    "ok" if one.agrees else "▼ no", one.figure.generator, one.figure.measure_name,
-                    one.figure.published, number(one.ours), number(one.figure.low), number(one.figure.high),
-                )
-                for one in found
-            ],
-        )
-    )  # fmt: skip
-    width = max(map(display_width, lines))
-    for line, reason in zip(lines, ("why so far", *(one.figure.reason for one in found)), strict=True):
-        yield f"{left(line, width)}  {reason}"
-    agreeing = sum(one.agrees for one in found)
-    yield f"{agreeing} of {len(found)} published figures agree"
+    from gbnbench.verification.wording import agreeing, values
+
+    rows = []
+    for one in found:
+        ours, agrees_if = values(one)
+        figure = one.figure
+        rows.append(
+            (
+                "ok" if one.agrees else "▼ no", figure.generator, f"{figure.sets} x {figure.n}, {figure.d}D",
+                figure.measure_name, figure.published, ours, agrees_if,
+            )
+        )  # fmt: skip
+    head = ("", "generator", "sets x n, d", "measure", "reference", "ours", "agrees if")
+    first, *lines = aligned(head, rows)
+    yield first
+    for one, line in zip(found, lines, strict=True):
+        yield line
+        yield f"      {one.figure.kind}: {one.figure.source}; room: {one.figure.reason}"
+    yield agreeing(found)
     yield from dict.fromkeys(f"{one.figure.generator}: {one.failure}" for one in found if one.failure)
 
 
 def verified_record(one: Verified) -> dict[str, Any]:
-    """Return a published figure beside ours as plain values for JSON."""
+    """Return a figure to agree with beside ours as plain values for JSON."""
     figure = dataclasses.asdict(one.figure) | {"measure": one.figure.measure_name}
     return {**figure, "ours": one.ours, "agrees": one.agrees, "failure": one.failure}
 

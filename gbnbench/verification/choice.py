@@ -1,4 +1,4 @@
-"""The published figures of some generators or of a family."""
+"""The figures that some generators, or those of a family, are held against."""
 
 from __future__ import annotations
 
@@ -10,10 +10,11 @@ from gbnbench.generators.listing import check_family
 from gbnbench.generators.registry import GENERATORS
 from gbnbench.verification.published import PUBLISHED
 from gbnbench.verification.published_figure import PublishedFigure
+from gbnbench.verification.without_reference import WITHOUT_REFERENCE
 
 
 def chosen_figures(only: Sequence[str] = (), family: str | None = None) -> tuple[PublishedFigure, ...]:
-    """Choose published figures.
+    """Choose figures to agree with.
 
     Parameters
     ----------
@@ -30,7 +31,7 @@ def chosen_figures(only: Sequence[str] = (), family: str | None = None) -> tuple
     Raises
     ------
     InputError
-        If a generator or the family is unknown, or nothing was published of what is chosen.
+        If a generator or the family is unknown, or there is no figure of what is chosen.
     """
     for name in only:
         if name not in GENERATORS:
@@ -43,6 +44,15 @@ def chosen_figures(only: Sequence[str] = (), family: str | None = None) -> tuple
         if (not only or name in only) and (family is None or GENERATORS[name].family == family):
             found.append(figure)
     if not found:
-        names = ", ".join(dict.fromkeys(parse(figure.generator)[0] for figure in PUBLISHED))
-        raise InputError(f"no published figure is held here of that; there are figures of {names}")
+        raise InputError(_nothing(only, family))
     return tuple(found)
+
+
+def _nothing(only: Sequence[str], family: str | None) -> str:
+    """Say why there is nothing to hold the chosen generators against."""
+    inside = [name for name in only if family is None or GENERATORS[name].family == family]
+    if only and not inside:
+        return f"{' and '.join(only)}: not of the family {family!r}, so that there is nothing to verify"
+    reasons = "; ".join(WITHOUT_REFERENCE.get(name, "none was found").replace("`", "") for name in inside)
+    chosen = " or ".join(inside) or f"the family {family!r}"
+    return f"there is no figure to hold {chosen} against{reasons and ': '}{reasons}"

@@ -1,25 +1,45 @@
-"""The page of published figures beside ours, in Markdown."""
+"""The page of figures to agree with beside ours, in Markdown."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Iterator, Sequence
 from itertools import groupby
 
 from gbnbench import __version__
-from gbnbench.core.number_text import number
 from gbnbench.core.settings import parse
 from gbnbench.generators.registry import GENERATORS
+from gbnbench.verification.published_figure import KINDS, PublishedFigure
 from gbnbench.verification.verify import Verified
+from gbnbench.verification.without_reference import WITHOUT_REFERENCE
+from gbnbench.verification.wording import agreeing, values
 
 HEAD = """\
-# Generators held against what was published of them
+# Generators held against what is known of them
 
 `gbnbench generators --verify -o docs/verification.md` draws these sets anew, measures them and writes this
-page; its exit code is 1 where one does not agree. *Ours* is a measure of all sets together, as
-[the measures](measures.md) define it, or the mean of a figure of each set. It agrees if it lies between
-*from* and *to*; *why* says what that room is for.
+page; its exit code is 1 where a figure does not agree. *Reference* is the figure to agree with, and *kind*
+says where it comes from:
+
+{kinds}
+
+*Ours* is a measure of all sets together, as [the measures](measures.md) define it, or the mean of a figure of
+each set, which [the end of this page](#measures-defined-here) defines. It agrees if it is what the next
+column says; *room* says why it need not be nearer. An isotropic method has an `anisotropy_db` of -10 log10 M
+over M sets: that is an expectation, which does not say what the publication of the method measured.
 """
-COLUMNS = ("generator", "sets", "measure", "published", "ours", "from", "to", "agrees", "why", "source")
+COLUMNS = (
+    "generator",
+    "sets",
+    "measure",
+    "kind",
+    "reference",
+    "ours",
+    "agrees if",
+    "agrees",
+    "room",
+    "source",
+)
 
 
 def markdown(found: Sequence[Verified]) -> str:
@@ -33,25 +53,49 @@ def markdown(found: Sequence[Verified]) -> str:
     Returns
     -------
     str
-        A table a family.
+        A table a family, how many agree, the measures that only this page has, what is held against nothing.
     """
-    parts = [HEAD]
+    kinds = "\n".join(f"- *{kind}*: {meaning};" for kind, meaning in KINDS.items())
+    parts = [HEAD.format(kinds=f"{kinds[:-1]}.")]
+    parts.append(f"**{agreeing(found)}** Measured by gbnbench {__version__}.\n")
     for family, group in groupby(found, lambda one: GENERATORS[parse(one.figure.generator)[0]].family):
         rows = [_row(COLUMNS), _row(["---"] * len(COLUMNS)), *(_row(_cells(one)) for one in group)]
         parts.append(f"## {family.capitalize()}\n\n" + "\n".join(rows) + "\n")
-    agreeing = sum(one.agrees for one in found)
-    parts.append(f"{agreeing} of {len(found)} figures agree. Measured by gbnbench {__version__}.\n")
+    parts.append("\n".join(["## Held against nothing", "", *_without_reference(), ""]))
+    definitions = list(_definitions([one.figure for one in found]))
+    if definitions:
+        parts.append("\n".join(["## Measures defined here", "", *definitions, ""]))
     return "\n".join(parts)
 
 
 def _cells(one: Verified) -> list[str]:
     figure = one.figure
+    ours, agrees_if = values(one)
     return [
         f"`{figure.generator}`", f"{figure.sets} of n={figure.n}, d={figure.d}", f"`{figure.measure_name}`",
-        figure.published, number(one.ours), number(figure.low), number(figure.high),
+        figure.kind, figure.published, ours, agrees_if,
         "yes" if one.agrees else f"**no** {one.failure}".strip(), figure.reason, figure.source,
     ]  # fmt: skip
 
 
 def _row(cells: Sequence[str]) -> str:
     return f"| {' | '.join(cell.replace('|', '&#124;') for cell in cells)} |"
+
+
+def _without_reference() -> Iterator[str]:
+    yield "These generators have no row, because"
+    yield ""
+    ends = [*[";"] * (len(WITHOUT_REFERENCE) - 1), "."]
+    for (name, reason), end in zip(WITHOUT_REFERENCE.items(), ends, strict=True):
+        yield f"- `{name}`: {reason}{end}"
+
+
+def _definitions(figures: Sequence[PublishedFigure]) -> Iterator[str]:
+    """Define each measure that is no scalar of ``gbnbench.measures``; those of one definition together."""
+    names: dict[str, list[str]] = {}
+    for figure in figures:
+        if figure.definition and figure.measure_name not in names.setdefault(figure.definition, []):
+            names[figure.definition].append(figure.measure_name)
+    for definition, those in names.items():
+        text = re.sub(r"``([^`]+)``|(\b2\*\*(?:\w+|\([^)]*\)))", r"`\1\2`", definition.replace("\n", " "))
+        yield f"- {', '.join(f'`{name}`' for name in those)}: {text[0].lower()}{text[1:]}"

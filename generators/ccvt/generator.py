@@ -63,8 +63,8 @@ class CapacityConstrained(SetBySet):
     Nyquist frequency .858 (.860), oscillations 2.01 (2.01). That number is thus inferred from one figure, and
     is the default.
 
-    Cost: 5 CPU s for 1,024 points, some 25 for 4,096. More sites need more passes, but the last
-    of them are over a few pairs.
+    Four times the points take some five times as long: more sites need more passes, but the last of them are
+    over a few pairs.
 
     References
     ----------

@@ -46,7 +46,7 @@ class Electrostatic(SetBySet):
     shaking. The publication stops at the
     picture's border; on the torus all images of all charges act, by Ewald's sum, and the background with
     them: the nearest image alone would leave forces of its own at the border of its cell. From random points
-    a step is at most one spacing. More iterations approach a triangular lattice. 3 CPU seconds at n = 1,024.
+    a step is at most one spacing. More iterations approach a triangular lattice.
 
     References
     ----------

@@ -54,7 +54,7 @@ class KernelDensityModel(SetBySet):
     in d = 1 and 3 are ours, the same in spacings. Where the author takes as many points as the density
     makes, exactly n are had: the coarsest level stops at ceil(n / 2**d), or fills the emptiest pixels if too
     few were accepted, and surplus points of a split are dropped at random. Points whose kernels do not
-    overlap are moved together, which is the same as one after another. One CPU second at n = 1,024 in 2D.
+    overlap are moved together, which is the same as one after another.
 
     References
     ----------

@@ -49,8 +49,7 @@ class ParticleHydrodynamics(SetBySet):
     the sets from Lloyd's to those of capacity-constrained tessellations is the publication's; that it is the
     rest density, the equation of state, stiffness, damping and support are those of a later program that
     follows it (SPlisHSPlasH), as the text was not at hand. Cohesion, which holds a surface, is left out: the
-    torus has none. At rest = 1 half of the particles have no pressure and do not spread. 0.3 CPU seconds at
-    n = 1,024 in 2D.
+    torus has none. At rest = 1 half of the particles have no pressure and do not spread.
 
     References
     ----------

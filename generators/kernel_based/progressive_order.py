@@ -45,8 +45,8 @@ def progressive_order(
     Of the set half is kept, of the half a quarter, and so on, each time by taking out the tightest clusters
     (Ulichney 1993) and then by exchanging a kept point with one left out where that lowers the sum over pairs
     of Gaussians, until no exchange does. What lies between two halvings comes in the order of largest voids.
-    A Gaussian is taken to be nothing beyond 7.5 of its widths. In 2D 0.3 CPU seconds at n = 1,024, 8 at
-    16,384; where Gaussians reach most points, as in many dimensions, the cost is n**2.
+    A Gaussian is taken to be nothing beyond 7.5 of its widths. Where Gaussians reach most points, as in many
+    dimensions, the cost is n**2.
 
     Examples
     --------

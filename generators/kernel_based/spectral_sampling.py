@@ -45,7 +45,8 @@ class SpectralSampling(SetBySet):
     place of the publication's dense input, n are chosen one after another where s is largest (a pivoted
     Cholesky decomposition; the publication accepts in random order above a threshold, which makes no given
     n). Then all move along the gradient of their own s; the step's length is ours. The publication keeps near
-    neighbours alone; here all kernels and their images count, in n**3: 4 CPU seconds at n = 1,024.
+    neighbours alone; here all kernels and their images count, and the cost
+    grows as n**3.
 
     References
     ----------

@@ -53,7 +53,7 @@ class VoidAndCluster(SetBySet):
     tightest cluster (phase I of the rank order) or put into the largest void (phase II) until n are left.
     Phase III, which takes zeros from their tightest cluster once ones are the majority, is the same as phase
     II on a torus: the zeros' sum is a constant less the ones'. Pixels are equal but for 1e-13 at random,
-    where Ulichney takes any. A swap costs some 50 microseconds in 2D: 0.2 CPU seconds at n = 1,024.
+    where Ulichney takes any.
 
     References
     ----------

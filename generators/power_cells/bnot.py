@@ -60,8 +60,6 @@ class OptimalTransport(SetBySet):
     alternations are done once more. Its threshold, 0.25/n in these units, is held at the value that it has
     for n = 1,024, so that it does not depend on n.
 
-    Cost: 0.4 CPU s for 1,024 points, 10 s for 16,384.
-
     References
     ----------
     de Goes, Breeden, Ostromoukhov & Desbrun, "Blue noise through optimal transport", ACM Trans. Graphics

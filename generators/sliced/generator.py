@@ -48,8 +48,7 @@ class Sliced(SetBySet):
     publication's program have a floor of 1.6e-3; how many directions they took is not known. Ours have 3.6e-3
     with 8, 1.4e-3 with 16 and 7e-4 with the default of 32: at or below theirs by a choice of ours.
 
-    The cube is no torus: points keep away from its faces, which a spectrum with periodic waves sees. 3 CPU
-    seconds at n = 1,024 in the plane.
+    The cube is no torus: points keep away from its faces, which a spectrum with periodic waves sees.
 
     References
     ----------

@@ -30,11 +30,11 @@ class Step(RingMeans):
     -----
     The publication descends by the pair correlation function, as ``method=correlation`` does step by step:
     sets with its figures, the noise floor of their band between 5e-3 and 1.7e-2 (published 6e-3 to 7e-3) and
-    oscillations of .09 to .19 (.11 to .15), in 5 CPU seconds at 1,024 points. The mean floor, 1e-2, misses
+    oscillations of .09 to .19 (.11 to .15), in eight times the time. The mean floor, 1e-2, misses
     the published: it stands at |f| = 2, 4 and 6, since forces end at 0.49 of the box, and neither a slower
     nor a longer cooling lowers it. By default the ring means of
     the power themselves are met, by limited-memory BFGS, which is another method with the same aim: the band
-    holds less than 1e-9, and rings are at 1 within 0.001 dB, in 1 to 2 CPU seconds; that its floor lies below
+    holds less than 1e-9, and rings are at 1 within 0.001 dB; that its floor lies below
     the published one says nothing of how the publication's method does. ``stealthy`` empties the same band
     without asking for anything beyond it.
 

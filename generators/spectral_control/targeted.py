@@ -61,7 +61,7 @@ class Targeted(RingMeans):
     analytic gradient; the publications descend along the gradient, by ring means or by the pair correlation
     function. Only means are met: around a ring the power stays as scattered as noise. A target that no
     process can have is met as nearly as the points can: ``gbnbench.generators.spectral_control.target_fit``
-    measures it. 1 to 3 CPU seconds at n = 1,024 in the plane; the time grows as n**2.
+    measures it. The time grows as n**2.
 
     Powers far below 1e-4 are met with a small relative error only by ``deep``, which weighs every frequency
     by its own target.

@@ -102,7 +102,7 @@ class CapacityConstrainedVoronoi(SetBySet):
     4,096   peak           4.6        4.96 +- .25       4.62 +- .21
     ======  =============  =========  ================  ================
 
-    Cost: .9 CPU s for 1,024 points, 16 s for 16,384, and nearly twice as much by ``energy="program"``.
+    Sets by ``energy="program"`` take nearly twice the time.
 
     References
     ----------

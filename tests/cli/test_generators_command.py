@@ -92,7 +92,8 @@ def test_a_description_as_json(capsys: Capture) -> None:
         (["fpo", "-o", "x.png", "-d", "5"], "fpo works on 2D Delaunay triangulations"),
         (["--verify", "-o", "x.txt"], "the table is written as .md; got '.txt'"),
         (["--verify", "--only", "fpoo"], "no generator of gbnbench is named 'fpoo'; did you mean 'fpo'?"),
-        (["--verify", "--only", "grid", "--family", "cellular"], "no published figure is held here of that"),
+        (["--verify", "--only", "grid", "--family", "cellular"], "grid: not of the family 'cellular'"),
+        (["--verify", "--only", "targeted"], "there is no figure to hold targeted against: its spectrum is"),
     ],
 )
 def test_what_cannot_be_done_is_told(here: Path, capsys: Capture, words: list[str], said: str) -> None:
@@ -131,15 +132,16 @@ def test_figures_that_do_not_agree_end_with_1(
     assert run(["generators", "--verify", "--jobs", "1", "-o", "page.md"]) == 1
     said, err = capsys.readouterr()
     out = said.splitlines()
-    assert [line.split()[0] for line in out[1:5]] == ["ok", "▼", "▼", "ok"]
-    assert "first_coordinate" in out[2]
+    assert [line.split()[0] for line in out[1:9:2]] == ["ok", "▼", "▼", "ok"]
+    assert re.search(r"2 x 64, 2D +first_coordinate +above 1 .* at least 1.00$", out[3])
+    assert out[4] == "      published figure: Cook; room: never"
     reason = "n must be m**2 for a jittered grid; got n=60, nearest is 64"
-    assert out[5:] == ["2 of 4 published figures agree", f"jittered: {reason}", "wrote page.md"]
+    assert out[9:] == ["Published figure: 2 of 4 agree.", f"jittered: {reason}", "wrote page.md"]
     assert "measured lloyd[iterations=2], n=16, d=2" in err
     page = Path("page.md").read_text()
     assert page.count("\n## ") == 2
     assert "| a &#124; few | Cook |" in page
-    assert "| ∞ | **no** | never |" in page
+    assert "| at least 1.00 | **no** | never |" in page
     assert f"| **no** {reason} |" in page
 
 

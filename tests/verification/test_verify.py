@@ -19,9 +19,11 @@ from gbnbench.verification.published.bnot_radial_power import (
     PowerOverPublished,
     ring_power,
 )
+from gbnbench.verification.published.low_discrepancy import of_whole
 from gbnbench.verification.published.set_figures import gain_in_integration, spread_of_voronoi_areas
-from gbnbench.verification.published_figure import PublishedFigure
+from gbnbench.verification.published_figure import FIGURE, KINDS, SETS, THEORY, PublishedFigure
 from gbnbench.verification.verify import Verified, verify
+from gbnbench.verification.wording import agreeing, values
 from tests.published_sets import published_files
 
 
@@ -33,6 +35,44 @@ def test_a_figure_can_be_measured(figure: PublishedFigure) -> None:
     assert figure.published
     assert figure.reason
     assert figure.source
+    assert figure.kind in KINDS
+    assert (figure.kind == SETS) == figure.source.startswith("measured on ")
+    assert not figure.whole or math.isclose(math.ceil(figure.low) - figure.low, 0.1)
+
+
+def test_a_whole_number_that_one_of_four_sets_misses_does_not_agree() -> None:
+    figure = PublishedFigure("sobol", first_coordinate, "0", *of_whole(0, 0), "none", "none", whole=True)
+    assert Verified(figure, 0.0).agrees
+    assert not Verified(figure, 0.25).agrees
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "ours", "whole", "written"),
+    [
+        (0.712, 0.803, 0.7391, False, ("0.739", "0.712 to 0.803")),
+        (1.81315e-3, 1.81335e-3, 1.81322e-3, False, ("0.00181322", "0.00181325 ± 1e-7")),
+        (1 - 1e-9, 1 + 1e-9, 1.0, False, ("1", "1 ± 1e-9")),
+        (-math.inf, 6e-3, 2.03e-12, False, ("2.03e-12", "at most 0.00600")),
+        (1.0, math.inf, 279000.0, False, ("2.79e5", "at least 1.00")),
+        (*of_whole(0, 0), 0.0, True, ("0", "exactly 0")),
+        (*of_whole(2, 3), 2.25, True, ("2.25", "2 to 3")),
+        (*of_whole(0, 1), math.nan, True, ("–", "0 to 1")),
+    ],
+)
+def test_what_agrees_is_written_in_digits_that_tell(
+    low: float, high: float, ours: float, whole: bool, written: tuple[str, str]
+) -> None:
+    figure = PublishedFigure("random", "noise_floor", "x", low, high, "none", "none", whole=whole)
+    assert values(Verified(figure, ours)) == written
+
+
+def test_counts_are_told_kind_by_kind() -> None:
+    figures = [
+        PublishedFigure("random", "noise_floor", "x", 0, 1, "none", "none", kind=kind)
+        for kind in (THEORY, FIGURE, THEORY)
+    ]
+    found = [Verified(figure, ours) for figure, ours in zip(figures, (0.5, 0.5, 2.0), strict=True)]
+    assert agreeing(found) == "Published figure: 1 of 1 agree; theory: 1 of 2 agree."
 
 
 def first_coordinate(x: FloatArray) -> float:

@@ -1,9 +1,10 @@
-"""All published figures that generators are held against, family by family."""
+"""All figures that generators are held against, family by family."""
 
 from __future__ import annotations
 
 from gbnbench.core.settings import parse
 from gbnbench.generators.registry import GENERATORS
+from gbnbench.verification.published.by_definition import BY_DEFINITION
 from gbnbench.verification.published.cellular import CELLULAR
 from gbnbench.verification.published.direct import DIRECT
 from gbnbench.verification.published.kernel_based import KERNEL_BASED
@@ -28,4 +29,6 @@ def _by_family(figures: tuple[PublishedFigure, ...]) -> tuple[PublishedFigure, .
     )
 
 
-PUBLISHED = _by_family((*DIRECT, *LOW_DISCREPANCY, *CELLULAR, *KERNEL_BASED, *SPECTRAL, *SPECTRAL_SHAPE))
+PUBLISHED = _by_family(
+    (*DIRECT, *LOW_DISCREPANCY, *CELLULAR, *KERNEL_BASED, *SPECTRAL, *SPECTRAL_SHAPE, *BY_DEFINITION)
+)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from gbnbench.verification.published.bnot_radial_power import PowerOverPublished
 from gbnbench.verification.published.set_figures import spread_of_voronoi_areas
-from gbnbench.verification.published_figure import PublishedFigure
+from gbnbench.verification.published_figure import SETS, PublishedFigure
 
 BNOT = "de Goes, Breeden, Ostromoukhov & Desbrun, Blue noise through optimal transport, SIGGRAPH Asia 2012"
 BNOT_SETS = "measured on ten sets published by the deepsampling project"
@@ -19,6 +19,7 @@ BNOT_FIGURES = (
         2.4e-4,
         "a factor of 2: it halves from 8 alternations to 20",
         BNOT_SETS,
+        kind=SETS,
     ),
     PublishedFigure(
         "bnot",
@@ -28,6 +29,7 @@ BNOT_FIGURES = (
         8e-7,
         "four frequencies a set, of which each is exponentially distributed",
         BNOT_SETS,
+        kind=SETS,
     ),
     PublishedFigure(
         "bnot",
@@ -82,6 +84,7 @@ BNOT_FIGURES = (
         3.1,
         "a tenth: one alternation is a twentieth",
         BNOT_SETS,
+        kind=SETS,
     ),
     PublishedFigure(
         "bnot",
@@ -91,6 +94,7 @@ BNOT_FIGURES = (
         0.629,
         "one published set spreads by .024 about the rest; twice that",
         BNOT_SETS,
+        kind=SETS,
     ),
     PublishedFigure(
         "bnot",
@@ -100,6 +104,7 @@ BNOT_FIGURES = (
         0.053,
         "four published sets spread by .002 about .047",
         BNOT_SETS,
+        kind=SETS,
     ),
     *(
         PublishedFigure(
@@ -110,6 +115,7 @@ BNOT_FIGURES = (
             1.15,
             "twice the 7% by which means of 4 and of 16 sets differ in the lowest band",
             BNOT_SETS_HERE,
+            kind=SETS,
             sets=16,
         )
         for first, last in ((3, 7), (8, 15), (16, 23), (24, 31), (32, 48))

@@ -6,7 +6,7 @@ import math
 
 from gbnbench.verification.published.bnot import BNOT_FIGURES, BNOT_SETS
 from gbnbench.verification.published.set_figures import gain_in_integration, spread_of_voronoi_areas
-from gbnbench.verification.published_figure import PublishedFigure
+from gbnbench.verification.published_figure import SETS, STATEMENT, PublishedFigure
 
 CAPCVT = "measured on a set made by the method of Chen et al., Variational blue noise sampling, 2012"
 CAPCVT_PROGRAM = "capcvt[energy=program]"  # the published sets are those of the authors' program
@@ -27,6 +27,7 @@ CELLULAR = (
         0.804,
         f"{SPREADS} .021",
         CAPCVT,
+        kind=SETS,
     ),
     PublishedFigure(
         "capcvt",
@@ -36,6 +37,7 @@ CELLULAR = (
         1.7e-4,
         f"{SPREADS} 1.8e-5, and two digits",
         CAPCVT,
+        kind=SETS,
     ),
     PublishedFigure(
         "capcvt",
@@ -45,6 +47,7 @@ CELLULAR = (
         6.05,
         f"{SPREADS} .32, and two digits",
         CAPCVT,
+        kind=SETS,
     ),
     PublishedFigure(
         CAPCVT_PROGRAM,
@@ -54,6 +57,7 @@ CELLULAR = (
         0.804,
         f"{SPREADS} .021",
         CAPCVT,
+        kind=SETS,
     ),
     PublishedFigure(
         CAPCVT_PROGRAM,
@@ -63,6 +67,7 @@ CELLULAR = (
         1.7e-4,
         f"{SPREADS} 1.8e-5, and two digits",
         CAPCVT,
+        kind=SETS,
     ),
     PublishedFigure(
         CAPCVT_PROGRAM,
@@ -72,6 +77,7 @@ CELLULAR = (
         6.05,
         f"{SPREADS} .32, and two digits",
         CAPCVT,
+        kind=SETS,
     ),
     PublishedFigure(
         CAPCVT_PROGRAM,
@@ -81,6 +87,7 @@ CELLULAR = (
         0.767,
         f"{SPREADS} .030",
         CAPCVT,
+        kind=SETS,
         n=4096,
     ),
     PublishedFigure(
@@ -91,6 +98,7 @@ CELLULAR = (
         1.63e-4,
         f"{SPREADS} 7e-6, and two digits",
         CAPCVT,
+        kind=SETS,
         n=4096,
     ),
     PublishedFigure(
@@ -101,6 +109,7 @@ CELLULAR = (
         4.9,
         f"{SPREADS} .10, and two digits",
         CAPCVT,
+        kind=SETS,
         n=4096,
     ),
     PublishedFigure(
@@ -111,6 +120,7 @@ CELLULAR = (
         0.781,
         f"{SPREADS} .013",
         CCVT,
+        kind=SETS,
         sets=2,
     ),
     PublishedFigure(
@@ -121,9 +131,10 @@ CELLULAR = (
         0.879,
         f"{SPREADS} .0025; the samples a point were inferred from this figure",
         CCVT,
+        kind=SETS,
         sets=2,
     ),
-    PublishedFigure("ccvt", "bond_order", ".450", 0.417, 0.483, f"{SPREADS} .013", CCVT, sets=2),
+    PublishedFigure("ccvt", "bond_order", ".450", 0.417, 0.483, f"{SPREADS} .013", CCVT, kind=SETS, sets=2),
     PublishedFigure(
         "ccvt",
         "effective_nyquist",
@@ -132,9 +143,10 @@ CELLULAR = (
         0.871,
         f"{SPREADS} .0025, and steps of .01",
         CCVT,
+        kind=SETS,
         sets=2,
     ),
-    PublishedFigure("ccvt", "oscillations", "2.01", 1.87, 2.15, f"{SPREADS} .054", CCVT, sets=2),
+    PublishedFigure("ccvt", "oscillations", "2.01", 1.87, 2.15, f"{SPREADS} .054", CCVT, kind=SETS, sets=2),
     PublishedFigure(
         "fpo", "min_distance", "at least .925", 0.925, math.inf, "the method stops at this distance", FPO
     ),
@@ -146,6 +158,7 @@ CELLULAR = (
         9.9e-3,
         "a quarter: a few dozen frequencies a set",
         "measured on sets by the authors' method",
+        kind=SETS,
     ),
     PublishedFigure(
         "sliced",
@@ -155,16 +168,18 @@ CELLULAR = (
         1.9e-3,
         "it falls as one over the directions a step; those of these sets are not known",
         SLICED,
+        kind=SETS,
         sets=3,
     ),
     PublishedFigure(
         "sliced",
         "power_at_1",
-        "1.2e-4",
-        0.0,
+        "at most 1.2e-4",
+        -math.inf,
         2.4e-4,
-        "likewise; less is no disagreement",
+        "a factor of 2 for two independent frequencies a set; less is no disagreement",
         SLICED,
+        kind=SETS,
         sets=3,
     ),
     PublishedFigure(
@@ -175,6 +190,7 @@ CELLULAR = (
         0.054,
         "capacities are equal for cells by weights in both",
         BNOT_SETS,
+        kind=SETS,
         sets=2,
     ),
     *(
@@ -186,6 +202,7 @@ CELLULAR = (
             math.inf,
             f"a gain over independent points in {d} dimensions",
             SLICED_PAPER,
+            kind=STATEMENT,
             n=1024,
             d=d,
             sets=2,

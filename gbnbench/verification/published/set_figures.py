@@ -14,7 +14,7 @@ WIDTH, INTEGRANDS = 0.25, 256  # of Gaussians in the cube, and how many
 
 
 def spread_of_voronoi_areas(x: FloatArray) -> float:
-    """Give the standard deviation of the areas of the Voronoi cells over their mean, of points on the torus.
+    """Areas of the Voronoi cells of points on the torus: their standard deviation over their mean.
 
     Parameters
     ----------
@@ -29,7 +29,7 @@ def spread_of_voronoi_areas(x: FloatArray) -> float:
 
 
 def gain_in_integration(x: FloatArray) -> float:
-    """Give the variance of independent points over the squared error of these, for Gaussians in the cube.
+    """Variance of integrals by independent points over the squared errors by these, of 256 Gaussians.
 
     Parameters
     ----------
