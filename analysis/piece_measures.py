@@ -19,7 +19,7 @@ from gbnbench.analysis.spatial.discrepancy import DiscrepancyResult, measure_dis
 from gbnbench.analysis.spatial.discrepancy_kernels import Discrepancy
 from gbnbench.analysis.spatial.distances import nearest_distances
 from gbnbench.analysis.spatial.plane_order import PlaneOrder, plane_order, summed_shares
-from gbnbench.analysis.spatial.rdf import RadialDistribution, rdf
+from gbnbench.analysis.spatial.rdf import RadialDistribution, curve_bins, rdf
 from gbnbench.analysis.spatial.slabs import WHOLE
 from gbnbench.analysis.spatial.valence import Valence, valence, valence6
 from gbnbench.analysis.spatial.zone_plate import zone_plate
@@ -178,7 +178,7 @@ def _curves(points: FloatArray, plan: MeasuringPlan) -> dict[str, NDArray[Any]]:
     """Radial distribution function, summed over the sets."""
 
     def both() -> FloatArray:
-        found: RadialDistribution = rdf(points, plan.sides)
+        found: RadialDistribution = rdf(points, plan.sides, bins=curve_bins(points.shape[-2]))
         return np.stack([found.r, found.g_by_set.sum(axis=0)])
 
     return {"rdf": outcome(both)}

@@ -22,6 +22,7 @@ RANGE = 8.0  # densest spacings
 MOST_DIMENSIONS = 8  # beyond, half a side is less than the densest spacing of thousands of points
 BINS_PER_POINT = 0.125
 MOST_BINS = 10_000_000
+CURVE_BINS = 80  # of a curve that is looked at, a tenth of a spacing each
 
 
 @dataclass(frozen=True)
@@ -113,6 +114,17 @@ def rdf(
     g = pair_density(sets, count, width, lengths, progress)
     mean: FloatArray = g.mean(axis=0)
     return RadialDistribution(np.arange(count, dtype=np.float64) * (width / unit), mean, g, width / unit)
+
+
+def curve_bins(n: int) -> int | None:
+    """Choose bins that show the peaks of few points too, of which PSA's are a spacing wide at n = 64.
+
+    Returns
+    -------
+    int or None
+        As ``rdf`` takes it; None for PSA's, which are as narrow from n = 640 on, or of n < 8 refused.
+    """
+    return CURVE_BINS if 1 <= int(BINS_PER_POINT * n) < CURVE_BINS else None
 
 
 def _no_bin(n: int, d: int, bins: int | None) -> str:

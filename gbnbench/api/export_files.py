@@ -15,6 +15,7 @@ from gbnbench import __version__
 from gbnbench.api.exports import QUALITY_COLUMNS, ExportedSets, quality_row
 from gbnbench.core.errors import InputError
 from gbnbench.core.number_text import number
+from gbnbench.core.readable_text import counted
 from gbnbench.core.torus import FloatArray
 from gbnbench.io.exports.c_header import c_header, c_name
 from gbnbench.io.exports.number_types import NumberType, check_number_type
@@ -88,7 +89,11 @@ def check_format(path: Path, sets: int, d: int, sides: Sequence[float] | None) -
 
 
 def encode_sets(
-    path: Path, made: ExportedSets, values: NDArray[Any], identities: Sequence[dict[str, Any]], seed: int
+    path: Path,
+    made: ExportedSets,
+    values: NDArray[Any],
+    identities: Sequence[dict[str, Any]],
+    seed: int | None,
 ) -> dict[Path, bytes]:
     """Make the files of an export.
 
@@ -102,8 +107,8 @@ def encode_sets(
         The numbers themselves.
     identities : sequence of dict
         What decides the points of each source, JSON-ready.
-    seed : int
-        Of generators, copies and random shifts.
+    seed : int or None
+        Of generators, copies and random shifts; None where nothing was random.
 
     Returns
     -------
@@ -130,7 +135,7 @@ def encode_sets(
     return {path: encode(path, boxed)}
 
 
-def description(made: ExportedSets, identities: Sequence[dict[str, Any]], seed: int) -> dict[str, Any]:
+def description(made: ExportedSets, identities: Sequence[dict[str, Any]], seed: int | None) -> dict[str, Any]:
     """Describe what was made, of what, and how good it is.
 
     Parameters
@@ -139,8 +144,8 @@ def description(made: ExportedSets, identities: Sequence[dict[str, Any]], seed: 
         The points and what was measured of them.
     identities : sequence of dict
         What decides the points of each source, JSON-ready.
-    seed : int
-        Of generators, copies and random shifts.
+    seed : int or None
+        Of generators, copies and random shifts; None where nothing was random.
 
     Returns
     -------
@@ -170,7 +175,7 @@ def description(made: ExportedSets, identities: Sequence[dict[str, Any]], seed: 
     }
 
 
-def comment_lines(made: ExportedSets, array: str, seed: int) -> Iterator[str]:
+def comment_lines(made: ExportedSets, array: str, seed: int | None) -> Iterator[str]:
     """Write the same for the reader of a header.
 
     Parameters
@@ -179,8 +184,8 @@ def comment_lines(made: ExportedSets, array: str, seed: int) -> Iterator[str]:
         The points and what was measured of them.
     array : str
         The array with the meaning of its indices.
-    seed : int
-        Of generators, copies and random shifts.
+    seed : int or None
+        Of generators, copies and random shifts; None where nothing was random.
 
     Yields
     ------
@@ -189,9 +194,10 @@ def comment_lines(made: ExportedSets, array: str, seed: int) -> Iterator[str]:
     """
     sets, n, d = made.points.shape
     unit = "as counts of 2^-32 of a side" if made.number_type == "uint32" else "in [0, 1)"
-    how_many = "1 set" if sets == 1 else f"{sets} sets"
-    yield f"{array}: {how_many} of {n} points of the unit torus, d={d}, {made.number_type} {unit}."
-    yield f"Written by gbnbench {__version__} from {made.source}, seed {seed}."
+    held = f"{counted(sets, 'set')} of {counted(n, 'point')} of the unit torus, d={d}"
+    yield f"{array}: {held}, {made.number_type} {unit}."
+    drawn = "" if seed is None else f", seed {seed}"
+    yield f"Written by gbnbench {__version__} from {made.source}{drawn}."
     if made.sides is not None:
         yield f"They are fractions of a box of sides {' x '.join(f'{side:g}' for side in made.sides)}."
     if math.prod(made.repeat) > 1:

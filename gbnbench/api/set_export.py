@@ -163,7 +163,8 @@ def export_sets(
         )
     exported = replace(exported, remarks=_remarks(exported, sources, x))
     identities = [one.identity() for one in sources]
-    files = encode_sets(path, exported, values, identities, seed)
+    random = copies > 1 or shift == "random" or any(one.generator is not None for one in sources)
+    files = encode_sets(path, exported, values, identities, seed if random else None)
     for file, data in files.items():
         write_atomically(file, data)
     return replace(exported, files=tuple(reversed(files)))

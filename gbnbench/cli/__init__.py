@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import shlex
 import sys
+import warnings
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -148,7 +149,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
 def run(arguments: Sequence[str]) -> int:
     """Run the command and return its exit code."""
     try:
-        with gbnbench.make_context("gbnbench", list(arguments)) as context:
+        with gbnbench.make_context("gbnbench", list(arguments)) as context, warnings.catch_warnings():
+            warnings.showwarning = _warn
             gbnbench.invoke(context)
             _tell_of_fonts()
         sys.stdout.flush()
@@ -174,6 +176,11 @@ def run(arguments: Sequence[str]) -> int:
     except OSError as error:
         return _fail(f"{error.filename}: {error.strerror}" if error.filename else str(error), BAD)
     return 0
+
+
+def _warn(message: Warning | str, *_: object, **__: object) -> None:
+    """Say a warning in one line, without the place in the code that gave it."""
+    click.echo(f"gbnbench: warning: {message}", err=True)
 
 
 def _sentence(message: str) -> str:

@@ -9,6 +9,7 @@ import click
 
 from gbnbench.cli import options
 from gbnbench.core.errors import FormatError, InputError
+from gbnbench.core.readable_text import counted
 
 if TYPE_CHECKING:
     from gbnbench.io.points import PointSets, ReadingOptions
@@ -54,9 +55,9 @@ def convert(files: tuple[Path, ...], out: Path, fractions: bool, reading: Readin
     replaced = ", replacing what was there" if out.exists() else ""
     write_atomically(out, encode(out, given))
     counts = sorted({len(x) for x in sets})
-    points = f"{counts[0]}" if len(counts) == 1 else f"{counts[0]} to {counts[-1]}"
-    many = "1 set" if len(sets) == 1 else f"{len(sets)} sets"
-    click.echo(f"wrote {out}: {many} of {points} points, d={d}{_unit(out, first, given)}{replaced}")
+    points = counted(counts[0], "point") if len(counts) == 1 else f"{counts[0]} to {counts[-1]} points"
+    many = counted(len(sets), "set")
+    click.echo(f"wrote {out}: {many} of {points}, d={d}{_unit(out, first, given)}{replaced}")
 
 
 def _box(x: PointSets) -> tuple[object, ...]:

@@ -7,6 +7,7 @@ from typing import Any
 
 from gbnbench.api.exports import QUALITY_COLUMNS, ExportedMask, ExportedSets, quality_row
 from gbnbench.core.number_text import number
+from gbnbench.core.readable_text import counted
 from gbnbench.core.text_table import aligned
 
 FEW = 16  # copies that are told one by one
@@ -28,9 +29,9 @@ def set_lines(made: ExportedSets, *, replaced: bool) -> Iterator[str]:
         A line each.
     """
     sets, n, d = made.points.shape
-    how_many = "1 set" if sets == 1 else f"{sets} sets"
+    how_many = counted(sets, "set")
     again = ", replacing what was there" if replaced else ""
-    yield f"wrote {made.files[0]}: {how_many} of {n} points, d={d}, {made.number_type}{again}"
+    yield f"wrote {made.files[0]}: {how_many} of {counted(n, 'point')}, d={d}, {made.number_type}{again}"
     yield from (f"wrote {path}: what the numbers are" for path in made.files[1:])
     if any(count > 1 for count in made.repeat):
         yield f"a tile of {' x '.join(map(str, made.repeat))}, each point scaled to the whole"

@@ -15,6 +15,7 @@ from gbnbench.cli.executor_option import executor, workers_wanted
 from gbnbench.cli.needed_unless import NeededUnless
 from gbnbench.core.atomic_write import check_folder, remove_leftovers_of
 from gbnbench.core.errors import InputError
+from gbnbench.core.readable_text import counted
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -91,7 +92,7 @@ def generate(
         check_folder(path)
     if checkpoint is not None and checkpoint.absolute() in (out.absolute(), trace and trace.absolute()):
         raise InputError(f"a checkpoint needs a file of its own; got {checkpoint} for two")
-    sets = f"{'1 set' if realizations == 1 else f'{realizations} sets'} of {n} points, d={d}"
+    sets = f"{counted(realizations, 'set')} of {counted(n, 'point')}, d={d}"
     replaced = ", replacing what was there" if out.exists() else ""
     if workers_wanted():
         by_workers.check_alone()

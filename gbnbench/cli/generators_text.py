@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import re
 import textwrap
 from collections.abc import Iterator, Sequence
@@ -69,8 +70,9 @@ def description_lines(one: GeneratorEntry, description: Description) -> Iterator
     """
     yield f"{one.name}: {one.summary}"
     yield ""
-    yield from _paragraphs(description.opening)
-    yield ""
+    if description.opening.rstrip(".") != one.summary.rstrip("."):
+        yield from _paragraphs(description.opening)
+        yield ""
     facts = {
         "family": one.family,
         "dimensions": one.dimensions_text,
@@ -92,9 +94,10 @@ def description_lines(one: GeneratorEntry, description: Description) -> Iterator
             _plain(setting.meaning), WIDTH, initial_indent="    ", subsequent_indent="    "
         )
     yield ""
-    yield "Serves, of a few numbers of points that were tried:"
-    for served in description.serves:
-        yield from textwrap.wrap(_served(served), WIDTH, initial_indent="  ", subsequent_indent="         ")
+    sizes = sorted({n for one in description.serves for n in (*one.n, *one.refused)})
+    yield f"Takes, of n = {_listed(sizes)} points:"
+    for line in _served(description.serves):
+        yield from textwrap.wrap(line, WIDTH, initial_indent="  ", subsequent_indent="         ")
     for title, text in (("Notes", description.notes), ("References", description.references)):
         if text:
             yield ""
@@ -168,14 +171,23 @@ def _value(value: object) -> str:
     return str(value).lower() if value is None or isinstance(value, bool) else str(value)
 
 
-def _served(served: ServedSizes) -> str:
-    head = f"d = {served.d}  "
-    if not served.refused:
-        return f"{head}all: n = {_listed(served.n)}"
-    n, reason = max(served.refused.items(), key=lambda item: (item[0] == 1000, item[0]))
-    if not served.n:
-        return f"{head}none: {reason}"
-    return f"{head}n = {_listed(served.n)}; not {_listed(tuple(served.refused))}, of n={n}: {reason}"
+def _served(serves: Sequence[ServedSizes]) -> Iterator[str]:
+    """Lay out what is served, with those dimensions in one line of which all, or none, is."""
+
+    def kind(one: ServedSizes) -> tuple[bool, bool, int]:
+        return bool(one.n), bool(one.refused), one.d if one.n and one.refused else 0
+
+    for _, group in itertools.groupby(serves, kind):
+        same = list(group)
+        first, head = same[0], f"d = {_listed([one.d for one in same])}  "
+        if not first.refused:
+            yield f"{head}all"
+            continue
+        n, reason = max(first.refused.items(), key=lambda item: (item[0] == 1000, item[0]))
+        if first.n:
+            yield f"{head}n = {_listed(first.n)}; not {_listed(list(first.refused))} (for {n}: {reason})"
+        else:
+            yield f"{head}none: {reason}"
 
 
 def _listed(numbers: Sequence[int]) -> str:

@@ -134,6 +134,11 @@ def remove_leftovers_of(path: Path) -> None:
                 leftover.unlink()
 
 
+def is_temporary(path: Path) -> bool:
+    """Whether a file has a name under which one is written here before it is whole."""
+    return path.name.startswith(".gbnbench-") and path.name.endswith(".tmp")
+
+
 def _temporary(path: Path) -> Path:
     """Name a file beside path that no other process writes, short enough for any file system."""
     return path.parent / f"{_stem(path)}{secrets.token_hex(4)}.tmp"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 NOTHING = "–"
+ROUNDING = 1e-12  # of a value: an error below is that of the arithmetic, not of chance
 UNITS = ((86400.0, "days"), (3600.0, "hours"), (60.0, "minutes"))
 
 
@@ -42,7 +43,7 @@ def error_number(value: float, error: float) -> str:
     Returns
     -------
     str
-        Empty where there is nothing to write.
+        Empty where there is nothing to write; 0 where it is mere rounding, below 1e-12 of the value.
 
     Examples
     --------
@@ -56,7 +57,7 @@ def error_number(value: float, error: float) -> str:
     if mark:
         error /= 10.0 ** int(exponent)
     digits = len(mantissa.partition(".")[2])
-    if error == 0:
+    if error < ROUNDING * abs(float(mantissa)):
         return "0"
     digits = max(digits, -math.floor(math.log10(error))) if error < 10.0**-digits else digits
     return f"{error:.{min(digits, 12)}f}" if digits <= 12 else f"{error:.0e}"

@@ -36,6 +36,28 @@ def in_one_line(name: object) -> str:
                    without_bytes(name))  # fmt: skip
 
 
+def counted(number: int, noun: str) -> str:
+    """Write how many there are of something whose plural has an s.
+
+    Parameters
+    ----------
+    number : int
+        How many.
+    noun : str
+        Of one.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> counted(1, "set"), counted(200, "point")
+    ('1 set', '200 points')
+    """
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
 def display_width(text: str) -> int:
     """Count the columns of a terminal that a text takes: two for Chinese, Japanese and Korean signs.
 

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Sequence
-from typing import Any
 
 # The processes share the cores, and CPU seconds then mean one core's seconds. OpenBLAS shares a product out
 # among its threads, so that their number shows in the last digits.
@@ -37,20 +35,3 @@ def one_thread() -> None:
         from threadpoolctl import threadpool_limits
 
         threadpool_limits(1)
-
-
-def carried_out(calls: Sequence[tuple[Any, ...]]) -> list[Any]:
-    """Carry out calls one after another, with one thread.
-
-    Parameters
-    ----------
-    calls : sequence of tuple
-        A function and its arguments each.
-
-    Returns
-    -------
-    list
-        What they returned.
-    """
-    one_thread()
-    return [function(*arguments) for function, *arguments in calls]

@@ -6,10 +6,7 @@ import os
 import sys
 import time
 from types import TracebackType
-from typing import TYPE_CHECKING, Self
-
-if TYPE_CHECKING:
-    from rich.progress import Progress as Bar
+from typing import Self
 
 QUIET_SECONDS = 10.0  # between plain lines
 PLAIN_TERMINALS = ("dumb", "unknown")  # values of TERM: they know neither colours nor moving the cursor
@@ -19,7 +16,14 @@ class Progress:
     """Say nothing: the base of the two that speak, and what ``--quiet`` uses.
 
     A progress is a context; ``start`` comes first, then any number of ``advance``.
+
+    Attributes
+    ----------
+    percent : bool
+        Whether steps are equal parts of all work, not things that can be counted: a share is shown then.
     """
+
+    percent = False
 
     def __enter__(self) -> Self:
         return self
@@ -82,7 +86,7 @@ class Lines(Progress):
         """
         self._total, self._done, self._before = total, done, done
         self._began = self._spoke = time.monotonic()
-        self.say(f"{done}/{total} {doing}")
+        self.say(f"{self._count()} {doing}")
 
     def advance(self, doing: str, steps: int = 1) -> None:
         """Count, and print when the last line is old enough.
@@ -102,7 +106,12 @@ class Lines(Progress):
         elapsed = now - self._began
         fresh, ahead = self._done - self._before, self._total - self._done
         left = f", about {elapsed * ahead / fresh:.0f} s left" if fresh and ahead else ""
-        self.say(f"{self._done}/{self._total} {doing} ({elapsed:.0f} s{left})")
+        self.say(f"{self._count()} {doing} ({elapsed:.0f} s{left})")
+
+    def _count(self) -> str:
+        if self.percent:
+            return f"{100 * self._done / max(1, self._total):.0f}%"
+        return f"{self._done}/{self._total}"
 
 
 class Live(Progress):
@@ -110,24 +119,13 @@ class Live(Progress):
 
     def __init__(self) -> None:
         from rich.console import Console
-        from rich.progress import (
-            BarColumn,
-            MofNCompleteColumn,
-            Progress,
-            TextColumn,
-            TimeElapsedColumn,
-            TimeRemainingColumn,
-        )
+        from rich.progress import Progress as Bar
 
-        self._bar: Bar = Progress(
-            BarColumn(),
-            MofNCompleteColumn(),
-            TimeElapsedColumn(),
-            TextColumn("left"),
-            TimeRemainingColumn(),
-            TextColumn("{task.description}", markup=False),
-            console=Console(stderr=True),
-            transient=True,
+        from gbnbench.execution.bar_columns import Count, Doing, Times, bar_column
+
+        self._count = Count()
+        self._bar: Bar = Bar(
+            bar_column(), self._count, Times(), Doing(), console=Console(stderr=True), transient=True
         )
         self._task = self._bar.add_task("starting", total=None)
 
@@ -157,6 +155,7 @@ class Live(Progress):
         doing : str
             What is being done now.
         """
+        self._count.percent = self.percent
         self._bar.reset(self._task, total=total, completed=done, description=doing)
 
     def advance(self, doing: str, steps: int = 1) -> None:

@@ -51,8 +51,8 @@ class Bridson(SetBySet):
     Then all points become active again at a radius a hundredth smaller (as McCool & Fiume 1992 relax theirs),
     until the n-th point stands. The last few are so a little nearer to others than the first.
 
-    With few candidates a front dies out before it has filled the torus, whatever the radius: with one in 2D,
-    with a dozen in 1D. Then there is no set, and a RefusalError asks for more of them.
+    With few candidates, one in 2D or a dozen in 1D, a front mostly dies out before it has filled the torus,
+    whatever the radius. Then there is no set, and a RefusalError asks for more of them.
 
     References
     ----------
@@ -110,7 +110,7 @@ class Bridson(SetBySet):
                 break
             if radius < least:
                 raise RefusalError(
-                    f"a front with {self.candidates} candidates dies out before it has filled the torus in "
+                    f"a front with candidates={self.candidates} dies out before it has filled the torus in "
                     f"d={d}; take more candidates"
                 )
         while front.count < n:  # ends: any n points fit at some radius

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -40,7 +41,8 @@ class DartThrowing(SetBySet):
     -----
     The first n darts that stand. Where no room is left for the n-th, or the attempts are spent, the radius is
     made smaller by a hundredth and the throwing goes on (McCool & Fiume 1992): with the default this happens
-    in 1D, where .7476 is all that fits in the mean, and from 6D on, to .69 or more.
+    in 1D, where .7476 is all that fits in the mean, and from 6D on, to .69 or more; of another radius that
+    gives way a ``RuntimeWarning`` tells.
 
     Darts are thrown only at cells that no single disc covers, which are halved as they grow fewer (Ebeida et
     al. 2012). Every dart left out would be refused, so that the sets are those of plain dart throwing on the
@@ -92,9 +94,17 @@ class DartThrowing(SetBySet):
 
     def one_set(self, n: int, d: int, rng: np.random.Generator, told: Told) -> FloatArray:
         """Draw one realization, as ``SetBySet.one_set`` says."""
-        radius = self.radius * densest_spacing(n, d)
+        unit = densest_spacing(n, d)
+        radius = wanted = self.radius * unit
         x: FloatArray = np.empty((0, d))
         while len(x) < n:  # ends: any n points fit at some radius, and it halves in 69 rounds
             x, _ = throw_darts(x, radius, n, rng, darts_a_point=self.attempts, told=told)
-            radius *= SHRINK
+            last, radius = radius, radius * SHRINK
+        if last < wanted and self.radius != type(self).radius:
+            warnings.warn(
+                f"darts: n={n} points in d={d} found room at a relative radius of {last / unit:.3g}; "
+                f"radius={self.radius:g} was asked for",
+                RuntimeWarning,
+                stacklevel=2,
+            )
         return x

@@ -18,7 +18,7 @@ from gbnbench.generators.ranges import check_above, check_range, too_many
 from gbnbench.generators.set_by_set import SetBySet, Told
 
 MOST_PAIRS = 10_000_000  # of points within reach of each other: a minute and 3 GB
-TOLD = 256  # points removed after which progress is told
+TOLD = 64  # points removed after which progress is told
 WEIGHTS = 0.4  # of the time is spent on them
 FEWEST = 3  # a progressive order is sought down to as many points
 
@@ -151,6 +151,8 @@ class SampleElimination(SetBySet):
         radius = largest_radius(n, d)
         least = radius * (1 - (n / m) ** self.gamma) * self.beta
         neighbours, shares = self._weights(x, 2 * radius, 2 * least)
+        if told is not None:
+            told(WEIGHTS)
         weight = [sum(of_point) for of_point in shares]
         heap = [(-w, i) for i, w in enumerate(weight)]
         heapq.heapify(heap)

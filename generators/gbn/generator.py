@@ -123,9 +123,18 @@ class GaussianBlueNoise:
                 "gradients count evaluations of Nesterov's method; for the paper's descent say iterations, "
                 f"got gradients={self.gradients}"
             )
+        if self.iterations and self.gradients != GaussianBlueNoise.gradients:
+            raise InputError(
+                "gradients count evaluations of Nesterov's method, iterations steps of the paper's descent; "
+                f"got both gradients={self.gradients} and iterations={self.iterations}"
+            )
         if self.polish and self.domain == "box":
             raise InputError("polish empties a band of the torus; leave it out beside domain=box")
         self._step(self.energy, 2, 2)  # each refuses settings that are wrong
+        if self.power != GaussianBlueNoise.power and self.kernel != "riesz":
+            raise InputError(
+                f"power is that of kernel=riesz; got power={self.power:g} beside kernel={self.kernel}"
+            )
 
     def refusal(self, n: int, d: int) -> str | None:
         """Say why this energy cannot be had for n points in d dimensions; the whole kernel always can.

@@ -7,6 +7,7 @@ import math
 import numpy as np
 from matplotlib.figure import Figure
 
+from gbnbench.core.torus import FloatArray
 from gbnbench.reports import captions, layout, style
 from gbnbench.reports.source_groups import Group, members
 from gbnbench.runs.comparison_result import Run
@@ -37,7 +38,7 @@ def figure(run: Run, group: Group | None = None) -> Figure:
     curves = [(t["r"].to_numpy(dtype=float), t["g"].to_numpy(dtype=float)) for _, t in drawn]
     tops = [float(np.nanmax(g)) for _, g in curves if np.isfinite(g).any()]
     top = min(CAP, 1.1 * max(tops, default=2.0))
-    caption = "g(r) over all realizations, r in spacings of the densest lattice; 1 is white noise. "
+    caption = "g(r) over all realizations, a step a bin, r in densest spacings; 1 is white noise. "
     if max(tops, default=0.0) > top:
         caption += f"The axis stops at {top:g}; the highest value is {max(tops):.3g}. "
     sheet = layout.sheet(
@@ -56,8 +57,10 @@ def figure(run: Run, group: Group | None = None) -> Figure:
     handles = []
     for (source, _), (r, g) in zip(drawn, curves, strict=True):
         stroke = strokes[source.key]
-        handles += ax.plot(r, g, color=stroke.colour, linestyle=stroke.dash, linewidth=1.1)
-    farthest = max((float(np.nanmax(r)) for r, _ in curves if len(r)), default=1.0)
+        handles += ax.plot(
+            *_steps(r, g), color=stroke.colour, linestyle=stroke.dash, linewidth=1.1, drawstyle="steps-post"
+        )
+    farthest = max((float(np.nanmax(_steps(r, g)[0])) for r, g in curves if len(r)), default=1.0)
     ax.set_xlim(0, min(REACH, farthest) if math.isfinite(farthest) and farthest > 0 else 1.0)
     ax.set_ylim(0, max(top, 1.5))
     ax.grid(True)
@@ -65,3 +68,10 @@ def figure(run: Run, group: Group | None = None) -> Figure:
     ax.set_ylabel("g(r)")
     layout.beside(ax, handles, labels)
     return sheet.figure
+
+
+def _steps(r: FloatArray, g: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Give where bins begin, and the last one ends, with the value from there on."""
+    if len(r) < 2:
+        return r, g
+    return np.append(r, 2 * r[-1] - r[-2]), np.append(g, g[-1])

@@ -202,7 +202,8 @@ def obtain(request: DataRequest, folder: Path, seed: int, jobs: int, progress: P
     store = TaskFolder(folder, {"gbnbench": __version__, **_content(request)})
     name = request.function.__name__.replace("_", " ")
     tasks = [
-        Task(key, f"{name}: {key}", request.function, arguments) for key, arguments in request.calls.items()
+        Task(key, _label(name, key, k, len(request.calls)), request.function, arguments)
+        for k, (key, arguments) in enumerate(request.calls.items())
     ]
     with store.lock():
         whole = store.whole
@@ -212,6 +213,11 @@ def obtain(request: DataRequest, folder: Path, seed: int, jobs: int, progress: P
         if not whole:
             store.finish({"version": __version__})
         return results
+
+
+def _label(name: str, key: str, k: int, calls: int) -> str:
+    """Say what call k makes; a key that is its number only says which part."""
+    return f"{name}, part {k + 1} of {calls}" if key.isdigit() and int(key) == k else f"{name}: {key}"
 
 
 def _stipplings(

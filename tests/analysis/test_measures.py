@@ -75,6 +75,7 @@ def test_everything_a_report_draws_is_there_in_the_plane_and_only_what_means_som
     flat = analyse(np.random.default_rng(5).random((2, 100, 2)))
     assert flat.spectrum.power.shape == (43, 43)
     assert list(flat.rdf.columns) == ["r", "g"]
+    assert np.diff(flat.rdf.r) == pytest.approx(0.1)  # PSA's bins would be two thirds of a spacing wide
     assert list(flat.valence.columns)[:2] == ["degree", "share"]
     assert flat.zone_plate.shape[0] == flat.zone_plate.shape[1]
     deep = analyse(np.random.default_rng(5).random((2, 100, 5)))

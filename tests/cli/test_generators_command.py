@@ -59,12 +59,12 @@ def test_a_generator_is_described(capsys: Capture) -> None:
     out = capsys.readouterr().out
     assert "  sweeps = 50  (whole number; default 1000)\n    Most sweeps from one start;" in out
     assert "  gain = 0.002  (number)\n" in out
-    assert "d = 4  none: fpo works on 2D Delaunay triangulations" in out
+    assert "d = 3, 4, 8  none: fpo works on 2D Delaunay triangulations" in out
     assert "Schlömer, Heck & Deussen" in out
     assert run(["generators", "jittered"]) == 0
     out = capsys.readouterr().out
     assert "It has no settings." in out
-    assert "of n=1000: n must be m**2 for a jittered grid; got n=1000, nearest" in " ".join(out.split())
+    assert "(for 1000: n must be m**2 for a jittered grid; got n=1000, nearest" in " ".join(out.split())
 
 
 def test_a_description_as_json(capsys: Capture) -> None:

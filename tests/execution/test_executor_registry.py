@@ -55,15 +55,20 @@ def test_what_is_wrong_is_said(tmp_path: Path, text: str | None, content: str, w
         find(text, tmp_path / "none.toml")
 
 
-def test_addresses_that_mean_nothing_and_missing_packages(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_addresses_that_mean_nothing_and_missing_packages(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
     with pytest.raises(InputError, match="give the address of the Dask scheduler"):
         find("dask").start(1)
     with pytest.raises(InputError, match="local takes no address; got local:here"):
         find("local:here").start(1)
     with pytest.raises(InputError, match="slurm takes no address but local or debug; got slurm:here"):
         find("slurm:here").start(1)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("PATH", "")
     with pytest.raises(UnfinishedError, match="no Slurm here"):
         find("slurm").start(1)
+    assert list(tmp_path.iterdir()) == []
     monkeypatch.setattr(extra, "find_spec", lambda name: None)
     for name, package in (("dask:local", "distributed"), ("mpi", "mpi4py"), ("slurm", "submitit")):
         kind = name.partition(":")[0]

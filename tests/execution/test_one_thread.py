@@ -9,7 +9,8 @@ import sys
 
 import pytest
 
-from gbnbench.execution.one_thread import ONE_THREAD, carried_out, one_thread
+from gbnbench.execution.executors.inside_job import carried_out_in_time
+from gbnbench.execution.one_thread import ONE_THREAD, one_thread
 from gbnbench.execution.remote_call import answered, packed
 
 # What a rank of MPI does, and a job by submitit, which loads numpy first: unpickle a call and carry it out.
@@ -26,7 +27,7 @@ print(sorted({{pool["num_threads"] for pool in threadpoolctl.threadpool_info()}}
 @pytest.mark.parametrize("first", ["import numpy", "assert 'numpy' not in sys.modules"])
 def test_a_worker_has_one_thread(first: str) -> None:
     call = (answered, "another version", b"", packed(len, "abc"))
-    assert "install the same version there" in said_by_worker(first, carried_out, [call])
+    assert "install the same version there" in said_by_worker(first, carried_out_in_time, [call])
     said_by_worker(first, one_thread)
 
 

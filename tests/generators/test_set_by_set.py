@@ -27,6 +27,9 @@ QUICK = {
     "voidcluster": "voidcluster",
     "bridson": "bridson",
     "bestcandidate": "bestcandidate",
+    "darts": "darts",
+    "maximalpoisson": "maximalpoisson",
+    "elimination": "elimination",
 }
 
 

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import contextlib
 import gzip
 import io
 import shutil
 import tarfile
 import zipfile
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 
-from gbnbench.core.atomic_write import write_whole
+from gbnbench.core.atomic_write import is_temporary, write_whole
 from gbnbench.core.errors import InputError
 from gbnbench.io.set_library.manifest import MANIFEST, TABLE
 from gbnbench.io.set_library.places import Place, manifest_of
@@ -57,7 +59,7 @@ def unpack(place: Place, folder: Path, others: Sequence[str] = ()) -> int:
     place : Place
         The library.
     folder : Path
-        Made where it is missing; it must be empty.
+        Made where it is missing. It must be empty, or hold what an interrupted call left.
     others : sequence of str
         Names of other files that are taken along where they are there.
 
@@ -69,22 +71,44 @@ def unpack(place: Place, folder: Path, others: Sequence[str] = ()) -> int:
     Raises
     ------
     InputError
-        If the folder holds anything.
+        If the folder holds anything else, or a whole library.
     FormatError
         If a file of sets is missing or was changed.
     """
-    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
-        raise InputError(f"{folder} is not an empty folder; choose another with --out")
     manifest = manifest_of(place)
+    wanted: dict[str, Callable[[], bytes]] = {
+        **{entry.file: partial(content, place, entry) for entry in manifest.files},
+        **{name: partial(place.read, name) for name in (TABLE, *others, MANIFEST)},  # the manifest is last
+    }
+    there = _left_unfinished(folder, wanted)
     folder.mkdir(parents=True, exist_ok=True)
-    for entry in manifest.files:
-        write_whole(folder / entry.file, content(place, entry))
-    for name in (TABLE, *others, MANIFEST):
-        try:
-            write_whole(folder / name, place.read(name))
-        except KeyError:
-            continue
+    for name, data in wanted.items():
+        if name not in there:
+            with contextlib.suppress(KeyError):  # not every library has a table
+                write_whole(folder / name, data())
     return len(manifest.files)
+
+
+def _left_unfinished(folder: Path, wanted: Mapping[str, Callable[[], bytes]]) -> set[str]:
+    """Name the files that an interrupted call wrote; refuse a folder with any that it did not."""
+    if not folder.exists():
+        return set()
+    refused = f"{folder} is not an empty folder"
+    if not folder.is_dir() or (folder / MANIFEST).exists():
+        raise InputError(f"{refused}; choose another with --out")
+    found = set()
+    for path in folder.rglob("*"):
+        if (path.is_dir() and not path.is_symlink()) or is_temporary(path):
+            continue
+        name = path.relative_to(folder).as_posix()
+        try:
+            same = path.is_file() and path.read_bytes() == wanted[name]()
+        except KeyError:
+            same = False
+        if not same:
+            raise InputError(f"{refused}: its {name} is not of this library; choose another with --out")
+        found.add(name)
+    return found
 
 
 def _zip_info(name: str) -> zipfile.ZipInfo:

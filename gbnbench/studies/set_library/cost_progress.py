@@ -46,7 +46,7 @@ class CostProgress(Progress):
         if self._started:
             self._shown.advance(doing, 0)
         else:
-            self._started = True
+            self._started = self._shown.percent = True
             self._shown.start(PARTS, self._told, doing)
 
     def advance(self, doing: str, steps: int = 1) -> None:

@@ -18,6 +18,7 @@ from gbnbench.generators.adaptive.gbn.energy import (
     RESOLUTION,
     AdaptiveEnergy,
 )
+from gbnbench.generators.adaptive.gbn.ink_box import within_ink
 from gbnbench.generators.adaptive.gbn.joint_energy import JointEnergy, Part, union_density
 from gbnbench.generators.adaptive.gbn.pixel_blocks import block_side
 from gbnbench.generators.adaptive.hilbert_start import hilbert_start
@@ -95,7 +96,11 @@ class AdaptiveGaussianBlueNoise(AdaptiveMethod):
 
     def refusal(self, density: Density, n: int) -> str | None:
         """Say why pixels cannot be cut finely enough, as ``AdaptiveMethod.refusal`` does."""
-        return too_fine(density, n, density.values.size * self._parts(density, n) ** density.d)
+        cut = self._parts(density, n) ** density.d
+        if too_fine(density, n, density.values.size * cut) is None:
+            return None
+        inner, _, _ = self._within_ink(density, [density], [n])
+        return too_fine(density, n, inner.values.size * cut)
 
     def _narrowest(self, density: Density, n: int) -> float:
         """Width of the narrowest kernel, in pixels."""
@@ -170,6 +175,8 @@ class AdaptiveGaussianBlueNoise(AdaptiveMethod):
         """
         whole, n = union_density(densities, counts), sum(counts)
         raise_refusal(self.refusal(whole, n))
+        if told is not None:
+            told(0, max(1, self.gradients), "preparing gbn")
         parts = self._parts(whole, n)
         ends = np.cumsum(counts)[:-1].tolist()
         starts = zip(densities, counts, rngs, strict=True)
@@ -177,6 +184,7 @@ class AdaptiveGaussianBlueNoise(AdaptiveMethod):
         if seen is not None:
             seen(np.split(x / parts, ends))
         if self.gradients:
+            whole, densities, corner = self._within_ink(whole, densities, counts)
             fine = [one.finer(parts) for one in densities]
             energy = self._joint_energy(whole.finer(parts), fine, counts)
 
@@ -184,9 +192,9 @@ class AdaptiveGaussianBlueNoise(AdaptiveMethod):
                 if told is not None:
                     told(done, self.gradients, "gradients of gbn")
                 if seen is not None:
-                    seen(np.split(now / parts, ends))
+                    seen(np.split(now / parts + corner, ends))
 
-            x = descend(energy, x, self.gradients, tell)
+            x = descend(energy, x - corner * parts, self.gradients, tell) + corner * parts
         return np.split(x / parts, ends)
 
     def pull(self, density: Density, n: int, x: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -209,8 +217,17 @@ class AdaptiveGaussianBlueNoise(AdaptiveMethod):
             The density with its spread, smoothed by these, points a squared pixel (or cubed).
         """
         parts = self._parts(density, n)
-        widths, pulls = self._energy(density.finer(parts), n).pull(x * parts)
+        density, _, corner = self._within_ink(density, [density], [n])
+        widths, pulls = self._energy(density.finer(parts), n).pull((x - corner) * parts)
         return widths / parts, pulls * parts**density.d
+
+    def _within_ink(
+        self, whole: Density, densities: Sequence[Density], counts: Sequence[int]
+    ) -> tuple[Density, Sequence[Density], FloatArray]:
+        """Leave out white that no kernel sees, if pixels are to be cut; with the corner of what is left."""
+        if self._parts(whole, sum(counts)) == 1:
+            return whole, densities, np.zeros(whole.d)
+        return within_ink(whole, densities, counts, self.sigma, self.smoothing)
 
     def _energy(self, density: Density, n: int) -> AdaptiveEnergy:
         return AdaptiveEnergy(

@@ -13,7 +13,7 @@ from scipy.spatial import cKDTree
 from gbnbench.analysis.precision import double_device
 from gbnbench.analysis.spatial.pair_counts import _numpy_counts, pair_counts
 from gbnbench.analysis.spatial.pair_counts_device import device_counts, row_windows
-from gbnbench.analysis.spatial.rdf import pair_density, rdf
+from gbnbench.analysis.spatial.rdf import curve_bins, pair_density, rdf
 from gbnbench.core.errors import InputError, RefusalError
 from gbnbench.core.torus import wrap
 from tests.oracles.lattices import grid
@@ -192,3 +192,7 @@ def test_no_farther_than_was_asked_for(reach: float) -> None:
 def test_ranges_that_are_none_are_refused(options: dict, said: str) -> None:
     with pytest.raises(InputError, match=said):
         rdf(np.random.default_rng(9).random((50, 2)), **options)
+
+
+def test_few_points_have_bins_that_show_peaks_and_the_others_those_of_psa() -> None:
+    assert [curve_bins(n) for n in (7, 8, 64, 639, 640, 100_000)] == [None, 80, 80, 80, None, None]

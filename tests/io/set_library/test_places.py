@@ -11,7 +11,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.errors import FormatError, InputError
+from gbnbench.io.set_library import archive
 from gbnbench.io.set_library.archive import pack, unpack
 from gbnbench.io.set_library.manifest import Manifest
 from gbnbench.io.set_library.places import Folder, manifest_of, open_place
@@ -71,6 +73,40 @@ def test_unpacked_it_is_the_folder_again(library, suffix):
         with pytest.raises(InputError, match="new is not an empty folder"):
             unpack(place, new)
     assert {p.relative_to(new): p.read_bytes() for p in new.rglob("*") if p.is_file()} == before
+
+
+def test_an_interrupted_unpacking_goes_on(library, monkeypatch):
+    new, written = library.parent / "new", []
+
+    def interrupted(path: Path, data: bytes) -> None:
+        if written:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            (path.parent / ".gbnbench-0123abcd-0000.tmp").write_bytes(data[:10])
+            raise KeyboardInterrupt
+        written.append(path)
+        write_whole(path, data)
+
+    monkeypatch.setattr(archive, "write_whole", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        unpack(Folder(library), new)
+    monkeypatch.undo()
+    before = written[0].stat().st_mtime_ns
+    assert unpack(Folder(library), new) == 2
+    assert written[0].stat().st_mtime_ns == before
+    assert faults(Folder(new), manifest_of(Folder(new))) == {}
+
+
+@pytest.mark.parametrize("name", ["thesis.tex", "first"])
+def test_unpacking_touches_no_file_of_somebody_else(library, name):
+    new = library.parent / "new"
+    name = manifest_of(Folder(library)).files[0].file if name == "first" else name
+    path = new / name
+    path.parent.mkdir(parents=True)
+    path.write_text("precious")
+    with pytest.raises(InputError, match=f"new is not an empty folder: its {name} is not of this library"):
+        unpack(Folder(library), new)
+    assert [p for p in new.rglob("*") if p.is_file()] == [path]
+    assert path.read_text() == "precious"
 
 
 def test_a_file_that_is_missing_or_changed_is_named(library):
