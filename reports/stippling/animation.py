@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import importlib
 import importlib.util
 import io
 import itertools
+import shutil
+import subprocess
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -15,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.core.errors import InputError
+from gbnbench.core.readable_text import in_one_line
 from gbnbench.reports.stippling.page import Page
 from gbnbench.reports.stippling.png import picture_size
 
@@ -23,6 +27,8 @@ A_SECOND = 20  # frames
 HELD = 2.0  # seconds that the last one stays
 MOST_PIXELS = 1 << 28  # of all frames
 COLOURS = 256  # of a GIF
+CRF = 10  # of H.264: rims of dots without blocks
+NO_FFMPEG = "MP4 needs ffmpeg: pip install 'gbnbench[video]' or put ffmpeg on the PATH, or write a .gif"
 
 Frames = Iterator[NDArray[np.uint8]]
 
@@ -52,8 +58,25 @@ def check_animation(path: Path, page: Page, dpi: float, frames: int) -> None:
             f"{frames} frames of {columns:,} x {rows:,} pixels are more than {MOST_PIXELS:,} pixels: "
             "fewer frames, or a lower dpi"
         )
-    if path.suffix.lower() == ".mp4" and importlib.util.find_spec("imageio_ffmpeg") is None:
-        raise InputError(f"{path}: MP4 needs ffmpeg: pip install imageio-ffmpeg, or write a .gif")
+    if path.suffix.lower() == ".mp4" and ffmpeg() is None:
+        raise InputError(f"{path}: {NO_FFMPEG}")
+
+
+def ffmpeg() -> str | None:
+    """Find the program that writes MP4: that of the package imageio-ffmpeg, or else the one on the PATH.
+
+    Returns
+    -------
+    str or None
+        None where there is neither.
+    """
+    if importlib.util.find_spec("imageio_ffmpeg") is not None:
+        package: Any = importlib.import_module("imageio_ffmpeg")  # optional, and without types
+        try:
+            return str(package.get_ffmpeg_exe())
+        except RuntimeError:  # installed without the program
+            pass
+    return shutil.which("ffmpeg")
 
 
 def gif(frames: Frames) -> bytes:
@@ -93,23 +116,38 @@ def mp4(frames: Frames) -> bytes:
     Returns
     -------
     bytes
-    """
-    imageio_ffmpeg: Any = importlib.import_module("imageio_ffmpeg")  # optional, and without types
 
+    Raises
+    ------
+    InputError
+        If ffmpeg is missing or fails, with the first line of what it says.
+    """
+    program = ffmpeg()
+    if program is None:
+        raise InputError(NO_FFMPEG)
     coloured = (_even(frame) for frame in frames)
     first = next(coloured)
+    size = f"{first.shape[1]}x{first.shape[0]}"
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder, "frames.mp4")
-        writer: Any = imageio_ffmpeg.write_frames(
-            str(path), (first.shape[1], first.shape[0]), fps=A_SECOND, quality=8, macro_block_size=2
-        )
-        writer.send(None)
-        frame = first
-        for frame in itertools.chain([first], coloured):
-            writer.send(frame)
-        for _ in range(round(HELD * A_SECOND) - 1):
-            writer.send(frame)
-        writer.close()
+        path, errors = Path(folder, "frames.mp4"), Path(folder, "errors.txt")
+        pipe = ("-f", "rawvideo", "-pix_fmt", "rgb24", "-s", size, "-r", str(A_SECOND), "-i", "-")
+        coded = ("-c:v", "libx264", "-crf", str(CRF), "-pix_fmt", "yuv420p", "-movflags", "+faststart")
+        command = [program, "-v", "error", "-y", *pipe, "-an", *coded, str(path)]
+        with (
+            errors.open("wb") as said,
+            subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=said) as run,
+        ):
+            assert run.stdin is not None
+            with contextlib.suppress(BrokenPipeError), run.stdin as taken:  # why it ended stands in its errors
+                frame = first
+                for frame in itertools.chain([first], coloured):
+                    taken.write(frame.tobytes())
+                for _ in range(round(HELD * A_SECOND) - 1):
+                    taken.write(frame.tobytes())
+        if run.returncode != 0 or not path.exists():
+            lines = errors.read_text(errors="replace").split("\n")
+            why = next((line for line in lines if line.strip()), f"exit code {run.returncode}")
+            raise InputError(f"{program} wrote no MP4: {in_one_line(why)}")
         return path.read_bytes()
 
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import importlib.util
+import shutil
+import subprocess
 from itertools import pairwise
 from pathlib import Path
 
@@ -16,6 +18,7 @@ from gbnbench.api.drawing import draw_inks
 from gbnbench.api.stipple import stipple
 from gbnbench.cli import run
 from gbnbench.core.errors import InputError
+from gbnbench.reports.stippling import animation
 from gbnbench.studies.stippling.darkness import Darkness
 
 QUICK = ("--method", "gbn[gradients=5]", "--quiet")
@@ -108,16 +111,40 @@ def test_frames_show_how_dots_find_their_places(picture):
     assert np.abs(frames[0] - frames[-1]).mean() > 5
 
 
-def test_an_mp4_says_what_it_needs_or_is_written(picture, capsys, monkeypatch):
-    arguments = ("x.png", "-n", 30, "-o", "p.mp4", "--progressive", "--frames", 3, "--dpi", 30, *QUICK)
-    if importlib.util.find_spec("imageio_ffmpeg") is not None:
-        assert command(*arguments) == 0
-        assert Path("p.mp4").read_bytes()[4:8] == b"ftyp"
-        Path("p.mp4").unlink()
+MP4 = ("x.png", "-n", 30, "-o", "p.mp4", "--progressive", "--frames", 3, "--dpi", 30, *QUICK)
+
+
+@pytest.mark.parametrize("which", ["the package's", "the PATH's"])
+def test_an_mp4_is_written_by_the_ffmpeg_that_is_there(which, picture, monkeypatch):
+    if which == "the PATH's":
+        monkeypatch.setattr(importlib.util, "find_spec", lambda _: None)
+        program = shutil.which("ffmpeg")
+    else:
+        program = animation.ffmpeg() if importlib.util.find_spec("imageio_ffmpeg") else None
+    if program is None:
+        pytest.skip(f"{which} ffmpeg is not installed")
+    assert command(*MP4) == 0
+    assert Path("p.mp4").read_bytes()[4:8] == b"ftyp"
+    subprocess.run([program, "-v", "error", "-i", "p.mp4", "f%02d.png"], check=True)
+    assert len(list(Path().glob("f??.png"))) == 2 + 40  # the last stays for two seconds
+    size = ("--width-mm", 160, "--dpi", 30)
+    assert command("x.png", "-n", 30, "-o", "p.png", "--progressive", *size, *QUICK) == 0
+    last, still = (np.asarray(Pillow.open(name).convert("L"), float) for name in ("f42.png", "p.png"))
+    assert np.abs(last[: still.shape[0], : still.shape[1]] - still).mean() < 3
+
+
+def test_an_mp4_says_what_it_needs_or_why_ffmpeg_failed(picture, capsys, monkeypatch, tmp_path):
     monkeypatch.setattr(importlib.util, "find_spec", lambda _: None)
-    capsys.readouterr()
-    assert command(*arguments) == 2
-    assert "MP4 needs ffmpeg: pip install imageio-ffmpeg, or write a .gif" in capsys.readouterr().err
+    monkeypatch.setattr(shutil, "which", lambda _: None)
+    assert command(*MP4) == 2
+    said = capsys.readouterr().err
+    assert "MP4 needs ffmpeg: pip install 'gbnbench[video]' or put ffmpeg on the PATH, or write a .gif" in said
+    failing = tmp_path / "ffmpeg"
+    failing.write_text("#!/bin/sh\necho \"Unknown encoder 'libx264'\" >&2\nexit 1\n")
+    failing.chmod(0o755)
+    monkeypatch.setattr(shutil, "which", lambda _: str(failing))
+    assert command(*MP4) == 2
+    assert "ffmpeg wrote no MP4: Unknown encoder 'libx264'" in capsys.readouterr().err
     assert not Path("p.mp4").exists()
 
 
