@@ -27,7 +27,8 @@ class FormingDots:
     steps : int
         That the method takes: with the start it has one state more.
     frames : int
-        States to keep, evenly spread, the last among them.
+        States to keep, the last among them: first each, then fewer and fewer, since dots move most at the
+        start.
 
     Attributes
     ----------
@@ -45,13 +46,14 @@ class FormingDots:
     >>> for step in range(5):
     ...     kept({"black": np.full((1, 2), step)})
     >>> [int(state["black"][0, 0]) for state in kept.states]
-    [0, 2, 4]
+    [0, 1, 4]
     """
 
     def __init__(self, steps: int, frames: int) -> None:
         if not 1 <= frames <= steps + 1:
             raise InputError(f"{steps} gradients have {steps + 1} states to show; got {frames} frames")
-        self._wanted = set(np.rint(np.linspace(steps, 0, frames)).astype(int).tolist())
+        grown = np.rint((steps + 1) ** np.linspace(0, 1, frames)).astype(int) - 1
+        self._wanted = {*np.maximum(grown, np.arange(frames)).tolist()} if frames > 1 else {steps}
         self._step = 0
         self.states: list[dict[str, FloatArray]] = []
 
