@@ -138,8 +138,10 @@ def page_of(layers: Mapping[str, Stippling], style: PageStyle) -> Page:
         f"{len(sheet.radii)} dot{'s' * (len(sheet.radii) != 1)} of {sheet.name}" for sheet in sheets
     )
     text = f"{counts}; {first.method}, seed {first.seed}, gbnbench {first.version}"
+    name = next(iter(layers))
+    title = first.name.removesuffix(f", {name}")  # of the image: an ink's darkness is named by both
     height = first.size[1] * mm + 2 * margin
-    return Page(style.width_mm, height, tuple(sheets), first.name, text, style.paper, margin, toroidal)
+    return Page(style.width_mm, height, tuple(sheets), title, text, style.paper, margin, toroidal)
 
 
 def _radii(made: Stippling, style: PageStyle) -> FloatArray:

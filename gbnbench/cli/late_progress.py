@@ -1,4 +1,4 @@
-"""Progress of one long draw, which begins to show when a second has passed."""
+"""Progress of one long draw, which begins to show when a second has passed and another is to come."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import contextlib
 import time
 from collections.abc import Callable, Iterator
 
-PATIENCE = 1.0  # seconds before progress is shown
+PATIENCE = 1.0  # seconds that have passed and are to come where progress is shown
 
 
 @contextlib.contextmanager
@@ -34,7 +34,9 @@ def late_progress(quiet: bool) -> Iterator[Callable[[int, int, str], None]]:
             nonlocal shown, counted
             if shown is not None:
                 shown.advance(doing, done - counted)
-            elif time.monotonic() - began >= PATIENCE:
+            elif (spent := time.monotonic() - began) >= PATIENCE and spent * (
+                total - done
+            ) >= PATIENCE * done:
                 shown = stack.enter_context(progress.choose(quiet))
                 shown.start(total, done, doing)
             counted = done

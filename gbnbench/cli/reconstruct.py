@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from gbnbench.io.points.stippled_points import StippledPoints
 
 METHODS = ("shaping", "kernel", "voronoi")
+GCODE = (".gcode", ".nc", ".ngc")
 EPILOG = """\b
 Examples:
   gbnbench stipple camera -n 10000 -o dots.txt
@@ -141,6 +142,13 @@ def reconstruct(
     if dark is not None and wanted != dark.shape[::-1]:
         width, height = dark.shape[::-1]
         raise click.UsageError(f"{against} is {width}x{height}: leave out --size, by which pictures differ")
+    if dark is not None and header is not None and tuple(header.size) != dark.shape[::-1]:
+        told_size, width_height = (" x ".join(map(str, size)) for size in (header.size, dark.shape[::-1]))
+        click.echo(
+            f"gbnbench: {points} was drawn of an image of {told_size} pixels, and {against} has "
+            f"{width_height}: it may be another image",
+            err=True,
+        )
     used = None if points_alone or method != "shaping" else found.amplitudes
     with naming(points), late_progress(quiet) as progress:
         density = density_of_points(
@@ -165,7 +173,9 @@ def reconstruct(
         row |= {"amplitudes": "found" if used is None else "of the file"} if method == "shaping" else {}
         click.echo(json_text(row | ({} if quality is None else {"psnr": quality.psnr, "ssim": quality.ssim})))
         return
-    click.echo(f"wrote {out}: {' x '.join(map(str, pixels))} pixels from {n:,} points{replaced}")
+    click.echo(
+        f"wrote {out}: {' x '.join(map(str, pixels))} pixels from {n:,} point{'s' * (n != 1)}{replaced}"
+    )
     if quality is not None:
         what = "lightness" if invert else "darkness"
         click.echo(f"PSNR {quality.psnr:.2f} dB, SSIM {quality.ssim:.3f} of the {what} of {against}")
@@ -175,6 +185,10 @@ def _check(points: Path, out: Path, against: str | None) -> None:
     for given in (points, *(() if against is None else (Path(against),))):
         if out.exists() and given.exists() and out.samefile(given):
             raise click.UsageError(f"{out} is a file that is read: name another file")
+    if points.suffix.lower() in GCODE:
+        raise FormatError(
+            points, "holds the moves of a plotter and no table of points: write the dots as .txt or .csv too"
+        )
 
 
 def _darkness(against: str, invert: bool) -> FloatArray:
@@ -196,7 +210,9 @@ def _stipplings(
         except FormatError as error:
             if "--period" not in str(error):
                 raise
-            raise InputError(f"{error}; or, where y goes down as in pictures, --unit pixels") from None
+            where, _, box = str(error).partition("; scale the points to the unit torus first: ")
+            pixels = "pixels, y down as in pictures, are read with --unit pixels"
+            raise InputError(f"{where}: {pixels}; or {box}" if box else f"{error}; or {pixels}") from None
     if reading.period is not None or reading.bounds is not None:
         raise click.UsageError("--unit pixels is of pictures of --size: leave out --period and --bounds")
     if size is None:

@@ -129,7 +129,7 @@ class DrawnImage:
 
     def summary(self, suffix: str) -> str:
         """Say how many dots a file has, and unless it holds points alone how large, on what page."""
-        return summary(self.page, sized=suffix not in TEXTS)
+        return summary(self.page, sized=suffix not in TEXTS, across=suffix != ".gcode")
 
     def tours(self, suffix: str) -> list[str]:
         """Say how long the tour of each ink is; of a file without a page, by what width."""

@@ -130,7 +130,7 @@ def specification(thing: Configured) -> str:
 
 
 def nearest(word: str, words: Iterable[str]) -> str:
-    """Suggest the nearest spelling: ``; did you mean 'x'?``, or nothing where none is near.
+    """Suggest the nearest spelling: `` (did you mean 'x'?)``, or nothing where none is near.
 
     Parameters
     ----------
@@ -144,7 +144,7 @@ def nearest(word: str, words: Iterable[str]) -> str:
     str
     """
     close = difflib.get_close_matches(word.lower(), list(words), n=1)
-    return f"; did you mean {close[0]!r}?" if close else ""
+    return f" (did you mean {close[0]!r}?)" if close else ""
 
 
 def is_readable(hint: object) -> bool:

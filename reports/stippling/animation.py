@@ -138,7 +138,10 @@ def mp4(frames: Frames) -> bytes:
             subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=said) as run,
         ):
             assert run.stdin is not None
-            with contextlib.suppress(BrokenPipeError), run.stdin as taken:  # why it ended stands in its errors
+            with (
+                contextlib.suppress(BrokenPipeError),
+                run.stdin as taken,
+            ):  # why it ended stands in its errors
                 frame = first
                 for frame in itertools.chain([first], coloured):
                     taken.write(frame.tobytes())

@@ -137,7 +137,7 @@ def test_progress_is_told():
 @pytest.mark.parametrize(
     ("image", "settings", "says"),
     [
-        (WHITE, {}, "the array has no place for points: it is white"),
+        (WHITE, {}, "the array has no place for points: it is all white"),
         (np.full((3, 3), 0.5), {"white_cutoff": 0.4}, "the array has no place for points"),
         (corner(), {"gamma": 0}, "gamma must be above 0; got 0"),
         (corner(), {"gamma": float("nan")}, "gamma must be above 0"),

@@ -81,7 +81,7 @@ def test_a_description_as_json(capsys: Capture) -> None:
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["loyd"], "no generator is named 'loyd'; did you mean 'lloyd'?"),
+        (["loyd"], "no generator is named 'loyd' (did you mean 'lloyd'?)"),
         (["lloyd[iteration=3]"], "did you mean 'iterations'?"),
         (["lloyd", "--verify"], "a name goes with neither --family nor --verify"),
         (["--only", "fpo"], "--only goes with --verify"),
@@ -91,7 +91,7 @@ def test_a_description_as_json(capsys: Capture) -> None:
         (["lloyd", "-o", "x.txt"], "pictures are written as .png, .pdf; got '.txt'"),
         (["fpo", "-o", "x.png", "-d", "5"], "fpo works on 2D Delaunay triangulations"),
         (["--verify", "-o", "x.txt"], "the table is written as .md; got '.txt'"),
-        (["--verify", "--only", "fpoo"], "no generator of gbnbench is named 'fpoo'; did you mean 'fpo'?"),
+        (["--verify", "--only", "fpoo"], "no generator of gbnbench is named 'fpoo' (did you mean 'fpo'?)"),
         (["--verify", "--only", "grid", "--family", "cellular"], "grid: not of the family 'cellular'"),
         (["--verify", "--only", "targeted"], "there is no figure to hold targeted against: its spectrum is"),
     ],

@@ -134,6 +134,17 @@ def test_three_columns_without_names_are_refused_before_any_work(here, capsys, m
     assert command("sized.txt", "-o", "s.png", "--columns", "1,2") == 0
 
 
+def test_an_image_of_another_size_is_remarked(picture, capsys):
+    Pillow.fromarray(np.tile(np.linspace(0, 200, 20).astype(np.uint8), (20, 1))).save("other.png")
+    assert command("dots.txt", "-o", "o.png", "--against", "x.png") == 0
+    assert "another image" not in capsys.readouterr().err
+    assert command("dots.txt", "-o", "o.png", "--against", "other.png") == 0
+    assert (
+        "dots.txt was drawn of an image of 36 x 24 pixels, and other.png has 20 x 20"
+        in capsys.readouterr().err
+    )
+
+
 def test_points_on_the_border_stay_there(here):
     Path("b.txt").write_text("0.0 1.0\n1.0 1.0\n1.0 0.5\n")
     assert command("b.txt", "-o", "b.npy", "--size", "9x9", "--method", "kernel") == 0
@@ -165,6 +176,11 @@ def test_points_on_the_border_stay_there(here):
         (("inks.txt", "-o", "o.png"), "inks.txt: holds 2 sets: take one by --set 0 to 1"),
         (("inks.csv", "-o", "o.png"), "inks.csv, line 1: its dots are of several inks"),
         (("pixels.txt", "-o", "o.png"), "such as --period 512,512"),
+        (
+            ("pixels.txt", "-o", "o.png"),
+            "is not in [0, 1]: pixels, y down as in pictures, are read with --unit",
+        ),
+        (("pen.gcode", "-o", "o.png"), "pen.gcode: holds the moves of a plotter and no table of points"),
         (("pixels.txt", "-o", "o.png", "--unit", "pixels"), "needs the size of the picture: --size 768x512"),
         (
             ("pixels.txt", "-o", "o.png", "--unit", "pixels", "--size", "3x3"),

@@ -138,7 +138,9 @@ def test_an_mp4_says_what_it_needs_or_why_ffmpeg_failed(picture, capsys, monkeyp
     monkeypatch.setattr(shutil, "which", lambda _: None)
     assert command(*MP4) == 2
     said = capsys.readouterr().err
-    assert "MP4 needs ffmpeg: pip install 'gbnbench[video]' or put ffmpeg on the PATH, or write a .gif" in said
+    assert (
+        "MP4 needs ffmpeg: pip install 'gbnbench[video]' or put ffmpeg on the PATH, or write a .gif" in said
+    )
     failing = tmp_path / "ffmpeg"
     failing.write_text("#!/bin/sh\necho \"Unknown encoder 'libx264'\" >&2\nexit 1\n")
     failing.chmod(0o755)

@@ -29,7 +29,7 @@ def test_the_families_part_the_list() -> None:
     assert sorted(name for part in parts for name in part) == sorted(GENERATORS)
     assert "lloyd" in gbnbench.generator_table("cellular").name.tolist()
     with pytest.raises(
-        InputError, match=r"no family.* 'celular'; did you mean 'cellular'\?; the families are"
+        InputError, match=r"no family.* 'celular' \(did you mean 'cellular'\?\); the families are"
     ):
         gbnbench.generator_table("celular")
 

@@ -26,7 +26,7 @@ def test_a_file_written_is_the_file_read(tmp_path):
         ('"generator": "jittered"', '"generator": "jitered"', "did you mean 'jittered'"),
         ('"noise_floor"', '"noise_flor"', "did you mean 'noise_floor'"),
         ('"better": "lower"', '"better": "down"', "better must be one of lower, higher, neither; got 'down'"),
-        ('"better": "lower"', '"bettr": "lower"', "has an unknown key 'bettr'; did you mean 'better'"),
+        ('"better": "lower"', '"bettr": "lower"', "has an unknown key 'bettr' (did you mean 'better'"),
         ('"scale": "ratio"', '"scale": "ratio", "expected": -1', "a ratio needs an expected value above 0"),
         ('"scale": "ratio"', '"scale": "ratio", "expected": 1', "tolerance must be a number above 0"),
         ('"scale": "ratio"', '"scale": "ratio", "expected": 1, "tolerance": 1', "tolerance must be above 1"),
@@ -71,5 +71,5 @@ def test_cases_are_chosen_by_name_or_by_length():
     cases = tuple(OWN.values())
     assert [case.name for case in select(cases, ["gbn-2d-64"], False)] == ["gbn-2d-64"]
     assert len(select(cases, [], False)) < len(select(cases, [], True)) == len(cases)
-    with pytest.raises(InputError, match="no case is named 'gbn-2d-63'; did you mean 'gbn-2d-64'"):
+    with pytest.raises(InputError, match="no case is named 'gbn-2d-63' .did you mean 'gbn-2d-64'"):
         select(cases, ["gbn-2d-63"], False)

@@ -6,13 +6,15 @@ from gbnbench.core.errors import InputError
 from gbnbench.io.images.image import LUMA
 
 
-def read_colour(text: str) -> str:
+def read_colour(text: str, among: str = "") -> str:
     """Read a colour.
 
     Parameters
     ----------
     text : str
         ``#rgb``, ``#rrggbb`` or a name of CSS.
+    among : str
+        What the message of an error ends in, where several may be given.
 
     Returns
     -------
@@ -35,7 +37,7 @@ def read_colour(text: str) -> str:
         red, green, blue = ImageColor.getrgb(text.strip())[:3]
     except ValueError:
         raise InputError(
-            f"{text.strip()!r} is no colour: write #rgb, #rrggbb or a name of CSS, several parted by commas"
+            f"{text.strip()!r} is no colour: write #rgb, #rrggbb or a name of CSS{among}"
         ) from None
     return f"#{red:02x}{green:02x}{blue:02x}"
 

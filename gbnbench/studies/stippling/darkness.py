@@ -84,6 +84,24 @@ class ToneCurve:
 PLAIN = ToneCurve()
 
 
+def bare(name: str) -> str:
+    """Say of an image that it needs no dots.
+
+    Parameters
+    ----------
+    name : str
+        What the image is called.
+
+    Returns
+    -------
+    str
+    """
+    return (
+        f"{name} has no place for points: it is all white (with invert all black), or as light everywhere as "
+        "the white cutoff leaves bare"
+    )
+
+
 @dataclass(frozen=True)
 class Darkness:
     """What is to be stippled.
@@ -131,7 +149,7 @@ class Darkness:
             If there is no darkness anywhere.
         """
         if not self.values.any():
-            raise InputError(f"{self.name} has no place for points: it is white wherever points were to go")
+            raise InputError(bare(self.name))
         return as_density(self.values, toroidal=toroidal)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from gbnbench.core.errors import InputError
 from gbnbench.io.images import Image
-from gbnbench.studies.stippling.darkness import PLAIN, Darkness, ToneCurve
+from gbnbench.studies.stippling.darkness import PLAIN, Darkness, ToneCurve, bare
 
 NAMES = ("cyan", "magenta", "yellow", "black")
 PRINTED = ("yellow", "magenta", "cyan", "black")  # light inks first
@@ -43,7 +43,7 @@ def ink_darkness(image: Image, curve: ToneCurve = PLAIN) -> dict[str, Darkness]:
         if values.any():
             found[name] = Darkness(values, f"{image.name}, {name}", image.remarks)
     if not found:
-        raise InputError(f"{image.name} has no place for points: it is white wherever points were to go")
+        raise InputError(bare(image.name))
     return found
 
 

@@ -12,7 +12,7 @@ from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
 from gbnbench.io.images import Image
 from gbnbench.studies.stippling.colours import luma, read_colour
-from gbnbench.studies.stippling.darkness import PLAIN, Darkness, ToneCurve
+from gbnbench.studies.stippling.darkness import PLAIN, Darkness, ToneCurve, bare
 
 MOST_INKS = 8
 FOUND = 4  # colours, unless their number is given
@@ -54,7 +54,7 @@ def read_palette(text: str) -> tuple[str, ...] | int:
         return count
     found: list[str] = []
     for word in text.split(","):
-        colour = read_colour(word)
+        colour = read_colour(word, ", several parted by commas")
         if colour == "#ffffff":
             raise InputError("white is the paper: leave it out of the palette")
         if colour in found:
@@ -98,7 +98,7 @@ def found_palette(image: Image, count: int, seed: int = 0) -> tuple[str, ...]:
     taken = _taken_from_white(image)
     amount = taken.max(axis=1)
     if not amount.any():
-        raise InputError(f"{image.name} has no place for points: it is white wherever points were to go")
+        raise InputError(bare(image.name))
     rng = np.random.default_rng(np.random.SeedSequence(seed))
     drawn = rng.choice(len(amount), SAMPLED, p=amount / amount.sum())
     hues, amounts = taken[drawn] / amount[drawn, None], amount[drawn]
@@ -146,7 +146,7 @@ def palette_darkness(image: Image, palette: Sequence[str], curve: ToneCurve = PL
         if of_pixels[..., k].any()
     }
     if not found:
-        raise InputError(f"{image.name} has no place for points: it is white wherever points were to go")
+        raise InputError(bare(image.name))
     return found
 
 

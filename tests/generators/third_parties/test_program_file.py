@@ -17,7 +17,7 @@ from gbnbench.generators.third_parties.program_file import read_programs
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("[generators.mine]\ncomand = 'x'", r"there is no key 'comand'; did you mean 'command'\?"),
+        ("[generators.mine]\ncomand = 'x'", r"there is no key 'comand' \(did you mean 'command'\?\)"),
         ("[generators.mine]\nsummary = 'x'", "it needs a command"),
         ("[generators.mine]\ncommand = 3", "command must be text; got 3"),
         ("[generators.mine]\ncommand = 'x {n}'", "command must hold {seed}; got 'x {n}'"),

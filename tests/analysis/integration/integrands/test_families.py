@@ -49,7 +49,7 @@ def test_text_comes_back(text: str) -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("gausians", r"no integrand .* 'gausians'; did you mean 'gaussians'\?; there are gaussians"),
+        ("gausians", r"no integrand .* 'gausians' \(did you mean 'gaussians'\?\); there are gaussians"),
         ("gaussians[", "an integrand must read name"),
         ("waves[reach=far]", "reach of waves must be a finite number; got 'far'"),
         ("korobov[smoothness=5]", "smoothness of korobov must be one of 2, 4, 6; got '5'"),
