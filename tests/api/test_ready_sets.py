@@ -56,7 +56,7 @@ def test_a_set_that_is_not_there_is_refused_with_what_is(library, arguments, say
 
 
 def test_a_wrong_name_or_place_or_file_is_told(library):
-    with pytest.raises(InputError, match="no generator is named 'bnto' .did you mean 'bnot'"):
+    with pytest.raises(InputError, match=r"no generator is named 'bnto' \(did you mean 'bnot'"):
         gbnbench.ready_set("bnto", 16)
     with pytest.raises(InputError, match="there is no folder or archive"):
         gbnbench.ready_sets(library / "nothing")

@@ -92,7 +92,7 @@ def test_values_are_read_by_their_fields_type(settings: dict[str, object], expec
         ({"tag": 3}, "tag of sample must be text; got 3"),
         (
             {"wdth": 3},
-            "no setting 'wdth' .did you mean 'width'.*steps=3, width=0.5, shift=true, method=",
+            r"no setting 'wdth' \(did you mean 'width'.*steps=3, width=0.5, shift=true, method=",
         ),
     ],
 )

@@ -71,5 +71,5 @@ def test_cases_are_chosen_by_name_or_by_length():
     cases = tuple(OWN.values())
     assert [case.name for case in select(cases, ["gbn-2d-64"], False)] == ["gbn-2d-64"]
     assert len(select(cases, [], False)) < len(select(cases, [], True)) == len(cases)
-    with pytest.raises(InputError, match="no case is named 'gbn-2d-63' .did you mean 'gbn-2d-64'"):
+    with pytest.raises(InputError, match=r"no case is named 'gbn-2d-63' \(did you mean 'gbn-2d-64'"):
         select(cases, ["gbn-2d-63"], False)

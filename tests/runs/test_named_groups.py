@@ -46,7 +46,7 @@ def test_the_papers_methods_are_taken_and_those_missing_are_told() -> None:
 def test_what_is_no_group_is_told() -> None:
     with pytest.raises(InputError, match="did you mean 'cellular'"):
         resolve(["family:celular"], [16], [2], 1)
-    with pytest.raises(InputError, match="no preset is named 'peper' .did you mean 'paper'"):
+    with pytest.raises(InputError, match=r"no preset is named 'peper' \(did you mean 'paper'"):
         resolve(["preset:peper"], [16], [2], 1)
     with pytest.raises(InputError, match="family:lattice is several generators"):
         as_sources({"mine": "family:lattice"}, 16, 2, 1)
