@@ -19,7 +19,7 @@ EPILOG = """\b
 Examples:
   gbnbench stipple camera -o camera.png                           an image of scikit-image's by its name
   gbnbench stipple photo.jpg -n 20000 -o photo.svg --order tour   for a plotter, 160 mm wide
-  gbnbench stipple photo.jpg -o photo.pdf --colour cmyk           a layer an ink
+  gbnbench stipple photo.jpg -o photo.pdf --colour cmyk           one layer for each ink
   gbnbench stipple photo.jpg -o photo.svg --palette '#d00,#08c,#000'
   gbnbench stipple camera -o camera.gif --progressive             dot by dot
   gbnbench stipple moon -o moon.png --invert                      white dots on black
@@ -66,7 +66,7 @@ Examples:
 @click.option(
     "--colour",
     type=click.Choice(["cmyk", "palette"]),
-    help="A layer an ink; with gbn each ink is blue noise and so are all together.",
+    help="One layer for each ink; with gbn each ink is blue noise and so are all together.",
 )
 @click.option(
     "--palette",
