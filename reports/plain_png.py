@@ -13,7 +13,7 @@ METRE = 39.3700787  # inches
 
 
 def plain_png(pixels: NDArray[np.uint8], dpi: float, effort: int = EFFORT) -> bytes:
-    """Write a picture as PNG without the filters that the format offers, all of which Pillow tries on each row.
+    """Write a picture as PNG without the filters of the format, all of which Pillow tries on each row.
 
     Figures are flat areas and noise, which filters do not make smaller; without them the file is written in
     half the time.
@@ -40,7 +40,7 @@ def plain_png(pixels: NDArray[np.uint8], dpi: float, effort: int = EFFORT) -> by
         (
             _chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)),
             _chunk(b"pHYs", struct.pack(">IIB", dots, dots, 1)),
-            _chunk(b"IDAT", zlib.compress(rows, effort)),
+            _chunk(b"IDAT", zlib.compress(rows.data, effort)),
             _chunk(b"IEND", b""),
         )
     )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import os
 import subprocess
 import sys
@@ -10,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from matplotlib.image import imread
+from PIL import Image
 
 import gbnbench
 import gbnbench.cli.spectrum_run
@@ -149,8 +148,8 @@ def test_pictures(said: Said) -> None:
         ["lattice.txt", "--precision", "float"], ["a.txt", "--shells", "--fmax", 1],
     ):  # fmt: skip
         said(*arguments, "-o", "x.png")
-        picture = imread(io.BytesIO(Path("x.png").read_bytes()), format="png")[..., :3]
-        assert len(np.unique(picture.reshape(-1, 3), axis=0)) > 20
+        with Image.open("x.png") as picture:
+            assert len(picture.convert("RGB").getcolors(picture.width * picture.height)) > 20
     said("a.txt", "-o", "x.pdf")
     assert Path("x.pdf").read_bytes().startswith(b"%PDF-")
 

@@ -81,7 +81,11 @@ class Slurm:
         until((folder / "munge.socket").exists, 30)
         self._start("slurmctld", "-D", "-f", conf)
         self._start("slurmd", "-D", "-N", "node", "-f", conf)
-        until(lambda: "idle" in self.said("sinfo", "-h", "-o", "%T"), 60)
+        try:
+            until(lambda: "idle" in self.said("sinfo", "-h", "-o", "%T"), 60)
+        except TimeoutError:
+            last = [(folder / f"{name}.out").read_text(errors="replace").strip()[-200:] for name in DAEMONS]
+            raise TimeoutError("; ".join(filter(None, last)) or "the node is not idle after 60 s") from None
 
     def said(self, *command: str) -> str:
         """Give the answer of a command of Slurm; an empty one if it fails."""
