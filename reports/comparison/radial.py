@@ -144,7 +144,8 @@ def figure(run: Run, group: Group | None = None) -> Figure:
     strokes = style.strokes(run)
     top, limits = power_limit(sources), decibel_limits(sources)
     caption = (
-        "Above: mean power over each exact shell |f|, DC excluded; the line at 1 is white noise. Below: "
+        "Above: mean power over each exact shell |f|, DC excluded; the line at 1 is white noise. The table's "
+        "peak is the largest mean over rings one frequency wide, which single shells exceed. Below: "
         "anisotropy of each ring around its shells' own means; the dashed line is isotropic noise over "
         "M realizations, -10 log10(M) dB. "
     )

@@ -16,14 +16,12 @@ from PIL import Image, ImageColor
 from gbnbench.reports import style
 from gbnbench.reports.comparison import spectrum
 from gbnbench.reports.comparison.figure_files import pixels
-from gbnbench.reports.plain_png import plain_png
 from gbnbench.reports.plot_axes import PlotAxes
 from gbnbench.runs.comparison_result import SourceResult
 
 PANEL = 2.5  # inches of a gallery picture, shown at 250 CSS pixels
 COLOURS, COMPRESSION = 256, 6  # of a picture in the page, which has to stay small
 DOTS = 160  # an inch of such a picture
-FEW = 1024  # colours of a drawing of lines, which is as small without a palette, exact and sooner packed
 WITH_AXES = ("radial power", "anisotropy\n(dB)")  # rows of the gallery whose panels need room for ticks
 
 
@@ -128,10 +126,7 @@ def gallery_panel(
     draw(ax, source)
     if plain and ax.images and source.sides is None:
         return Picture(alt, _framed(ax.images[0]))
-    drawn = pixels(figure, DOTS)
-    if drawn.getcolors(FEW):
-        return Picture(alt, plain_png(np.asarray(drawn), DOTS, COMPRESSION))
-    return Picture(alt, _packed(drawn))
+    return Picture(alt, _packed(pixels(figure, DOTS)))
 
 
 def _framed(image: AxesImage) -> bytes:
