@@ -137,7 +137,7 @@ def mp4(frames: Frames) -> bytes:
             errors.open("wb") as said,
             subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=said) as run,
         ):
-            assert run.stdin is not None
+            assert run.stdin is not None  # noqa: S101 - it is a pipe
             with (
                 contextlib.suppress(BrokenPipeError),
                 run.stdin as taken,
