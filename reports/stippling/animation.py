@@ -12,7 +12,7 @@ import subprocess
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import IO, Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -137,11 +137,8 @@ def mp4(frames: Frames) -> bytes:
             errors.open("wb") as said,
             subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=said) as run,
         ):
-            assert run.stdin is not None  # noqa: S101 - it is a pipe
-            with (
-                contextlib.suppress(BrokenPipeError),
-                run.stdin as taken,
-            ):  # why it ended stands in its errors
+            stdin = cast("IO[bytes]", run.stdin)
+            with contextlib.suppress(BrokenPipeError), stdin as taken:  # why it ended stands in its errors
                 frame = first
                 for frame in itertools.chain([first], coloured):
                     taken.write(frame.tobytes())
