@@ -128,10 +128,11 @@ def _of_sets(points: FloatArray, plan: MeasuringPlan, tell: Progress) -> dict[st
         shares = found.share_by_set.sum(axis=0)
         return np.stack([found.degree.astype(np.float64), shares])
 
+    d = plan.d
     of_neighbours: dict[str, Callable[[], FloatArray]] = {
-        "bond_order": lambda: bond_order(beside()),
-        "psi6": lambda: psi6(beside()),
-        "valence6": lambda: valence6(beside()),
+        "bond_order": _in_plane("bond order", d, lambda: bond_order(beside())),
+        "psi6": _in_plane("psi6", d, lambda: psi6(beside())),
+        "valence6": _in_plane("the share of degree six", d, lambda: valence6(beside())),
         "valence": degrees,
     }
     return {
@@ -141,6 +142,17 @@ def _of_sets(points: FloatArray, plan: MeasuringPlan, tell: Progress) -> dict[st
         "psa": lambda: excess_density(points, sides),
         **{name: discrepancy(kind) for name, kind in DISCREPANCIES.items()},
     }
+
+
+def _in_plane(name: str, d: int, values: Callable[[], FloatArray]) -> Callable[[], FloatArray]:
+    """Refuse a measure by its own name where it is not defined, before neighbours are looked for."""
+
+    def checked() -> FloatArray:
+        if d != 2:
+            raise RefusalError(f"{name} is defined in the plane; got d={d}")
+        return values()
+
+    return checked
 
 
 def _order_of_large(
@@ -153,13 +165,8 @@ def _order_of_large(
     def orders() -> tuple[PlaneOrder, ...]:
         return tuple(plane_order(one, sides, partial(tell, "neighbours")) for one in points)
 
-    def of_plane(name: str, value: Callable[[PlaneOrder], float]) -> Callable[[], FloatArray]:
-        def values() -> FloatArray:
-            if d != 2:
-                raise RefusalError(f"{name} is defined in the plane; got d={d}")
-            return np.array([value(order) for order in orders()])
-
-        return values
+    def mean(name: str, value: Callable[[PlaneOrder], float]) -> Callable[[], FloatArray]:
+        return _in_plane(name, d, lambda: np.array([value(order) for order in orders()]))
 
     def degrees() -> FloatArray:
         if d != 2:
@@ -167,9 +174,9 @@ def _order_of_large(
         return summed_shares(orders())
 
     return {
-        "bond_order": of_plane("bond order", lambda order: order.bond_order),
-        "psi6": of_plane("psi6", lambda order: order.psi6),
-        "valence6": of_plane("the share of degree six", lambda order: order.valence6),
+        "bond_order": mean("bond order", lambda order: order.bond_order),
+        "psi6": mean("psi6", lambda order: order.psi6),
+        "valence6": mean("the share of degree six", lambda order: order.valence6),
         "valence": degrees,
     }
 

@@ -116,8 +116,8 @@ class Deep(BandGenerator):
         """
         return (
             f"a profile up to nu={self.band_edge(d):.4g} binds {bound:.6g} of the {n * d} coordinates of "
-            f"n={n} points in d={d}, and no disordered set can meet more than {self.most_bound:.0%}; lower "
-            "the edge or take another n"
+            f"n={n} points in d={d}, and disordered sets can meet {100 * self.most_bound:g}% at most; "
+            "lower the edge or take another n"
         )
 
     def draw(self, n: int, d: int, rngs: Sequence[np.random.Generator], monitor: Monitor) -> FloatArray:
