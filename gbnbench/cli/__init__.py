@@ -31,6 +31,7 @@ from gbnbench.cli.standard_streams import in_words, lasting_streams
 from gbnbench.cli.stipple import stipple
 from gbnbench.core.errors import GbnbenchError
 from gbnbench.core.garbage import collect_rarely
+from gbnbench.core.interruption import forget_interruption, is_interruption
 from gbnbench.core.memory import memory_limit, too_little
 
 BAD, STOPPED, PIPE = 2, 130, 141  # exit codes; 0 is done, 1 is worse than a baseline or a failed check
@@ -162,7 +163,7 @@ def run(arguments: Sequence[str]) -> int:
     except click.ClickException as error:
         return _fail(_sentence(error.format_message()) + _mistaken_file(error, arguments), error.exit_code)
     except (KeyboardInterrupt, click.Abort) as error:
-        return _fail(f"stopped; {error}" if str(error) else "stopped", STOPPED)
+        return _stopped(str(error))
     except GbnbenchError as error:
         return _fail(str(error), BAD)
     except BrokenPipeError:  # such as ``| head``
@@ -172,10 +173,17 @@ def run(arguments: Sequence[str]) -> int:
     except MemoryError:
         return _fail(f"not enough memory: {memory_limit() / 1e9:.3g} GB are allowed; take fewer points", BAD)
     except ImportError as error:
+        if is_interruption(error):
+            return _stopped("")
         return _fail(f"a library cannot be loaded: {error}", BAD)
     except OSError as error:
         return _fail(f"{error.filename}: {error.strerror}" if error.filename else str(error), BAD)
     return 0
+
+
+def _stopped(what_is_kept: str) -> int:
+    forget_interruption()
+    return _fail(f"stopped; {what_is_kept}" if what_is_kept else "stopped", STOPPED)
 
 
 def _warn(message: Warning | str, *_: object, **__: object) -> None:

@@ -10,6 +10,7 @@ from typing import Any
 
 from gbnbench.core import atomic_write
 from gbnbench.core.errors import InputError
+from gbnbench.core.interruption import is_interruption
 from gbnbench.io import data_files
 from gbnbench.io.folder_lock import FolderLock
 
@@ -88,7 +89,9 @@ def explain_interruption(folder: Path) -> Iterator[None]:
     """Add to an interruption, or a full disk, where the finished results are and that the command goes on."""
     try:
         yield
-    except KeyboardInterrupt:
+    except (KeyboardInterrupt, ImportError) as error:
+        if not is_interruption(error):
+            raise
         raise KeyboardInterrupt(f"what is finished is kept in {folder}; the same command goes on") from None
     except BrokenPipeError:
         raise

@@ -6,6 +6,7 @@ import os
 import resource
 import signal
 import subprocess
+import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -13,6 +14,7 @@ from pathlib import Path
 import pytest
 
 from gbnbench.runs.comparison_folder import read_run
+from gbnbench.runs.resumable_folder import explain_interruption
 from gbnbench.runs.sources import resolve
 from gbnbench.studies.comparison import run_comparison
 from tests.processes import COMMAND, command
@@ -58,6 +60,36 @@ def test_ctrl_c_stops_at_once_and_says_how_to_go_on(tmp_path: Path) -> None:
     assert "Traceback" not in said
     with pytest.raises(ProcessLookupError):  # no worker is left in its session
         os.killpg(busy.pid, 0)
+
+
+def test_an_interruption_within_a_string_of_code_still_ends_with_130(tmp_path: Path) -> None:
+    # python notes such a one and would kill its own process at the end, although it was caught
+    program = (
+        "from gbnbench import cli\n"
+        "@cli.gbnbench.command('stop')\n"
+        "def stop():\n"
+        "    exec('raise KeyboardInterrupt')\n"
+        "cli.main(['stop'])\n"
+    )
+    (tmp_path / "interrupted.py").write_text(program)
+    ended = subprocess.run(
+        [sys.executable, "-m", "interrupted"], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
+    assert ended.stderr == "gbnbench: stopped\n"
+    assert ended.returncode == 130
+
+
+def test_an_interruption_that_a_library_made_an_import_error_is_one_still(tmp_path: Path) -> None:
+    def load() -> None:
+        try:
+            raise KeyboardInterrupt
+        except KeyboardInterrupt as stop:
+            raise ImportError("initialization failed") from stop
+
+    with pytest.raises(KeyboardInterrupt, match="kept in"), explain_interruption(tmp_path):
+        load()
+    with pytest.raises(ImportError, match="no such"), explain_interruption(tmp_path):
+        raise ImportError("no such library")
 
 
 @pytest.mark.slow
