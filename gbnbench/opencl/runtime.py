@@ -185,7 +185,7 @@ class Runtime:
         flags = self._cl.mem_flags
         how = flags.USE_HOST_PTR if self.device.is_cpu else flags.COPY_HOST_PTR
         return self._cl.Buffer(
-            self.context, flags.READ_ONLY | how, hostbuf=np.require(array, requirements="CA")
+            self.context, flags.READ_ONLY | how, hostbuf=np.require(array, requirements=("C", "A"))
         )
 
     def local(self, nbytes: int) -> Any:
