@@ -91,6 +91,24 @@ class Coordinates:
     scattered: float
     share: float
 
+    def or_larger(self, other: Coordinates) -> Coordinates:
+        """Take the worse of each number.
+
+        Parameters
+        ----------
+        other : Coordinates
+            Of other sets.
+
+        Returns
+        -------
+        Coordinates
+        """
+        coherent, scattered = max(self.coherent, other.coherent), max(self.scattered, other.scattered)
+        return Coordinates(coherent, scattered, max(self.share, other.share))
+
+
+NOT_ROUNDED = Coordinates(0.0, 0.0, 0.0)
+
 
 def coordinates(x: FloatArray, precision: str, weights: FloatArray | None = None) -> Coordinates:
     """Measure how far coordinates are rounded: to 64 bits of a turn in double, to 32 in float.
@@ -135,6 +153,27 @@ def coordinates(x: FloatArray, precision: str, weights: FloatArray | None = None
     coherent = np.bincount(of_set, away, len(x)) / np.sqrt(norm)
     scattered = np.sqrt(np.bincount(of_set, away**2, len(x)) / norm)
     return Coordinates(float(coherent.max()), float(scattered.max()), share)
+
+
+def coordinates_of_sums(precision: str, n: int, absolute: float, square: float) -> Coordinates:
+    """State how far coordinates are rounded, whose roundings were summed elsewhere.
+
+    Parameters
+    ----------
+    precision : {"double", "float"}
+        Precision of the evaluation.
+    n : int
+        Points of a set.
+    absolute, square : float
+        Sums over a set's coordinates of the absolute value and of the square of what each was rounded, in
+        units of the last bit of a turn.
+
+    Returns
+    -------
+    Coordinates
+    """
+    unit, share = 2.0 ** -BITS[precision], math.sqrt(n)
+    return Coordinates(unit * absolute / share, unit * math.sqrt(square) / share, share)
 
 
 def _of_blocks(x: FloatArray, precision: str, weights: FloatArray | None) -> Coordinates:

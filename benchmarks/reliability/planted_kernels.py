@@ -50,6 +50,9 @@ PLANTS = {
     "a tile of a small cube": Plant(
         "small_cube.cl", "(rows + ROWS - 1) / ROWS", "rows / ROWS", "two-group product"
     ),
+    "a turn's unit": Plant(
+        "turn_rows.cl", "exponent - one_turn : none", "exponent - (one_turn + 1) : none", "two-group product"
+    ),
     "a quarter turn": Plant("/turns.cl", "(quarter & (TURN)2)", "(quarter & (TURN)1)", "two-group product"),
     "pairs counted once": Plant("shells.cl", "? 2 : 1", "? 1 : 1", "shells"),
     "a shell at the edge": Plant("shells.cl", "square > high", "square >= high", "shells"),

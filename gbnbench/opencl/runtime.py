@@ -170,6 +170,24 @@ class Runtime:
         flags = self._cl.mem_flags.READ_WRITE | self._cl.mem_flags.USE_HOST_PTR
         return self._cl.Buffer(self.context, flags, hostbuf=array)
 
+    def readable(self, array: NDArray[Any]) -> Any:
+        """Make a buffer that kernels read an array from: on a CPU the array's own memory, else a copy.
+
+        Parameters
+        ----------
+        array : array
+            It must not change as long as kernels read the buffer. One that is not contiguous is copied.
+
+        Returns
+        -------
+        pyopencl.Buffer
+        """
+        flags = self._cl.mem_flags
+        how = flags.USE_HOST_PTR if self.device.is_cpu else flags.COPY_HOST_PTR
+        return self._cl.Buffer(
+            self.context, flags.READ_ONLY | how, hostbuf=np.require(array, requirements=("C", "A"))
+        )
+
     def local(self, nbytes: int) -> Any:
         """Ask for local memory of a work-group, at most ``local_bytes``, as an argument of a kernel."""
         return self._cl.LocalMemory(int(nbytes))

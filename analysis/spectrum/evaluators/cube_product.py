@@ -140,8 +140,8 @@ def cube_powers(
     sets, n, d = x.shape
     cube = kept(PreparedCube, p, n, d, sets, fmax, half, mean)
     used = cube.fill(x, weights)
-    at, largest = coordinates(x, p.name, weights), max(each_axis(d, fmax))
-    errors = Errors(0.0, 0.0)
+    power, largest, errors = cube.writer.result(), max(each_axis(d, fmax)), Errors(0.0, 0.0)
+    at = cube.coordinates() if weights is None else coordinates(x, p.name, weights)
     for slots in used:
         errors = errors.or_larger(product_errors(p, n, slots, largest, at))
-    return cube.writer.result(), errors
+    return power, errors

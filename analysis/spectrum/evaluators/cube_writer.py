@@ -64,7 +64,11 @@ class CubeWriter:
         self._shape = (shape[0] - shape[0] // 2, *shape[1:]) if half else shape
         self.nbytes = self._count * (1 if mean else self._sets) * np.dtype(p.sum).itemsize
         self.set_size = 0 if mean else self._count
-        self.out = p.runtime.empty(self.nbytes)
+        self._power = np.empty((1 if mean else sets, *self._shape), p.sum)
+        self._in_place = (
+            p.runtime.device.is_cpu
+        )  # whose kernels write the host's memory: a copy wakes a thread
+        self.out = p.runtime.shared(self._power) if self._in_place else p.runtime.empty(self.nbytes)
         self._launches: dict[tuple[int, int, int], RepeatedLaunch] = {}
         self.gains = p.runtime.upload((np.ones(self._rows) if gains is None else gains).astype(p.sum))
 
@@ -126,13 +130,17 @@ class CubeWriter:
 
     def result(self) -> FloatArray:
         """Download the cube, and cut off the frequencies beyond its edge that the groups cover."""
-        sets = 1 if self._mean else self._sets
-        power = self._p.runtime.download(self.out, np.empty((sets, *self._shape), self._p.sum))
+        if self._in_place:
+            self._p.runtime.finish()
+        else:
+            self._p.runtime.download(self.out, self._power)
         inner = tuple(
             slice(0, f + 1) if self._half and a == 0 else slice(have // 2 - f, have // 2 + f + 1)
             for a, (f, have) in enumerate(zip(self._harmonics, self._shape, strict=True))
         )
-        power = np.ascontiguousarray(power[(slice(None), *inner)], np.float64)
+        power = np.array(
+            self._power[(slice(None), *inner)], np.float64, order="C"
+        )  # the next cube is another
         if not self._mean:
             return power
         if self._sets > 1:

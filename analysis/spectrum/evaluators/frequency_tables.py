@@ -141,7 +141,7 @@ class FrequencyTables:
         -------
         Program
         """
-        small = () if folded or self.width > 1 else ("slot_sums.cl", "small_cube.cl")
+        small = () if folded or self.width > 1 else ("turn_rows.cl", "slot_sums.cl", "small_cube.cl")
         return self.p.program(
             *("tables.cl", "product.cl", "power.cl", *small),
             ROWS=self.rows,

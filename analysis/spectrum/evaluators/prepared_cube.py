@@ -10,6 +10,7 @@ import numpy as np
 
 from gbnbench.analysis.precision import Precision
 from gbnbench.analysis.spectrum.digits import Division, Harmonics, cheapest_division, half_size, size
+from gbnbench.analysis.spectrum.error_model import NOT_ROUNDED, Coordinates
 from gbnbench.analysis.spectrum.evaluators.cube_writer import CubeWriter
 from gbnbench.analysis.spectrum.evaluators.frequency_group import Group
 from gbnbench.analysis.spectrum.evaluators.point_slots import AMPLITUDE_BYTES, Slots, tile_columns, tile_rows
@@ -47,6 +48,7 @@ class PreparedCube:
         whole = half_size(self._divided.leading) <= most_rows(p, self._divided)
         self._whole = self._product(Group(self._divided.leading)) if whole else None
         small = self._whole is not None and is_small(self._whole, sets)
+        self._rounded = NOT_ROUNDED
         self._small = SmallCube(self._whole, self.writer) if self._whole is not None and small else None
 
     @property
@@ -73,7 +75,7 @@ class PreparedCube:
         if self._small is not None:
             self._small(x, weights, norms)
             return [self._small.product.slots]
-        used = []
+        used, self._rounded = [], NOT_ROUNDED
         for first_row, rows, product in self._products():
             for first, count in product.batches(x, weights):
                 self.writer.add(
@@ -81,7 +83,18 @@ class PreparedCube:
                     *(first, count, first_row, rows),
                 )
             used.append(product.slots)
+            self._rounded = self._rounded.or_larger(product.rounded)
         return used
+
+    def coordinates(self) -> Coordinates:
+        """Tell how far the coordinates of the last sets were rounded, once the cube was downloaded.
+
+        Returns
+        -------
+        Coordinates
+            For the worst of the sets, which had no weights.
+        """
+        return self._rounded if self._small is None else self._small.product.turns.coordinates(self._sets)
 
     def _products(self) -> Iterator[tuple[int, int, TwoGroupProduct]]:
         """Give the first frequency and the length of each run of leading frequencies, with its product."""

@@ -1,4 +1,4 @@
-"""Two groups' tables and their product on a CPU in one launch: each core makes its own tables."""
+"""Two groups' tables and their product on a CPU in one launch: each core makes its own turns and tables."""
 
 from __future__ import annotations
 
@@ -9,11 +9,12 @@ import numpy as np
 from gbnbench.analysis.precision import padded
 from gbnbench.analysis.spectrum.evaluators.frequency_tables import DevicePoints, FrequencyTables
 from gbnbench.analysis.spectrum.evaluators.point_slots import OWN_COLUMNS, Slots
+from gbnbench.analysis.spectrum.evaluators.turn_rows import TurnRows
 from gbnbench.opencl import Program, RepeatedLaunch
 
 
 class SlotSums:
-    """The launch that tabulates and multiplies the slots of a batch.
+    """The launch that rounds, tabulates and multiplies the slots of a batch.
 
     Parameters
     ----------
@@ -29,6 +30,8 @@ class SlotSums:
         Leading and trailing tables of the work-items, and numbers from one's to the next one's.
     bounds : buffer
         First and end of the columns that each row tile takes.
+    turns : TurnRows
+        Where the turns go.
     sums : buffer
         What is written.
     """
@@ -40,6 +43,7 @@ class SlotSums:
         slots: Slots,
         n: int,
         stride: int,
+        turns: TurnRows,
         *,
         tables: tuple[Any, Any],
         sizes: tuple[int, int],
@@ -47,24 +51,27 @@ class SlotSums:
         sums: Any,
     ) -> None:
         self._frequencies, self._program, self._slots = frequencies, program, slots
+        self._turns = turns
         self._n, self._stride, self._tables, self._sizes = n, stride, tables, sizes
         self._bounds, self._sums = bounds, sums
         self._launches: dict[int, RepeatedLaunch] = {}
 
-    def __call__(self, points: DevicePoints, sets: int) -> None:
+    def __call__(self, reals: Any, points: DevicePoints, sets: int) -> None:
         """Enqueue the launch.
 
         Parameters
         ----------
+        reals : buffer
+            Coordinates of the batch: (sets, n, d) float64.
         points : DevicePoints
-            The batch.
+            The batch, whose turns are written.
         sets : int
             Its number of sets.
         """
         stride = points.weight_stride
         if stride not in self._launches:
             self._launches[stride] = self._launch(stride)
-        self._launches[stride](points.turns, points.weight, np.uint32(sets * self._slots.splits))
+        self._launches[stride](reals, points.weight, np.uint32(sets * self._slots.splits))
 
     def _launch(self, weight_stride: int) -> RepeatedLaunch:
         slots, f = self._slots, self._frequencies
@@ -75,6 +82,9 @@ class SlotSums:
             (slots.items,),
             (1,),
             *(None, None, np.uint32),  # points, weights and slots, which each call gives
+            np.uint32(self._n),
+            self._turns.buffer,
+            self._turns.lost,
             np.uint32(self._stride),
             np.uint32(f.d),
             np.uint32(weight_stride),

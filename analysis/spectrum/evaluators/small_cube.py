@@ -44,11 +44,12 @@ class SmallCube:
         norms : buffer
             Numbers by which the squared amplitudes of each set are divided.
         """
-        points = self.product.upload(x, weights)
-        stride = points.weight_stride
+        product = self.product
+        self._points = product.p.runtime.readable(x)  # it lives until the kernel has read it
+        weight, stride = (given := product.with_weights(weights)).weight, given.weight_stride
         if stride not in self._launches:
             self._launches[stride] = self._launch(len(x), x.shape[2], stride)
-        self._launches[stride](points.turns, points.weight, norms)
+        self._launches[stride](self._points, weight, norms)
 
     def _launch(self, sets: int, d: int, weight_stride: int) -> Launch:
         product, writer = self.product, self._writer
@@ -58,6 +59,9 @@ class SmallCube:
             (1,),
             (1,),
             *(None, None, None),  # points, weights and norms, which each call gives
+            np.uint32(product.n),
+            product.turns.buffer,
+            product.turns.lost,
             np.uint32(product.stride),
             np.uint32(d),
             np.uint32(weight_stride),

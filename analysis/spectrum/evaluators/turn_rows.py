@@ -1,12 +1,17 @@
-"""Coordinates as fixed-point turns, in rows that are kept: new memory costs more than filling it."""
+"""Coordinates as rows of fixed-point turns on the device, and how far they were rounded."""
 
 from __future__ import annotations
 
+from functools import cached_property
+from typing import Any
+
 import numpy as np
 
-from gbnbench.analysis.precision import Precision
-from gbnbench.analysis.spectrum.cached_blocks import block_shape, cached_blocks
-from gbnbench.core.torus import FloatArray
+from gbnbench.analysis.precision import Precision, padded
+from gbnbench.analysis.spectrum.error_model import Coordinates, coordinates_of_sums
+from gbnbench.opencl import RepeatedLaunch
+
+GPU_POINTS = 4  # that one work-item of a GPU rounds
 
 
 class TurnRows:
@@ -19,50 +24,80 @@ class TurnRows:
     sets, n, d : int
         Sets of the largest batch, points of a set, and dimension.
     stride : int
-        Length of each row, at least n.
+        Length of each row, at least n, and a multiple of the lanes.
+    each : int or None
+        Points that a work-item takes, a multiple of the lanes; None for as many as suit a GPU.
 
     Attributes
     ----------
-    rows : (sets, d, stride) uint64 or uint32
-        Fractions of a turn in units of 2^-64 or 2^-32 of the last batch; 0 beyond the last point.
     buffer : buffer
-        The rows on the device, which on a CPU are the same memory.
+        (sets, d, stride) uint64 or uint32 of the last batch: fractions of a turn in units of 2^-64 or 2^-32,
+        as ``torus.fixed_point`` gives them; 0 beyond the last point.
+    lost : buffer
+        (sets, items, 2) numbers of the type ``p.sum``: for each work-item the sums of the absolute values and
+        of the squares of what its coordinates were rounded, in these units.
+    items : int
+        Work-items of a set.
     nbytes : int
-        Bytes on the host and on the device.
+        Bytes on the device.
     """
 
-    def __init__(self, p: Precision, sets: int, n: int, d: int, stride: int) -> None:
-        self.rows = np.zeros((sets, d, stride), p.turn)
-        self._n = n
-        self._reals = np.empty((*block_shape(sets, n, d), d))
-        self._runtime, self._cpu = p.runtime, p.runtime.device.is_cpu
-        self.buffer = p.runtime.shared(self.rows) if self._cpu else p.runtime.empty(self.rows.nbytes)
-        self.nbytes = self.rows.nbytes * (1 if self._cpu else 2) + self._reals.nbytes
+    def __init__(self, p: Precision, sets: int, n: int, d: int, stride: int, each: int | None) -> None:
+        self._p, self._sets, self._n, self._d, self._stride = p, sets, n, d, stride
+        self._each = each or GPU_POINTS
+        self.items = -(-stride // self._each)
+        self._lost = np.zeros((sets, self.items, 2), p.sum)
+        self._in_place = p.runtime.device.is_cpu
+        self.lost = p.runtime.shared(self._lost) if self._in_place else p.runtime.empty(self._lost.nbytes)
+        rows = sets * d * stride * np.dtype(p.turn).itemsize
+        self.buffer = p.runtime.empty(rows)
+        self.nbytes = rows + self._lost.nbytes
 
-    def __call__(self, x: FloatArray) -> None:
-        """Write the turns of a batch, as ``torus.fixed_point`` gives them; no kernel may read the last ones.
+    def __call__(self, points: Any, sets: int) -> None:
+        """Enqueue the launch that writes the rows of a batch.
 
         Parameters
         ----------
-        x : (batch, n, d) float64
-            Points of the unit torus, of ``sets`` sets at most.
-
-        Notes
-        -----
-        From 1/2 up a turn is taken off first, which leaves the phase and fits in a signed integer: to that a
-        processor converts in one instruction, to unsigned ones not. In float what rounds to 1/2 is 1/2.
+        points : buffer
+            (sets, n, d) float64, points of the unit torus.
+        sets : int
+            Sets of the batch.
         """
-        bits = 8 * self.rows.itemsize
-        up = (0.0 if bits == 64 else 2.0 ** -(bits + 1)) + 2.0**-53
-        signed = self.rows.view(np.int64 if bits == 64 else np.int32)
-        for sets, points in cached_blocks(*x.shape):
-            some, rows = x[sets, points], signed[sets, :, points]
-            reals = self._reals[: some.shape[0], : some.shape[1]]
-            np.add(some, up, out=reals)
-            np.rint(reals, out=reals)  # 1 from 1/2 up, which is rounded upwards to be no tie
-            np.subtract(some, reals, out=reals)
-            reals *= 2.0**bits
-            np.rint(reals, out=reals)
-            np.copyto(rows, reals.transpose(0, 2, 1), casting="unsafe")
-        if not self._cpu:
-            self._runtime.update(self.buffer, self.rows[: len(x)])
+        self._launch(points, np.uint32(sets))
+
+    @cached_property
+    def _launch(self) -> RepeatedLaunch:
+        program = self._p.program("turn_rows.cl")
+        group = self._p.runtime.group
+        return RepeatedLaunch(
+            program,
+            "turn_rows",
+            (padded(self.items, group), self._sets),
+            (group, 1),
+            *(None, np.uint32),  # points and sets, which each call gives
+            np.uint32(self._n),
+            np.uint32(self._d),
+            np.uint32(self._stride),
+            np.uint32(self._each),
+            np.uint32(self.items),
+            self.buffer,
+            self.lost,
+        )
+
+    def coordinates(self, sets: int) -> Coordinates:
+        """Tell how far the coordinates of the last batch were rounded, once its kernels have ended.
+
+        Parameters
+        ----------
+        sets : int
+            Sets of the batch.
+
+        Returns
+        -------
+        Coordinates
+            For the worst of its sets, without weights.
+        """
+        if not self._in_place:
+            self._p.runtime.download(self.lost, self._lost)
+        absolute, square = self._lost[:sets].sum(axis=1, dtype=np.float64).max(axis=0).tolist()
+        return coordinates_of_sums(self._p.name, self._n, absolute, square)

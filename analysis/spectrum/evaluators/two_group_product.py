@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.analysis.precision import SUM_POINTS, Precision, padded
-from gbnbench.analysis.spectrum.error_model import Coordinates, Errors, sum_errors
+from gbnbench.analysis.spectrum.error_model import NOT_ROUNDED, Coordinates, Errors, sum_errors
 from gbnbench.analysis.spectrum.evaluators.frequency_group import Group
 from gbnbench.analysis.spectrum.evaluators.frequency_tables import (
     DevicePoints,
@@ -56,6 +56,10 @@ class TwoGroupProduct:
         Numbers from one coordinate of a set to the next.
     tables, sizes : (buffer, buffer), (int, int)
         Leading and trailing table of a batch, and numbers from one slot's to the next slot's.
+    turns : TurnRows
+        Fixed-point coordinates of a batch.
+    rounded : Coordinates
+        How far the coordinates of the last sets were rounded, which had no weights.
     nbytes : int
         Bytes of the tables and amplitudes of a batch.
     """
@@ -91,15 +95,17 @@ class TwoGroupProduct:
             # the memory held, since denormals take a processor a hundred cycles each.
             p.runtime.clear(self.tables[0], of_tables[0])
         self.amplitude = p.runtime.empty(of_amplitudes)
+        own_length = self.slots.length if p.runtime.device.is_cpu else None
+        self.turns = TurnRows(p, min(sets, self.slots.sets), n, d, self.stride, own_length)
         self._own_slots = SlotSums(
-            *(self.frequencies, self.program, self.slots, n, self.stride),
+            *(self.frequencies, self.program, self.slots, n, self.stride, self.turns),
             tables=self.tables,
             sizes=self.sizes,
             bounds=self._bounds,
             sums=self.amplitude,
         )
-        self._turns = TurnRows(p, min(sets, self.slots.sets), n, d, self.stride)
-        self.nbytes += self._turns.nbytes
+        self.nbytes += self.turns.nbytes
+        self.rounded = NOT_ROUNDED
 
     def batches(self, x: FloatArray, weights: FloatArray | None = None) -> Iterator[tuple[int, int]]:
         """Evaluate the amplitudes of one batch of sets after another, and leave each on the device.
@@ -117,14 +123,17 @@ class TwoGroupProduct:
             First set and number of sets whose amplitudes ``amplitude`` holds until the next batch.
         """
         slots = self.slots
+        self.rounded = NOT_ROUNDED
         for first in range(0, len(x), slots.sets):
             batch = slice(first, first + slots.sets)
             shared = weights is None or len(weights) == 1
-            points = self.upload(x[batch], weights if weights is None or shared else weights[batch])
+            reals = self.p.runtime.readable(x[batch])  # it lives until kernels have read it
+            points = self.with_weights(weights if weights is None or shared else weights[batch])
             count = len(x[batch])
             if slots.items:
-                self._own_slots(points, count)
+                self._own_slots(reals, points, count)
             else:
+                self.turns(reals, count)
                 for begin in range(0, self.stride, slots.span):
                     self.frequencies.tabulate(
                         *(self.program, (0, 2), points, self.tables, slots), self.sizes, count, begin
@@ -132,14 +141,14 @@ class TwoGroupProduct:
                     self.multiply(count, again=begin > 0)
             yield first, count
             self.p.runtime.finish()  # before the next points take the place of these, or nothing holds them
+            if weights is None:
+                self.rounded = self.rounded.or_larger(self.turns.coordinates(count))
 
-    def upload(self, x: FloatArray, weights: FloatArray | None) -> DevicePoints:
-        """Upload a batch of sets.
+    def with_weights(self, weights: FloatArray | None) -> DevicePoints:
+        """Bring the weights of a batch to the device, beside the turns that are to be written.
 
         Parameters
         ----------
-        x : (sets, n, d) float64
-            Points.
         weights : (sets or 1, n) float64 or None
             Their weights.
 
@@ -147,12 +156,10 @@ class TwoGroupProduct:
         -------
         DevicePoints
         """
-        self._turns(x)
-        turns = self._turns.buffer
         if weights is None:
-            return DevicePoints(turns, self._ones, self.stride, 0)
+            return DevicePoints(self.turns.buffer, self._ones, self.stride, 0)
         own = self._upload_weights(weights)
-        return DevicePoints(turns, own, self.stride, 0 if len(weights) == 1 else self.stride)
+        return DevicePoints(self.turns.buffer, own, self.stride, 0 if len(weights) == 1 else self.stride)
 
     @cached_property
     def _ones(self) -> Any:

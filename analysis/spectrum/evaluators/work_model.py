@@ -2,8 +2,7 @@
 
 The constants were measured on CPUs. They count the work for each point on a pair of a leading and a trailing
 frequency, the work on the tables, and what is done once with each point and each power. What is no product of
-vectors gains nothing of wide ones: it is counted in narrow multiply-adds, those of 32 bytes, two of
-which pass in one of 64.
+vectors gains nothing of wide ones nor of float: it is counted in narrow multiply-adds, those of four lanes.
 """
 
 from __future__ import annotations
@@ -19,15 +18,18 @@ from gbnbench.opencl.peak_rate import launch_seconds, peak
 # table, for a cosine and sine, for a power that is written, and for a pair that is reduced to its shell.
 TILE, ENTRY, COSINE, WRITTEN, SHELL = 5.0, 40.0, 200.0, 20.0, 550.0
 # Narrow multiply-adds for a point that is brought to the device, and those that take as long as the launches
-# of a product that is no small cube, and as all else of a call. Fitted to 62 cubes in 1D to 3D.
-CARRIED_POINT, LAUNCHED, SET_UP = 300.0, 1.5e6, 1.4e6
+# of a product that is no small cube, and as all else of a call. Fitted to the CPU times of 108 cubes in 1D to
+# 3D, half of them in float, within 15% (rms). Of 144 cubes each was given to the quickest evaluator or
+# to one that took a tenth longer at most.
+CARRIED_POINT, LAUNCHED, SET_UP = 120.0, 6.3e5, 1.12e6
 SET_UP_SECONDS = 4.2e-11  # of a core, for each multiply-add of a set-up
+NARROW_LANES = 4
 CALL_SECONDS = 1e-4  # for every request, where there are no launches
 NUMPY_RATE = 4e9  # multiply-adds that numpy does in a second on one core
 
 
 def narrow(p: Precision) -> float:
-    """Count the multiply-adds of the device's vectors that pass in the time of one of a vector of 32 bytes.
+    """Count the multiply-adds of the device's vectors that pass in the time of one of four lanes.
 
     Parameters
     ----------
@@ -37,9 +39,9 @@ def narrow(p: Precision) -> float:
     Returns
     -------
     float
-        2 with AVX-512, 1 with vectors of 32 bytes or less.
+        With AVX-512 2 in double and 4 in float, 1 with vectors of four lanes or less.
     """
-    return max(1.0, p.lanes * np.dtype(p.real).itemsize / 32)
+    return max(1.0, p.lanes / NARROW_LANES)
 
 
 def device_cost(

@@ -35,6 +35,7 @@
 #define LOADV(p, i) ((p)[i])
 #define LOADV_TURNS(p, i) ((p)[i])
 #define STOREV(v, p, i) ((p)[i] = (v))
+#define STOREV_TURNS STOREV
 #define SPREAD(v, p, step) ((p)[0] = (v))
 #define GATHER(p, step) ((p)[0])
 #define GATHER_TURNS(p, step) ((p)[0])
@@ -84,6 +85,7 @@
 #define LOADV(p, i) ((REALV)(COMPONENTS(p, i)))
 #define LOADV_TURNS(p, i) ((TURNV)(COMPONENTS(p, i)))
 #define STOREV(v, p, i) do { const REALV stored = (v); SCATTER(stored, (p) + (i), 0, 1); } while (0)
+#define STOREV_TURNS(v, p, i) do { const TURNV stored = (v); SCATTER(stored, (p) + (i), 0, 1); } while (0)
 /* lane l to p[l * step], and back */
 #define SPREAD(v, p, step) do { const REALV stored = (v); SCATTER(stored, p, 0, step); } while (0)
 #define GATHER(p, step) ((REALV)(EVERY(p, 0, step)))

@@ -56,8 +56,8 @@ class GridWork(NamedTuple):
 
 
 # By dimension. Fitted to the CPU times of 132 cubes on one Intel core, n = 64 to 16,384 and F = 6 to 2,048,
-# in double and in float: 7 to 9 in 10 are within 15%, and the slower of product and FFT is chosen three
-# times, by a third at most. In the plane bands of a grid stay in the cache; the transform writes the powers.
+# in double and in float: 7 to 9 in 10 are within 15%. In the plane bands of a grid stay in
+# the cache; the transform writes the powers.
 WORK = {
     1: GridWork(354.0, 2.43, 2.43, 0.0, 429.0, 2.55e6),
     2: GridWork(350.0, 6.57, 6.57, 2.65, 0.0, 2.25e6),
