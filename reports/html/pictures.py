@@ -96,22 +96,21 @@ def _packed(picture: Image.Image) -> bytes:
 
 
 def _in_own_colours(picture: Image.Image) -> Image.Image | None:
-    """Number the colours of an RGB picture, in a tenth of Pillow's time; None where a palette lacks room."""
+    """Give an RGB picture a palette of its own colours, sooner than Pillow; None where they are too many."""
     counted = picture.getcolors(COLOURS)
     if counted is None:
         return None
     colours = np.array([colour for _, colour in counted], np.uint8)
     number = np.empty(1 << 24, np.uint8)  # of each colour; memory is taken for those that are there
     number[_as_one(np.pad(colours, ((0, 0), (0, 1))))] = np.arange(len(colours))
-    pixels = np.asarray(picture.convert("RGBX"))
-    few = Image.fromarray(number[_as_one(pixels) & 0xFFFFFF])
+    few = Image.fromarray(number[_as_one(np.asarray(picture.convert("RGBX")))])
     few.putpalette(colours.tobytes())
     return few
 
 
-def _as_one(quadruples: NDArray[np.uint8]) -> NDArray[np.uint32]:
-    """Read four bytes, the fourth of no account, as one number, the first the lowest."""
-    return quadruples.view("<u4")[..., 0]
+def _as_one(pixels: NDArray[np.uint8]) -> NDArray[np.uint32]:
+    """Read the first three of four bytes as one number below 2^24."""
+    return pixels.view("<u4")[..., 0] & np.uint32(0xFFFFFF)
 
 
 @style.styled
