@@ -11,6 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.image import AxesImage, imsave
+from numpy.typing import NDArray
 from PIL import Image, ImageColor
 
 from gbnbench.reports import style
@@ -20,7 +21,7 @@ from gbnbench.reports.plot_axes import PlotAxes
 from gbnbench.runs.comparison_result import SourceResult
 
 PANEL = 2.5  # inches of a gallery picture, shown at 250 CSS pixels
-COLOURS, COMPRESSION = 256, 6  # of a picture in the page, which has to stay small
+COLOURS, COMPRESSION = 256, 4  # of a picture in the page, which has to stay small
 DOTS = 160  # an inch of such a picture
 WITH_AXES = ("radial power", "anisotropy\n(dB)")  # rows of the gallery whose panels need room for ticks
 
@@ -87,9 +88,29 @@ def small_picture(content: bytes, alt: str) -> Picture:
 def _packed(picture: Image.Image) -> bytes:
     """Write an RGB picture as PNG with a palette."""
     stream = io.BytesIO()
-    few = picture.quantize(COLOURS, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+    few = _in_own_colours(picture)
+    if few is None:
+        few = picture.quantize(COLOURS, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
     few.save(stream, format="png", compress_level=COMPRESSION)
     return stream.getvalue()
+
+
+def _in_own_colours(picture: Image.Image) -> Image.Image | None:
+    """Give an RGB picture a palette of its own colours, sooner than Pillow; None where they are too many."""
+    counted = picture.getcolors(COLOURS)
+    if counted is None:
+        return None
+    colours = np.array([colour for _, colour in counted], np.uint8)
+    number = np.empty(1 << 24, np.uint8)  # of each colour; memory is taken for those that are there
+    number[_as_one(np.pad(colours, ((0, 0), (0, 1))))] = np.arange(len(colours))
+    few = Image.fromarray(number[_as_one(np.asarray(picture.convert("RGBX")))])
+    few.putpalette(colours.tobytes())
+    return few
+
+
+def _as_one(pixels: NDArray[np.uint8]) -> NDArray[np.uint32]:
+    """Read the first three of four bytes as one number below 2^24."""
+    return pixels.view("<u4")[..., 0] & np.uint32(0xFFFFFF)
 
 
 @style.styled
