@@ -18,7 +18,7 @@ from gbnbench.core.memory import PROCESS_BYTES
 
 CUBE_BYTES = 64  # for each frequency of a cube while its shells are told apart
 TREE_BYTES, DISTANCE_BYTES = 400, 16  # for each point of a slab, and of the set whose distances are kept
-STAR_BYTES = 2500  # for each point of a slab that is triangulated
+STAR_BYTES = 3000  # for each point of a slab that is triangulated
 PLANE_BYTES = 300  # for each point, to the next power of two, of a discrepancy in the plane
 GRID_SECONDS, TREE_SECONDS, STAR_SECONDS, PLANE_SECONDS = 1e-6, 2.5e-6, 5e-5, 1e-5  # a point, one core
 

@@ -14,7 +14,7 @@ from gbnbench.core.memory import too_large
 from gbnbench.core.settings import specification
 from gbnbench.core.torus import FloatArray, wrap
 from gbnbench.generators.gauss_newton.modes import bound_coordinates
-from gbnbench.generators.gbn.batches import optimise_in_batches
+from gbnbench.generators.gbn.batches import BATCH, optimise_in_batches
 from gbnbench.generators.gbn.box import fold
 from gbnbench.generators.gbn.energy_settings import EnergySettings
 from gbnbench.generators.gbn.minimisers import open_minimiser
@@ -234,7 +234,9 @@ class GaussianBlueNoise:
             energy = self.energy.open(n, d)
             return f"{self.name}: {energy.method}, error {energy.error:.1e}"
         whose = "a set" if sets == 1 else f"{sets} sets"
-        return f"{found}\n  milliseconds are CPU time of one gradient of {whose}"
+        told = f"{found}\n  milliseconds are CPU time of one gradient of {whose}"
+        memory = found.memory(max(n, min(n * sets, BATCH)))
+        return told if memory is None else f"{told}\n  about {memory / 1e9:.2g} GB of memory at most"
 
     def _optimiser(self, starts: FloatArray) -> Descent:
         _, n, d = starts.shape
