@@ -6,9 +6,11 @@ import subprocess
 import sys
 import tomllib
 import zipfile
+from importlib import metadata
 from pathlib import Path
 
 import pytest
+from packaging.specifiers import SpecifierSet
 
 import gbnbench
 from tests.paths import ROOT
@@ -51,6 +53,20 @@ def test_the_version_is_said_once_in_each_place_and_agrees():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     assert gbnbench.__version__ == project["version"]
     assert f"## {project['version']}" in (ROOT / "CHANGELOG.md").read_text()
+
+
+def test_the_pinned_versions_install_on_the_oldest_python_that_is_promised():
+    """One that wants a later patch of it stops ``make compare`` at its set-up, on Debian's Python too."""
+    promised = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["requires-python"]
+    oldest = promised.removeprefix(">=") + ".0"
+    pinned = [line.split("==")[0] for line in (ROOT / "constraints.txt").read_text().split() if "==" in line]
+    assert pinned
+    for name in pinned:
+        try:
+            wanted = metadata.metadata(name)["Requires-Python"]
+        except metadata.PackageNotFoundError:  # for another system
+            continue
+        assert SpecifierSet(wanted or "").contains(oldest), f"{name} needs Python {wanted}"
 
 
 def test_every_package_of_the_tree_is_named():
