@@ -14,11 +14,12 @@ from numpy.typing import NDArray
 
 from gbnbench.analysis.integration.integrands.gaussians import GaussianSum
 from gbnbench.analysis.integration.integrands.waves import WaveSum
-from gbnbench.analysis.precision import PrecisionName, precision_of
+from gbnbench.analysis.precision import PrecisionName, padded, precision_of
 from gbnbench.analysis.spatial.discrepancy import discrepancies
 from gbnbench.analysis.spatial.pair_counts import pair_counts
 from gbnbench.analysis.spectrum.evaluators.gridded.product import griddable
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import AXES
+from gbnbench.analysis.spectrum.evaluators.turn_rows import TurnRows
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.shell_spectrum import shells
 from gbnbench.core.torus import FloatArray, displacement
@@ -34,6 +35,7 @@ from gbnbench.doctor.numpy_references import (
     numpy_power,
     numpy_star_square,
     numpy_swap_fault,
+    numpy_turns,
     numpy_waves,
 )
 from gbnbench.generators.ccvt.assignment import sample_lattice, share_out
@@ -48,6 +50,7 @@ from gbnbench.opencl import Device, choose
 # of 601 several runs on a line. The transforms of fmax = 8 and 10 in the plane have all radices between them.
 QUICK_PERIODOGRAMS = ((601, 1, 22), (613, 2, 22), (61, 2, 8), (61, 2, 10), (61, 3, 3), (29, 5, 1))
 PERIODOGRAMS = ((7, 1, 19), (131, 2, 11), (333, 2, 5), *QUICK_PERIODOGRAMS)
+TURNS = ((83, 3),)  # n, d
 # n, d, sigma: wide boxes, then narrow ones, each by every evaluation that serves it.
 ENERGIES = ((613, 2, 0.9), (401, 1, 1.0), (83, 2, 1.0), (53, 3, 0.7), (37, 8, 1.0))
 QUICK_ENERGIES = ((401, 2, 1.0), (53, 3, 0.7))
@@ -108,6 +111,16 @@ def _exact(n: int, d: int, fmax: int) -> tuple[FloatArray, IntArray, FloatArray]
     base = 2 * fmax + 1
     f = np.stack(np.unravel_index(np.arange(base**d), (base,) * d), axis=1).astype(np.int64) - fmax
     return x, f, np.sqrt(numpy_power(x, f))
+
+
+def _turns(n: int, d: int, precision: PrecisionName) -> Iterator[Check]:
+    rng, p = np.random.default_rng(n), precision_of(precision)
+    x = rng.random((n, d)) * 2.0 ** -rng.integers(0, 70, (n, d))
+    rows = TurnRows(p, 1, n, d, padded(n, p.lanes), None)
+    rows(p.runtime.readable(x[None]), 1)
+    found = p.runtime.download(rows.buffer, np.empty((d, padded(n, p.lanes)), p.turn))[:, :n]
+    away = (found - numpy_turns(x, p.turn).T).astype(np.int64 if precision == "double" else np.int32)
+    yield Check("fixed-point turns", f"n={n} d={d}", precision, float(np.max(np.abs(away))), 0.0)
 
 
 def _energy(n: int, d: int, sigma: float, precision: str) -> Iterator[Check]:
@@ -207,6 +220,7 @@ def planned_checks(quick: bool, device: Device) -> list[tuple[KernelChecks, tupl
         work: list[tuple[KernelChecks, tuple[float, ...]]] = [
             *((_periodogram, case) for case in cubes),
             *((_shells, case) for case in cubes if case[1] > 1),
+            *((_turns, case) for case in TURNS),
             *((_energy, case) for case in (QUICK_ENERGIES if quick else ENERGIES)),
             *((_box, case) for case in (QUICK_BOXES if quick else BOXES)),
             *((adaptive_gradient, case) for case in ADAPTIVE),

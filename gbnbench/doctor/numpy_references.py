@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import erf
@@ -30,6 +33,25 @@ def numpy_power(x: FloatArray, frequencies: NDArray[np.int64]) -> FloatArray:
     angle = 2 * np.pi * (phase.astype(np.int64) / 2.0**64)
     power: FloatArray = (np.cos(angle).sum(axis=1) ** 2 + np.sin(angle).sum(axis=1) ** 2) / len(x)
     return power
+
+
+def numpy_turns(x: FloatArray, kind: type[np.unsignedinteger[Any]]) -> NDArray[Any]:
+    """Coordinates as fixed-point turns, rounded to the nearest with ties to even.
+
+    Parameters
+    ----------
+    x : (n, d) float64
+        Points on the unit torus.
+    kind : {np.uint64, np.uint32}
+        Of a turn, in units of 2^-64 or 2^-32.
+
+    Returns
+    -------
+    (n, d) of that type
+    """
+    bits = 8 * np.dtype(kind).itemsize
+    turns = [round(Fraction(value) * 2**bits) % 2**bits for value in x.ravel().tolist()]
+    return np.array(turns, kind).reshape(x.shape)
 
 
 def numpy_periodic_square(x: FloatArray) -> float:

@@ -127,10 +127,11 @@ def sums(out: Path) -> dict[str, str]:
     return {name: digest for name, digest in held.items() if not name.endswith("source.json")}
 
 
-def until(true: Callable[[], Any], seconds: float = 400) -> None:
-    """Wait until something is true."""
+def until(true: Callable[[], Any], seconds: float = 400) -> Any:
+    """Wait until something is true, and return it."""
     deadline = time.monotonic() + seconds
-    while not true():
+    while not (found := true()):
         if time.monotonic() > deadline:
             raise TimeoutError(f"not true after {seconds} s")
         time.sleep(0.02)
+    return found

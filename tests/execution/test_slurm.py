@@ -48,10 +48,10 @@ def test_a_job_out_of_time_and_one_cancelled_cost_nothing_but_time(
 ) -> None:
     out = tmp_path / "run"
     process = cluster.begin(out, ASKED)
-    until(lambda: running(process) and finished_pieces(out) >= 1 and cluster.jobs("RUNNING"))
-    cluster.said("scancel", "--signal", "USR2", cluster.jobs("RUNNING")[0])
-    until(lambda: running(process) and finished_pieces(out) >= 6 and cluster.jobs("RUNNING"))
-    cluster.said("scancel", cluster.jobs("RUNNING")[-1])
+    at_work = until(lambda: running(process) and finished_pieces(out) >= 1 and cluster.jobs("RUNNING"))
+    cluster.said("scancel", "--signal", "USR2", at_work[0])
+    at_work = until(lambda: running(process) and finished_pieces(out) >= 6 and cluster.jobs("RUNNING"))
+    cluster.said("scancel", at_work[-1])
     code, said = ended(process)
     assert code == 0, said
     assert "submitit" not in said  # it warns where there is no accounting

@@ -44,7 +44,7 @@ class TurnRows:
 
     def __init__(self, p: Precision, sets: int, n: int, d: int, stride: int, each: int | None) -> None:
         self._p, self._sets, self._n, self._d, self._stride = p, sets, n, d, stride
-        self._each = each or GPU_POINTS
+        self._each = each or padded(GPU_POINTS, p.lanes)
         self.items = -(-stride // self._each)
         self._lost = np.zeros((sets, self.items, 2), p.sum)
         self._in_place = p.runtime.device.is_cpu
