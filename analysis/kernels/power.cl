@@ -15,9 +15,14 @@
 
 #define ROW_SUMS (4 * LANES * KEPT)
 
-/* Where the four sums of row i and column j stand in a slot whose rows are `stride` columns long. */
-INLINE ulong place_of(const uint i, const uint j, const uint stride)
+/* Where the four sums of row i and of frequency j of `columns` stand in a slot whose rows are `stride` columns long. */
+INLINE ulong place_of(const uint i, const uint frequency, const uint columns, const uint stride)
 {
+#if ZERO_LAST
+    const uint j = frequency ? frequency - 1 : columns - 1;
+#else
+    const uint j = frequency;
+#endif
     return ((ulong)(i / ROWS) * stride + j / LANES * LANES) * (ROWS * ROW_SUMS / LANES) + i % ROWS * ROW_SUMS
         + 2 * (j % LANES);
 }
@@ -66,7 +71,7 @@ INLINE void write_power(__global const SUM *sums, const uint half_rows, const ui
         const SUM scale = norm[first_set + s] * gain[first_row + i];
         for (uint j = first; j < end; j++) {
             SUM same, opposite;
-            two_powers(of_set + place_of(i, j, stride), slot_size, splits, scale, &same, &opposite);
+            two_powers(of_set + place_of(i, j, columns, stride), slot_size, splits, scale, &same, &opposite);
             const ulong plus = centre + j, minus = centre - j;
             const SUM there = same + (add ? to[plus - start] : 0);
             const SUM here = opposite + (add ? to[(minus < start ? last - minus : minus) - start] : 0);
@@ -110,7 +115,7 @@ __kernel void pair_power(__global const SUM *sums, __global const uint *bounds, 
         for (uint j = first; j < end; j++) {
             __global SUM *to = out + ((ulong)i * stride + j) * 2;
             SUM same, opposite;
-            two_powers(of_set + place_of(i, j, stride), slot_size, splits, scale, &same, &opposite);
+            two_powers(of_set + place_of(i, j, stride, stride), slot_size, splits, scale, &same, &opposite);
             to[0] = first_set + s ? to[0] + same : same;
             to[1] = first_set + s ? to[1] + opposite : opposite;
         }

@@ -114,6 +114,61 @@ INLINE void add_up(const REALV value, __global SUM *at, const uint started)
 #endif
 }
 
+#if ZERO_LAST
+/* The frequency 0 of the trailing group has the cosine 1 and the sine 0, so that its sums are those of the rows
+ * themselves. Where it stands alone behind the last whole or half block, vectors of points are added up. */
+#define ZERO_APART(left) ((left) == 1 || (left) == LANES / 2 + 1)
+#define HALVED(type, v) (JOIN(convert_, type)((v).lo) + JOIN(convert_, type)((v).hi))
+
+INLINE SUM lanes_summed(const REALV v)
+{
+#if LANES == 4
+    const JOIN(SUM, 2) two = HALVED(JOIN(SUM, 2), v);
+#else
+#if LANES == 8
+    const JOIN(SUM, 4) four = HALVED(JOIN(SUM, 4), v);
+#else
+    const JOIN(SUM, 8) eight = HALVED(JOIN(SUM, 8), v);
+    const JOIN(SUM, 4) four = eight.lo + eight.hi;
+#endif
+    const JOIN(SUM, 2) two = four.lo + four.hi;
+#endif
+    return two.s0 + two.s1;
+}
+
+INLINE void add_zero(const SUM cosines, __global SUM *at, const uint started)
+{
+    const SUM old = started ? at[0] : 0, sum = old + cosines;
+    at[0] = sum;
+    at[1] = 0;
+#if COMPENSATED
+    const SUM part = sum - old, rest = started ? at[2 * LANES] : 0;
+    at[2 * LANES] = rest + ((old - (sum - part)) + (cosines - part));
+    at[2 * LANES + 1] = 0;
+#endif
+}
+
+#define CLEAR_TOTAL(r) REALV tc##r = (REALV)0, ts##r = (REALV)0;
+#define TOTAL(r)                                                                                 \
+    tc##r += LOADV(points, 2 * LANES * r);                                                       \
+    ts##r += LOADV(points, 2 * LANES * r + LANES);
+#define ADD_TOTAL(r)                                                                             \
+    add_zero(lanes_summed(tc##r), at + r * ROW_SUMS, started);                                   \
+    add_zero(lanes_summed(ts##r), at + r * ROW_SUMS + ROW_SUMS / 2, started);
+
+/* The sums with the frequency 0 over the points begin .. end of a row tile. */
+INLINE void add_totals(__global const REAL *restrict points, const uint begin, const uint end,
+                       __global SUM *at, const uint started)
+{
+    EACH_ROW(CLEAR_TOTAL)
+    for (uint k = begin; k < end; k += LANES) {
+        EACH_ROW(TOTAL)
+        points += 2 * ROWS * LANES;
+    }
+    EACH_ROW(ADD_TOTAL)
+}
+#endif
+
 /* SUM_POINTS points of a block or what is left of them, LANES of which stand side by side in the rows' table. */
 #define EACH_POINT(LOADS, MULTIPLY)                                                              \
     for (uint k = begin; k < end; k += LANES) {                                                           \
@@ -144,9 +199,15 @@ INLINE void multiply(__global const REAL *restrict leading, const ulong leading_
         __global SUM *at = out + (ulong)block * (ROWS * ROW_SUMS);
         for (uint begin = 0; begin < length; begin += SUM_POINTS) {
             const uint end = length - begin < SUM_POINTS ? length : begin + SUM_POINTS, started = again || begin > 0;
+#if ZERO_LAST
+            const uint left = to - block * LANES;
+            if (ZERO_APART(left))
+                add_totals(row_tile + (ulong)begin * (2 * ROWS), begin, end, at + 2 * (left - 1), started);
+            if (left == 1) continue;
+#endif
             EACH_ROW(CLEAR)
 #if LANES > 1
-            if (block * LANES + LANES / 2 >= to) {
+            if (block * LANES + LANES / 2 + ZERO_LAST >= to) {
                 EACH_POINT(LOAD_FIRST, BY_FIRST)
                 EACH_ROW(ADD_FIRST)
                 continue;

@@ -6,8 +6,12 @@
  * Each frequency is then one complex product, which costs a tenth of a sine and cosine. The first group is
  * multiplied by the weights, which are 0 beyond the last point.
  *
+ * Places of the last tile beyond the last frequency repeat it, since they are multiplied too, and whatever the memory
+ * held may be denormals, which take a processor a hundred cycles each.
+ *
  * Layout of the leading table: [tile of frequencies][LANES points][frequency in the tile][cos, sin][lane], of
- * the trailing one: [COLUMNS blocks][point][block][LANES frequencies][cos, sin], or where BY_POINT, as spread.cl
+ * the trailing one: [COLUMNS blocks][point][block][LANES frequencies][cos, sin], without frequency 0 where ZERO_LAST
+ * (product.cl); or where BY_POINT, as spread.cl
  * reads it, [LANES frequencies][point][cos, sin][lane]. `groups` holds for each group its first
  * coordinate, its number of coordinates, leading entries, trailing entries of the half space, where its
  * multiples begin, where its codes begin, its number of frequencies, and frequencies in a tile.
@@ -17,22 +21,27 @@
 /* Vectors of points become vectors of frequencies: LANES of them are transposed in log2(LANES) perfect shuffles. */
 #if LANES > 1
 #if LANES == 2
+#define SHUFFLES 1
 #define LOW(a, b) ((REALV)(a.s0, b.s0))
 #define HIGH(a, b) ((REALV)(a.s1, b.s1))
 #elif LANES == 4
+#define SHUFFLES 2
 #define LOW(a, b) ((REALV)(a.s0, b.s0, a.s1, b.s1))
 #define HIGH(a, b) ((REALV)(a.s2, b.s2, a.s3, b.s3))
 #elif LANES == 8
+#define SHUFFLES 3
 #define LOW(a, b) ((REALV)(a.s0, b.s0, a.s1, b.s1, a.s2, b.s2, a.s3, b.s3))
 #define HIGH(a, b) ((REALV)(a.s4, b.s4, a.s5, b.s5, a.s6, b.s6, a.s7, b.s7))
 #else
+#define SHUFFLES 4
 #define LOW(a, b) ((REALV)(a.s0, b.s0, a.s1, b.s1, a.s2, b.s2, a.s3, b.s3, a.s4, b.s4, a.s5, b.s5, a.s6, b.s6, a.s7, b.s7))
 #define HIGH(a, b) ((REALV)(a.s8, b.s8, a.s9, b.s9, a.sa, b.sa, a.sb, b.sb, a.sc, b.sc, a.sd, b.sd, a.se, b.se, a.sf, b.sf))
 #endif
 INLINE void transpose(REALV *v, __global REAL *out, const uint step)
 {
     REALV w[LANES];
-    for (uint stage = 1; stage < LANES; stage *= 2) {
+#pragma unroll
+    for (uint shuffled = 0; shuffled < SHUFFLES; shuffled++) {
 #pragma unroll
         for (uint i = 0; i < LANES / 2; i++) {
             w[2 * i] = LOW(v[i], v[i + LANES / 2]);
@@ -47,6 +56,25 @@ INLINE void transpose(REALV *v, __global REAL *out, const uint step)
         STORE_ALIGNED(v[l], out, l * step);
 }
 #endif
+
+/* One entry of a group: the product of two of its smaller tables. */
+INLINE void entry_of(const uint pair, const uint leading, const REALV *cosine, const REALV *sine, REALV *c, REALV *s)
+{
+    const uint u = pair >> 16, v = leading + (pair & 0xffff);
+    const REALV cu = cosine[u], su = sine[u], cv = cosine[v], sv = sine[v];
+    *c = cu * cv - su * sv;
+    *s = su * cv + cu * sv;
+}
+
+/* The trailing frequency at a place of its table. */
+INLINE uint column_at(const uint place, const uint count)
+{
+#if ZERO_LAST
+    return place + 1; /* 0 needs no table */
+#else
+    return place < count ? place : count - 1;
+#endif
+}
 
 /* The entries of one group at LANES points from the k-th of a slot on. */
 INLINE void tabulate(__global const TURN *x, __global const REAL *weight, const uint stride, const uint dim,
@@ -94,53 +122,43 @@ INLINE void tabulate(__global const TURN *x, __global const REAL *weight, const 
 
 #if BY_POINT
     __global REAL *out = trailing_table + slot * trailing_size + (ulong)k * 2 * LANES;
-#else
-#if LANES > 1
-    REALV block[2 * LANES];
-#endif
-    __global REAL *out = (which ? trailing_table + slot * trailing_size : leading_table + slot * leading_size)
-        + (ulong)k * 2 * width * (which ? LANES : 1);
-#endif
     uint row = 0;
     for (uint j = 0; j < count; j++) {
-        const uint u = pair[j] >> 16, v = leading + (pair[j] & 0xffff);
-        const REALV cu = cosine[u], su = sine[u], cv = cosine[v], sv = sine[v];
-        const REALV c_uv = cu * cv - su * sv, s_uv = su * cv + cu * sv;
-#if BY_POINT
-        SPREAD(c_uv, out + row, 2 * LANES);
-        SPREAD(s_uv, out + LANES + row, 2 * LANES);
+        REALV c, s;
+        entry_of(pair[j], leading, cosine, sine, &c, &s);
+        SPREAD(c, out + row, 2 * LANES);
+        SPREAD(s, out + LANES + row, 2 * LANES);
         if (++row == LANES) {
             row = 0;
             out += (ulong)pitch * 2 * LANES;
         }
+    }
 #else
 #if LANES > 1
-        if (which) {
-            block[2 * row] = c_uv;
-            block[2 * row + 1] = s_uv;
-            if (++row == LANES) {
-                transpose(block, out, 2 * LANES);
-                transpose(block + LANES, out + LANES, 2 * LANES);
-                row = 0;
-                out += (ulong)pitch * 2 * LANES;
-            }
-            continue;
+    if (which) {
+        __global REAL *out = trailing_table + slot * trailing_size + (ulong)k * 2 * width * LANES;
+        for (uint j = 0; j < count - ZERO_LAST; j += LANES / 2) {
+            REALV entries[LANES];
+#pragma unroll
+            for (uint l = 0; l < LANES / 2; l++)
+                entry_of(pair[column_at(j + l, count)], leading, cosine, sine, entries + 2 * l, entries + 2 * l + 1);
+            transpose(entries, out + j % LANES * 2, 2 * LANES);
+            out += j % LANES ? (ulong)pitch * 2 * LANES : 0;
         }
-#endif
-        STORE_ALIGNED(c_uv, out, 2 * LANES * row);
-        STORE_ALIGNED(s_uv, out, 2 * LANES * row + LANES);
-        if (++row == width) {
-            row = 0;
-            out += (ulong)pitch * 2 * width;
-        }
-#endif
+        return;
     }
-#if LANES > 1 && !BY_POINT
-    if (which && row > 0) {
-        for (uint i = 2 * row; i < 2 * LANES; i++)
-            block[i] = (REALV)0;
-        transpose(block, out, 2 * LANES);
-        transpose(block + LANES, out + LANES, 2 * LANES);
+#endif
+    __global REAL *out = (which ? trailing_table + slot * trailing_size : leading_table + slot * leading_size)
+        + (ulong)k * 2 * width;
+    for (uint j = 0; j < count; j += width) {
+#pragma unroll
+        for (uint row = 0; row < (LANES > 1 ? ROWS : width); row++) {
+            REALV c, s;
+            entry_of(pair[j + row < count ? j + row : count - 1], leading, cosine, sine, &c, &s);
+            STORE_ALIGNED(c, out, 2 * LANES * row);
+            STORE_ALIGNED(s, out, 2 * LANES * row + LANES);
+        }
+        out += (ulong)pitch * 2 * width;
     }
 #endif
 }

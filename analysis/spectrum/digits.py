@@ -14,6 +14,8 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from gbnbench.analysis.precision import padded
+
 Harmonics = int | tuple[int, ...]  # largest harmonic on every axis of a cube, or on each axis of a box
 
 TABLE_COST = 40  # multiply-adds for an entry of a table; a pair of entries takes 4
@@ -175,6 +177,39 @@ def even_division(axes: Axes) -> Division:
     return best[1]
 
 
+def zero_apart(count: int, columns: int) -> bool:
+    """Tell whether f = 0 of a trailing group would need a part of a block of its own, and is summed apart.
+
+    Parameters
+    ----------
+    count : int
+        Frequencies of the group's half space, f = 0 among them.
+    columns : int
+        Columns of the smallest part of a block.
+
+    Returns
+    -------
+    bool
+    """
+    return columns > 1 and count % columns == 1
+
+
+def multiplied_columns(count: int, columns: int) -> int:
+    """Count the columns that are multiplied for a trailing group.
+
+    Parameters
+    ----------
+    count, columns : int
+        As in ``zero_apart``.
+
+    Returns
+    -------
+    int
+        A multiple of ``columns``; 0 where f = 0 is all.
+    """
+    return count - 1 if zero_apart(count, columns) else padded(count, columns)
+
+
 @lru_cache(maxsize=256)
 def cheapest_division(d: int, fmax: Harmonics, rows: int, columns: int = 1) -> Division:
     """Find the division of a whole cube or box that a real matrix product evaluates at the least cost.
@@ -188,7 +223,7 @@ def cheapest_division(d: int, fmax: Harmonics, rows: int, columns: int = 1) -> D
     rows : int
         Rows of a register tile; the leading group is padded to a multiple of it.
     columns : int
-        The same for the trailing group.
+        Columns of the smallest part of a block, as in ``multiplied_columns``.
 
     Returns
     -------
@@ -203,7 +238,7 @@ def cheapest_division(d: int, fmax: Harmonics, rows: int, columns: int = 1) -> D
         for fine in {0, axis.largest, *(min(max(f, 0), axis.largest) for f in near)}:
             found = division(axes, at, fine)
             a, b = half_size(found.leading), half_size(found.trailing)
-            cost = 4 * (-(-a // rows) * rows) * (-(-b // columns) * columns) + TABLE_COST * (a + b)
+            cost = 4 * padded(a, rows) * multiplied_columns(b, columns) + TABLE_COST * (a + b)
             if best is None or cost < best[0]:
                 best = cost, found
     assert best is not None  # noqa: S101 - d is at least 1

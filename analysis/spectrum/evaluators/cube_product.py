@@ -6,7 +6,13 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from gbnbench.analysis.precision import Precision, padded
-from gbnbench.analysis.spectrum.digits import Harmonics, cheapest_division, each_axis, half_size
+from gbnbench.analysis.spectrum.digits import (
+    Harmonics,
+    cheapest_division,
+    each_axis,
+    half_size,
+    multiplied_columns,
+)
 from gbnbench.analysis.spectrum.error_model import Errors, coordinates, rounded_at_worst
 from gbnbench.analysis.spectrum.evaluators.device_evaluator import DeviceEvaluator
 from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
@@ -54,7 +60,7 @@ class CubeProduct(DeviceEvaluator):
         p, n = self.on_device, request.n
         divided = cheapest_division(request.d, request.largest, tile_rows(p), tile_columns(p))
         a, b = half_size(divided.leading), half_size(divided.trailing)
-        each = (TILE * padded(a, tile_rows(p)) * padded(b, tile_columns(p)) + ENTRY * (a + b)) * n
+        each = (TILE * padded(a, tile_rows(p)) * multiplied_columns(b, tile_columns(p)) + ENTRY * (a + b)) * n
         return request.realizations * float(each + WRITTEN * request.frequencies / 2)
 
     def cost(self, request: SpectrumRequest) -> EvaluationCost:

@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.analysis.precision import SUM_POINTS, Precision, padded
-from gbnbench.analysis.spectrum.digits import Axes, even_division, half_space, multiples
+from gbnbench.analysis.spectrum.digits import Axes, even_division, half_space, multiples, zero_apart
 from gbnbench.analysis.spectrum.evaluators.frequency_group import Group
-from gbnbench.analysis.spectrum.evaluators.point_slots import Slots, items_of, tile_rows
+from gbnbench.analysis.spectrum.evaluators.point_slots import Slots, items_of, tile_columns, tile_rows
 from gbnbench.core.errors import RefusalError
 from gbnbench.opencl import Program
 
@@ -64,6 +64,8 @@ class FrequencyTables:
         Frequencies in a tile of the leading and of the trailing table.
     tiles, columns : int
         Tiles of the leading table, and padded frequencies of the trailing one.
+    zero_last : bool
+        Whether the trailing frequency 0 stands behind the others, and is summed apart (product.cl).
     """
 
     def __init__(self, p: Precision, d: int, a: Group, b: Group) -> None:
@@ -71,6 +73,7 @@ class FrequencyTables:
         self.rows, self.width = tile_rows(p), p.runtime.group
         self.tiles = -(-a.count // self.rows)
         self.columns = padded(b.count, self.width * p.lanes)
+        self.zero_last = b.order is None and zero_apart(b.count, tile_columns(p))
         # A power of two from 64 on, so that one program serves nearly every request.
         self.entries = 1 << (max(64, self._describe()) - 1).bit_length()
 
@@ -147,6 +150,7 @@ class FrequencyTables:
             ROWS=self.rows,
             COLUMNS=self.width,
             ENTRIES=self.entries,
+            ZERO_LAST=int(self.zero_last and not folded),
             COMPENSATED=int(compensated),
             FOLDED=int(folded),
             BY_POINT=0,
@@ -156,7 +160,7 @@ class FrequencyTables:
 
     def program_by_point(self) -> Program:
         """Build the kernel of tables in the layout that spread.cl reads."""
-        return self.p.program("tables.cl", ENTRIES=self.entries, BY_POINT=1)
+        return self.p.program("tables.cl", ENTRIES=self.entries, ZERO_LAST=0, BY_POINT=1)
 
     def table_sizes(self, pitch: int) -> tuple[int, int]:
         """Count the numbers in a slot's leading and trailing table, of ``pitch`` points a tile."""

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from gbnbench.analysis.precision import padded
+from gbnbench.analysis.spectrum.digits import multiplied_columns
 from gbnbench.analysis.spectrum.evaluators.cube_writer import CubeWriter
 from gbnbench.analysis.spectrum.evaluators.point_slots import tile_columns
 from gbnbench.analysis.spectrum.evaluators.two_group_product import TwoGroupProduct
@@ -99,6 +99,6 @@ def is_small(product: TwoGroupProduct, sets: int) -> bool:
         True where its sets take one batch, and the work is little.
     """
     tables, slots = product.frequencies, product.slots
-    a, b = tables.tiles * tables.rows, padded(tables.b.count, tile_columns(product.p))
+    a, b = tables.tiles * tables.rows, multiplied_columns(tables.b.count, tile_columns(product.p))
     work = sets * product.n * (TILE * a * b + ENTRY * (a + b))
     return product.p.runtime.device.is_cpu and slots.sets >= sets and work <= MOST_WORK

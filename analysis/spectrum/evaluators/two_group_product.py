@@ -90,10 +90,6 @@ class TwoGroupProduct:
         self.amplitude_numbers = of_amplitudes // total
         self.nbytes = sum(of_tables) + of_amplitudes
         self.tables = p.runtime.empty(of_tables[0]), p.runtime.empty(of_tables[1])
-        if self.frequencies.a.count < rows:
-            # The last tile's rows beyond the last frequency are multiplied too: as numbers, not as whatever
-            # the memory held, since denormals take a processor a hundred cycles each.
-            p.runtime.clear(self.tables[0], of_tables[0])
         self.amplitude = p.runtime.empty(of_amplitudes)
         own_length = self.slots.length if p.runtime.device.is_cpu else None
         self.turns = TurnRows(p, min(sets, self.slots.sets), n, d, self.stride, own_length)

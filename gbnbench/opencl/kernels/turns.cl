@@ -14,7 +14,7 @@
 /* Signed turns as reals, rounded once. No CPU before AVX-512 converts vectors of 64-bit integers: the high
  * and the low half are put behind the exponents of 2^84 and 2^52, which leaves one rounding, that of their
  * sum. */
-#if DOUBLE && LANES > 1
+#if DOUBLE && LANES > 1 && LANES < 8
 INLINE REALV real_of_turn(STURNV t)
 {
     const TURNV high = (AS_TURNV(t) >> (TURN)32) ^ (TURN)0x4530000080000000;

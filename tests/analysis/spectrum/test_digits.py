@@ -17,8 +17,10 @@ from gbnbench.analysis.spectrum.digits import (
     half_size,
     half_space,
     multiples,
+    multiplied_columns,
     size,
     whole_axes,
+    zero_apart,
 )
 
 
@@ -95,6 +97,13 @@ def test_a_large_cube_is_divided_in_groups_of_like_size(d, fmax):
     for part in (found.leading, found.trailing):
         entries = even_division(part)
         assert half_size(entries.leading) + half_size(entries.trailing) <= 5 * math.sqrt(size(part))
+
+
+def test_columns_are_padded_to_parts_of_a_block_but_for_a_last_frequency_0():
+    assert [multiplied_columns(count, 4) for count in (1, 2, 4, 5, 6, 41, 42)] == [0, 4, 4, 4, 8, 40, 44]
+    assert [multiplied_columns(count, 1) for count in (1, 2, 41)] == [1, 2, 41]
+    assert [count for count in range(1, 20) if zero_apart(count, 8)] == [1, 9, 17]
+    assert not any(zero_apart(count, 1) for count in range(1, 20))
 
 
 def test_even_division_is_the_best_of_all():

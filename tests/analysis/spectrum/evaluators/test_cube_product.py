@@ -10,10 +10,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gbnbench.analysis.precision import Precision, precision_of
-from gbnbench.analysis.spectrum.digits import cheapest_division
+from gbnbench.analysis.spectrum.digits import cheapest_division, half_size, zero_apart
 from gbnbench.analysis.spectrum.evaluators import kept_memory, prepared_cube
 from gbnbench.analysis.spectrum.evaluators.cube_product import cube_powers
 from gbnbench.analysis.spectrum.evaluators.cube_writer import covered
+from gbnbench.analysis.spectrum.evaluators.point_slots import tile_columns, tile_rows
 from gbnbench.opencl import runtime
 from tests.analysis.spectrum.evaluators.cube_truth import UNIT, check
 from tests.devices import gpu_form
@@ -115,6 +116,25 @@ def test_every_form_of_the_kernels_agrees_with_the_truth(form, n, d, fmax):
     assert np.array_equal(half, power[fmax:])
     each, _ = cube_powers(p, x, fmax, weights, mean=False)
     assert np.allclose(each.mean(axis=0), power, rtol=1e-6 if p.sum is np.float32 else 1e-13)
+
+
+@pytest.mark.parametrize("form", ["gpu", "four lanes", "eight floats", "double", "float"])
+@pytest.mark.parametrize("points", [45, 5001])
+def test_frequency_zero_is_summed_apart_behind_whole_parts_of_blocks(form, points):
+    forms = {
+        "gpu": gpu_form,
+        "four lanes": lambda: Precision(runtime(), True, 4),
+        "eight floats": lambda: Precision(runtime(), False, 8),
+    }
+    p = forms[form]() if form in forms else precision_of(form)
+    part = tile_columns(p)
+    weights = np.random.default_rng(points).uniform(-1, 1, (2, points))
+    apart = 0
+    for d, fmax in ((1, 12), (2, 4), (2, 8), (3, 4), (4, 1), (4, 4), (8, 1)):
+        columns = half_size(cheapest_division(d, fmax, tile_rows(p), part).trailing)
+        apart += zero_apart(columns, part)
+        check(p, on_grid((2, points, d), fmax), fmax, weights)
+    assert apart >= (0 if part == 1 else 2)
 
 
 @settings(max_examples=15, deadline=None, derandomize=True)
