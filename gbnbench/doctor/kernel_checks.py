@@ -25,15 +25,13 @@ from gbnbench.analysis.spectrum.shell_spectrum import shells
 from gbnbench.core.torus import FloatArray, displacement
 from gbnbench.doctor.adaptive_sets import adaptive_gradient, sums_of_kernels, voids_of_farthest_points
 from gbnbench.doctor.check import Check
+from gbnbench.doctor.numpy_discrepancies import numpy_centred_square, numpy_periodic_square, numpy_star_square
 from gbnbench.doctor.numpy_references import (
     numpy_box_gradient,
-    numpy_centred_square,
     numpy_gaussians,
     numpy_gradient,
     numpy_pairs,
-    numpy_periodic_square,
     numpy_power,
-    numpy_star_square,
     numpy_swap_fault,
     numpy_turns,
     numpy_waves,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar, Literal
@@ -17,11 +16,10 @@ from gbnbench.generators.gauss_newton.modes import bound_coordinates
 from gbnbench.generators.gbn.batches import BATCH, optimise_in_batches
 from gbnbench.generators.gbn.box import fold
 from gbnbench.generators.gbn.energy_settings import EnergySettings
-from gbnbench.generators.gbn.minimisers import open_minimiser
+from gbnbench.generators.gbn.minimisers import first_step, open_minimiser
 from gbnbench.generators.gbn.optimiser import Descent
 from gbnbench.generators.gbn.pair_kernels import KernelName
 from gbnbench.generators.gbn.polish import empty_band
-from gbnbench.generators.gbn.step_sizes import authors_step
 from gbnbench.generators.monitor import Monitor
 from gbnbench.generators.protocol import Family
 from gbnbench.generators.ranges import check_least, check_range, raise_refusal
@@ -130,7 +128,7 @@ class GaussianBlueNoise:
             )
         if self.polish and self.domain == "box":
             raise InputError("polish empties a band of the torus; leave it out beside domain=box")
-        self._step(self.energy, 2, 2)  # each refuses settings that are wrong
+        first_step(self.step, self.energy, 2, 2)  # each refuses settings that are wrong
         if self.power != GaussianBlueNoise.power and self.kernel != "riesz":
             raise InputError(
                 f"power is that of kernel=riesz; got power={self.power:g} beside kernel={self.kernel}"
@@ -242,17 +240,4 @@ class GaussianBlueNoise:
         _, n, d = starts.shape
         settings = self.energy
         descent = bool(self.iterations) or self.method == "descent"
-        return open_minimiser(settings, starts, self._step(settings, n, d), self.excess, descent)
-
-    def _step(self, energy: EnergySettings, n: int, d: int) -> float:
-        if self.step == "auto":
-            return energy.first_step(n, d)
-        if self.step == "authors":
-            return authors_step(n, d)
-        try:
-            step = float(self.step)
-        except ValueError:
-            step = math.nan
-        if not (math.isfinite(step) and step > 0):
-            raise InputError(f"step must be auto, authors or a number above 0; got {self.step!r}")
-        return step
+        return open_minimiser(settings, starts, first_step(self.step, settings, n, d), self.excess, descent)

@@ -1,15 +1,52 @@
-"""The minimiser of an energy from given starts: the paper's descent, or Nesterov's method."""
+"""The minimiser of an energy from given starts, the paper's descent or Nesterov's, and its first step."""
 
 from __future__ import annotations
 
 import math
 
+from gbnbench.core.errors import InputError
 from gbnbench.core.torus import FloatArray
 from gbnbench.generators.gbn.energy_settings import EnergySettings
 from gbnbench.generators.gbn.kernel import energy_error, uniform_energy
 from gbnbench.generators.gbn.operation_counts import theta_at_0
 from gbnbench.generators.gbn.optimiser import PRECONDITION_ABOVE, Descent, Nesterov
 from gbnbench.generators.gbn.pair_kernels import SINGULAR
+from gbnbench.generators.gbn.step_sizes import authors_step
+
+
+def first_step(asked: str, settings: EnergySettings, n: int, d: int) -> float:
+    """Return the first step that the setting ``step`` of ``GaussianBlueNoise`` stands for.
+
+    Parameters
+    ----------
+    asked : str
+        "auto", "authors" or a number of squared spacings.
+    settings : EnergySettings
+        The energy.
+    n, d : int
+        Points and dimension.
+
+    Returns
+    -------
+    float
+        In squared spacings.
+
+    Raises
+    ------
+    InputError
+        If it is none of these, or the number is not above 0.
+    """
+    if asked == "auto":
+        return settings.first_step(n, d)
+    if asked == "authors":
+        return authors_step(n, d)
+    try:
+        step = float(asked)
+    except ValueError:
+        step = math.nan
+    if not (math.isfinite(step) and step > 0):
+        raise InputError(f"step must be auto, authors or a number above 0; got {asked!r}")
+    return step
 
 
 def open_minimiser(

@@ -13,6 +13,7 @@ from gbnbench.core import cache_folder
 from gbnbench.core.errors import DeviceError
 from gbnbench.doctor import examination, kernel_checks, numpy_references, trust
 from gbnbench.doctor.check import Check
+from gbnbench.doctor.numpy_discrepancies import numpy_centred_square, numpy_periodic_square, numpy_star_square
 from gbnbench.opencl import program
 from tests.oracles.discrepancy import squares
 from tests.oracles.power import direct_power
@@ -42,9 +43,9 @@ def test_its_numpy_twins_are_right_themselves():
 def test_its_discrepancies_are_those_of_exact_fractions():
     x = np.random.default_rng(2).random((9, 3))
     exact = squares(x)
-    assert numpy_references.numpy_centred_square(x) == pytest.approx(float(exact["CD"]), rel=1e-13)
-    assert numpy_references.numpy_star_square(x) == pytest.approx(float(exact["L2-star"]), rel=1e-12)
-    assert numpy_references.numpy_periodic_square(x) == pytest.approx(float(exact["L2-periodic"]), rel=1e-12)
+    assert numpy_centred_square(x) == pytest.approx(float(exact["CD"]), rel=1e-13)
+    assert numpy_star_square(x) == pytest.approx(float(exact["L2-star"]), rel=1e-12)
+    assert numpy_periodic_square(x) == pytest.approx(float(exact["L2-periodic"]), rel=1e-12)
 
 
 @pytest.mark.parametrize("form", ["centred", "star", "periodic"])
