@@ -42,6 +42,23 @@ def test_what_is_not_points_of_the_torus_is_refused_in_words(x, says):
     assert says in str(refusal.value).replace("np.float64(1.0)", "1.0")
 
 
+@given(
+    st.one_of(
+        st.floats(width=64),
+        st.sampled_from(
+            [0.0, -0.0, 5e-324, -5e-324, math.nextafter(1, 0), 1.0, math.inf, -math.inf, math.nan, -math.nan]
+        ),
+    )
+)
+def test_every_double_is_accepted_just_where_it_lies_from_0_up_to_1(value):
+    x = np.array([[0.5, value]])
+    if 0 <= value < 1:
+        assert check_points(x) is x
+        return
+    with pytest.raises(InputError):
+        check_points(x)
+
+
 @given(arrays(float, (4, 3), elements=st.floats(-1e6, 1e6)))
 def test_wrap_stays_below_one_and_moves_by_whole_turns(x):
     y = wrap(x)
