@@ -7,14 +7,6 @@
  * The output begins at the flat index `start` of the cube. Sets stand set_size numbers apart, or are added
  * up where set_size is 0.
  */
-#if COMPENSATED
-#define KEPT 2
-#else
-#define KEPT 1
-#endif
-
-#define ROW_SUMS (4 * LANES * KEPT)
-
 /* Where the four sums of row i and of frequency j of `columns` stand in a slot whose rows are `stride` columns long. */
 INLINE ulong place_of(const uint i, const uint frequency, const uint columns, const uint stride)
 {
@@ -30,6 +22,9 @@ INLINE ulong place_of(const uint i, const uint frequency, const uint columns, co
 /* One of the four sums, added up over slots. */
 INLINE SUM total_of(__global const SUM *at, const ulong slot_size, const uint splits)
 {
+#if COMPENSATED
+    at += 2 * LANES; /* the whole, behind its last part */
+#endif
     SUM total = at[0];
     for (uint s = 1; s < splits; s++)
         total += at[s * slot_size];

@@ -7,9 +7,9 @@
  * trailing one, of those within the two `bounds` of a row tile. LANES of these make a block, whose cosines and
  * sines alternate in two vectors. The rows' cosines and sines are single numbers, each multiplied with both
  * vectors, or with the first one alone where that holds all columns of the last block. SUM_POINTS points are
- * summed in registers, and these sums are added up in SUM before the next points. Where COMPENSATED, the rounding of the last additions is kept beside the sums.
+ * summed in registers, and these sums are added up (register_sums.cl) before the next points.
  * Rows are written out by macros, since an array of accumulators would lie in memory.
- * Layout of the sums: [slot][row tile][block][row][cos, sin of alpha][sum, rounding][column][cos, sin of beta];
+ * Layout of the sums: [slot][row tile][block][row][what register_sums.cl has of a row and a block];
  * that of tables stands in tables.cl.
  *
  * Where FOLDED, points are the nodes m = 0 .. M/2 of a grid, and a block has four vectors (spread.cl): the
@@ -34,13 +34,6 @@
 #define LOAD_SECOND const REALV e2 = LOADV(column, LANES), o2 = e2;
 #endif
 
-#if COMPENSATED
-#define KEPT 2
-#else
-#define KEPT 1
-#endif
-#define ROW_SUMS (4 * LANES * KEPT) /* numbers that a row and a block have */
-
 /* The sums of row r: of its cosine (c) and sine (s) with the first and the second vector. */
 #define CLEAR(r) REALV c1##r = (REALV)0, s1##r = (REALV)0, c2##r = (REALV)0, s2##r = (REALV)0;
 #define BY_FIRST(r)                                                                              \
@@ -58,107 +51,27 @@
         s2##r += s * o2;                                                                         \
     }
 #define ADD_FIRST(r)                                                                             \
-    add_up(c1##r, at + r * ROW_SUMS, started);                                                   \
-    add_up(s1##r, at + r * ROW_SUMS + ROW_SUMS / 2, started);
+    add_up(c1##r, at + r * ROW_SUMS, started, whole);                                            \
+    add_up(s1##r, at + r * ROW_SUMS + ROW_SUMS / 2, started, whole);
 #define ADD_SECOND(r)                                                                            \
-    add_up(c2##r, at + r * ROW_SUMS + LANES, started);                                           \
-    add_up(s2##r, at + r * ROW_SUMS + ROW_SUMS / 2 + LANES, started);
-
-/* Vectors of SUM, SUM_LANES wide: in float a vector makes two or four of double. */
-#if SUM_LANES == 1
-#define SUMS SUM
-#define LOAD_SUMS(p) ((p)[0])
-#else
-#define SUMS JOIN(SUM, SUM_LANES)
-#if SUM_LANES == 2
-#define LOAD_SUMS(p) ((SUMS)(TWO_OF(p, 0)))
-#elif SUM_LANES == 4
-#define LOAD_SUMS(p) ((SUMS)(FOUR_OF(p, 0)))
-#elif SUM_LANES == 8
-#define LOAD_SUMS(p) ((SUMS)(EIGHT_OF(p, 0)))
-#else
-#define LOAD_SUMS(p) ((SUMS)(COMPONENTS(p, 0)))
-#endif
-#endif
-#define STORE_SUMS(v, p) (*(__global SUMS *)(p) = (v)) /* sums stand at multiples of a vector */
-#define TO_SUMS JOIN(convert_, SUMS)
-
-INLINE void add_part(const SUMS value, __global SUM *at, const uint started)
-{
-#if COMPENSATED
-    const SUMS none = (SUMS)0;
-    const SUMS old = started ? LOAD_SUMS(at) : none, rest = started ? LOAD_SUMS(at + 2 * LANES) : none;
-    const SUMS sum = old + value;
-    const SUMS part = sum - old;
-    const SUMS left = rest + ((old - (sum - part)) + (value - part));
-    STORE_SUMS(sum, at);
-    STORE_SUMS(left, at + 2 * LANES);
-#else
-    const SUMS sum = started ? LOAD_SUMS(at) + value : value;
-    STORE_SUMS(sum, at);
-#endif
-}
-
-INLINE void add_up(const REALV value, __global SUM *at, const uint started)
-{
-#if LANES == SUM_LANES
-    add_part(TO_SUMS(value), at, started);
-#elif LANES == 2 * SUM_LANES
-    add_part(TO_SUMS(value.lo), at, started);
-    add_part(TO_SUMS(value.hi), at + SUM_LANES, started);
-#else
-    add_part(TO_SUMS(value.lo.lo), at, started);
-    add_part(TO_SUMS(value.lo.hi), at + SUM_LANES, started);
-    add_part(TO_SUMS(value.hi.lo), at + 2 * SUM_LANES, started);
-    add_part(TO_SUMS(value.hi.hi), at + 3 * SUM_LANES, started);
-#endif
-}
+    add_up(c2##r, at + r * ROW_SUMS + LANES, started, whole);                                    \
+    add_up(s2##r, at + r * ROW_SUMS + ROW_SUMS / 2 + LANES, started, whole);
 
 #if ZERO_LAST
 /* The frequency 0 of the trailing group has the cosine 1 and the sine 0, so that its sums are those of the rows
  * themselves. Where it stands alone behind the last whole or half block, vectors of points are added up. */
 #define ZERO_APART(left) ((left) == 1 || (left) == LANES / 2 + 1)
-#define HALVED(type, v) (JOIN(convert_, type)((v).lo) + JOIN(convert_, type)((v).hi))
-
-INLINE SUM lanes_summed(const REALV v)
-{
-#if LANES == 4
-    const JOIN(SUM, 2) two = HALVED(JOIN(SUM, 2), v);
-#else
-#if LANES == 8
-    const JOIN(SUM, 4) four = HALVED(JOIN(SUM, 4), v);
-#else
-    const JOIN(SUM, 8) eight = HALVED(JOIN(SUM, 8), v);
-    const JOIN(SUM, 4) four = eight.lo + eight.hi;
-#endif
-    const JOIN(SUM, 2) two = four.lo + four.hi;
-#endif
-    return two.s0 + two.s1;
-}
-
-INLINE void add_zero(const SUM cosines, __global SUM *at, const uint started)
-{
-    const SUM old = started ? at[0] : 0, sum = old + cosines;
-    at[0] = sum;
-    at[1] = 0;
-#if COMPENSATED
-    const SUM part = sum - old, rest = started ? at[2 * LANES] : 0;
-    at[2 * LANES] = rest + ((old - (sum - part)) + (cosines - part));
-    at[2 * LANES + 1] = 0;
-#endif
-}
-
 #define CLEAR_TOTAL(r) REALV tc##r = (REALV)0, ts##r = (REALV)0;
 #define TOTAL(r)                                                                                 \
     tc##r += LOADV(points, 2 * LANES * r);                                                       \
     ts##r += LOADV(points, 2 * LANES * r + LANES);
 #define ADD_TOTAL(r)                                                                             \
-    add_zero(lanes_summed(tc##r), at + r * ROW_SUMS, started);                                   \
-    add_zero(lanes_summed(ts##r), at + r * ROW_SUMS + ROW_SUMS / 2, started);
+    add_zero(lanes_summed(tc##r), at + r * ROW_SUMS, started, whole);                            \
+    add_zero(lanes_summed(ts##r), at + r * ROW_SUMS + ROW_SUMS / 2, started, whole);
 
 /* The sums with the frequency 0 over the points begin .. end of a row tile. */
 INLINE void add_totals(__global const REAL *restrict points, const uint begin, const uint end,
-                       __global SUM *at, const uint started)
+                       __global SUM *at, const uint started, const uint whole)
 {
     EACH_ROW(CLEAR_TOTAL)
     for (uint k = begin; k < end; k += LANES) {
@@ -171,7 +84,7 @@ INLINE void add_totals(__global const REAL *restrict points, const uint begin, c
 
 /* SUM_POINTS points of a block or what is left of them, LANES of which stand side by side in the rows' table. */
 #define EACH_POINT(LOADS, MULTIPLY)                                                              \
-    for (uint k = begin; k < end; k += LANES) {                                                           \
+    for (uint k = begin; k < end; k += LANES) {                                                  \
         for (uint l = 0; l < LANES; l++) {                                                       \
             LOADS                                                                                \
             EACH_ROW(MULTIPLY)                                                                   \
@@ -182,12 +95,12 @@ INLINE void add_totals(__global const REAL *restrict points, const uint begin, c
     }
 
 /* The columns from .. to of a row tile, from a whole block on, at `length` points of a slot. Points of a tile stand
- * `pitch` apart from those of the next tile. */
+ * `pitch` apart from those of the next tile. Of `all` register sums that a slot will have it has `done`. */
 INLINE void multiply(__global const REAL *restrict leading, const ulong leading_size,
                      __global const REAL *restrict trailing, const ulong trailing_size, const uint pitch,
                      const uint length, const uint columns, __global SUM *restrict sums,
-                     const uint again, const uint tiles, const uint tile, const ulong slot, const uint from,
-                     const uint to)
+                     const uint done, const uint all, const uint tiles, const uint tile, const ulong slot,
+                     const uint from, const uint to)
 {
     __global const REAL *row_tile = leading + slot * leading_size + (ulong)tile * pitch * (2 * ROWS);
     __global const REAL *columns_of_slot = trailing + slot * trailing_size;
@@ -198,11 +111,18 @@ INLINE void multiply(__global const REAL *restrict leading, const ulong leading_
             + (ulong)(block / COLUMNS) * pitch * (PARTS * COLUMNS * LANES) + block % COLUMNS * (PARTS * LANES);
         __global SUM *at = out + (ulong)block * (ROWS * ROW_SUMS);
         for (uint begin = 0; begin < length; begin += SUM_POINTS) {
-            const uint end = length - begin < SUM_POINTS ? length : begin + SUM_POINTS, started = again || begin > 0;
+            const uint end = length - begin < SUM_POINTS ? length : begin + SUM_POINTS;
+            const uint before = done + begin / SUM_POINTS;
+#if COMPENSATED
+            const uint started = before % PART_SUMS, ends = started + 1 == PART_SUMS || before + 1 == all;
+            const uint whole = ends ? 1 + (before >= PART_SUMS) : 0;
+#else
+            const uint started = before, whole = 0;
+#endif
 #if ZERO_LAST
             const uint left = to - block * LANES;
             if (ZERO_APART(left))
-                add_totals(row_tile + (ulong)begin * (2 * ROWS), begin, end, at + 2 * (left - 1), started);
+                add_totals(row_tile + (ulong)begin * (2 * ROWS), begin, end, at + 2 * (left - 1), started, whole);
             if (left == 1) continue;
 #endif
             EACH_ROW(CLEAR)
@@ -223,7 +143,7 @@ INLINE void multiply(__global const REAL *restrict leading, const ulong leading_
 __kernel void product(__global const REAL *restrict leading, const ulong leading_size,
                       __global const REAL *restrict trailing, const ulong trailing_size, const uint pitch,
                       const uint length, __global const uint *bounds, const uint tiles, const uint tiles_each,
-                      const uint columns, const uint each, __global SUM *restrict sums, const uint again)
+                      const uint columns, const uint each, __global SUM *restrict sums, const uint done, const uint all)
 {
 #if COLUMNS == 1 /* one work-item after another takes the same columns, which then stay in cache */
     const uint item = get_global_id(0), first = get_global_id(1) * each;
@@ -234,7 +154,7 @@ __kernel void product(__global const REAL *restrict leading, const ulong leading
     for (uint tile = item * tiles_each; tile < last; tile++) {
         const uint from = first < bounds[2 * tile] ? bounds[2 * tile] : first;
         const uint to = first + each > bounds[2 * tile + 1] ? bounds[2 * tile + 1] : first + each;
-        multiply(leading, leading_size, trailing, trailing_size, pitch, length, columns, sums, again, tiles, tile,
+        multiply(leading, leading_size, trailing, trailing_size, pitch, length, columns, sums, done, all, tiles, tile,
                  get_global_id(2), from, to);
     }
 }

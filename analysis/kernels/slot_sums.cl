@@ -12,7 +12,7 @@ INLINE void sum_slot(__global const ulong *x, const uint n, __global TURN *turns
                      const uint splits, const uint runs, __global const uint *bounds, const uint tiles,
                      const uint columns, const uint columns_each, __global SUM *sums, const uint slot)
 {
-    const uint set = slot / splits;
+    const uint set = slot / splits, of_a_run = (length + SUM_POINTS - 1) / SUM_POINTS;
     for (uint run = 0; run < runs; run++) {
         const uint item = run * splits + slot % splits;
         write_turns(x + (ulong)set * n * dim, n, dim, item * length, (item + 1) * length, stride,
@@ -25,7 +25,8 @@ INLINE void sum_slot(__global const ulong *x, const uint n, __global TURN *turns
             for (uint tile = 0; tile < tiles; tile++) {
                 const uint last = first + columns_each, low = bounds[2 * tile], high = bounds[2 * tile + 1];
                 multiply(leading, 0, trailing, 0, pitch, length, columns,
-                         sums + (ulong)slot * tiles * columns * (ROWS * ROW_SUMS / LANES), run > 0, tiles, tile, 0,
+                         sums + (ulong)slot * tiles * columns * (ROWS * ROW_SUMS / LANES),
+                         run * of_a_run, runs * of_a_run, tiles, tile, 0,
                          first < low ? low : first, last > high ? high : last);
             }
         }

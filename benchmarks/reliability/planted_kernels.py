@@ -36,11 +36,17 @@ class Plant:
 
 PLANTS = {
     "a sign in the product": Plant("product.cl", "c2##r += c * e2;", "c2##r -= c * e2;", "two-group product"),
+    "a mean left out of frequency 0": Plant(
+        "product.cl", "tc##r += LOADV", "tc##r = LOADV", "two-group product"
+    ),
+    "a part that takes the place of the whole": Plant(
+        "register_sums.cl", "SUMS sum = old + part", "SUMS sum = part", "two-group product"
+    ),
     "a square subtracted": Plant(
         "power.cl", "(cc - ss) * (cc - ss) + ", "(cc - ss) * (cc - ss) - ", "two-group product"
     ),
     "a table's angle": Plant(
-        "tables.cl", "s_uv = su * cv + cu * sv", "s_uv = su * cv - cu * sv", "two-group product"
+        "tables.cl", "*s = su * cv + cu * sv", "*s = su * cv - cu * sv", "two-group product"
     ),
     "a sine for a cosine": Plant("selected.cl", "sines += w * s;", "sines += w * c;", "listed frequencies"),
     "a point left out": Plant(

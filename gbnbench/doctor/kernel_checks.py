@@ -14,11 +14,12 @@ from numpy.typing import NDArray
 
 from gbnbench.analysis.integration.integrands.gaussians import GaussianSum
 from gbnbench.analysis.integration.integrands.waves import WaveSum
-from gbnbench.analysis.precision import PrecisionName, padded, precision_of
+from gbnbench.analysis.precision import SUM_POINTS, PrecisionName, padded, precision_of
 from gbnbench.analysis.spatial.discrepancy import discrepancies
 from gbnbench.analysis.spatial.pair_counts import pair_counts
 from gbnbench.analysis.spectrum.evaluators.gridded.product import griddable
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import AXES
+from gbnbench.analysis.spectrum.evaluators.point_slots import COMPENSATED_FROM
 from gbnbench.analysis.spectrum.evaluators.turn_rows import TurnRows
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.shell_spectrum import shells
@@ -109,6 +110,12 @@ def _exact(n: int, d: int, fmax: int) -> tuple[FloatArray, IntArray, FloatArray]
     base = 2 * fmax + 1
     f = np.stack(np.unravel_index(np.arange(base**d), (base,) * d), axis=1).astype(np.int64) - fmax
     return x, f, np.sqrt(numpy_power(x, f))
+
+
+def _many_points() -> int:
+    """Count points so many that on a CPU the product keeps the rounding of its sums (register_sums.cl)."""
+    cores = choose().compute_units if choose().is_cpu else 1
+    return SUM_POINTS * (COMPENSATED_FROM + 1) * cores + 5
 
 
 def _turns(n: int, d: int, precision: PrecisionName) -> Iterator[Check]:
@@ -213,7 +220,7 @@ def planned_checks(quick: bool, device: Device) -> list[tuple[KernelChecks, tupl
         ``function(*case, precision)`` yields checks.
     """
     planned: list[tuple[KernelChecks, tuple[float, ...], str]] = []
-    cubes = QUICK_PERIODOGRAMS if quick else PERIODOGRAMS
+    cubes = (*(QUICK_PERIODOGRAMS if quick else PERIODOGRAMS), (_many_points(), 1, 7))
     for precision in [p for p in ("double", "float") if (p == "float" or device.has_double)]:
         work: list[tuple[KernelChecks, tuple[float, ...]]] = [
             *((_periodogram, case) for case in cubes),

@@ -7,7 +7,6 @@ tables.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any
 
@@ -16,34 +15,21 @@ from numpy.typing import NDArray
 
 from gbnbench.analysis.precision import SUM_POINTS, Precision, padded
 from gbnbench.analysis.spectrum.digits import Axes, even_division, half_space, multiples, zero_apart
+from gbnbench.analysis.spectrum.evaluators.device_points import DevicePoints
 from gbnbench.analysis.spectrum.evaluators.frequency_group import Group
-from gbnbench.analysis.spectrum.evaluators.point_slots import Slots, items_of, tile_columns, tile_rows
+from gbnbench.analysis.spectrum.evaluators.point_slots import (
+    PART_SUMS,
+    Slots,
+    items_of,
+    tile_columns,
+    tile_rows,
+)
 from gbnbench.core.errors import RefusalError
 from gbnbench.opencl import Program
 
 MOST_ENTRIES = 1 << 15  # table entries for one point, of the two smaller tables of a group
 DIGITS_GROUP = 64  # frequencies that a work-group decodes
 ITEM_VECTORS = 16  # vectors of points that a work-item of a CPU tabulates at most; its start takes as long
-
-
-@dataclass(frozen=True)
-class DevicePoints:
-    """A batch of point sets on the device.
-
-    Attributes
-    ----------
-    turns, weight : buffer
-        Fixed-point coordinates, and weights, which are 0 beyond the last point.
-    stride : int
-        Numbers from one coordinate of a set to the next.
-    weight_stride : int
-        Numbers from one set's weights to the next set's; 0 where all sets share them.
-    """
-
-    turns: Any
-    weight: Any
-    stride: int
-    weight_stride: int
 
 
 class FrequencyTables:
@@ -146,7 +132,7 @@ class FrequencyTables:
         """
         small = () if folded or self.width > 1 else ("turn_rows.cl", "slot_sums.cl", "small_cube.cl")
         return self.p.program(
-            *("tables.cl", "product.cl", "power.cl", *small),
+            *("tables.cl", "register_sums.cl", "product.cl", "power.cl", *small),
             ROWS=self.rows,
             COLUMNS=self.width,
             ENTRIES=self.entries,
@@ -155,6 +141,7 @@ class FrequencyTables:
             FOLDED=int(folded),
             BY_POINT=0,
             SUM_POINTS=SUM_POINTS,
+            PART_SUMS=PART_SUMS,
             SUM_LANES=self.p.sum_lanes,
         )
 

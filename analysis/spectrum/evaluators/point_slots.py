@@ -14,9 +14,9 @@ from gbnbench.analysis.precision import SUM_POINTS, Precision, padded
 
 TABLE_BYTES = 4 << 20  # of both groups' tables of a slot, which then stay in cache
 OWN_POINTS = 128  # points whose tables a core makes and multiplies at once: they stay in its second cache
-MORE_POINTS, LARGE_SUMS = 256, 1 << 20  # as many where the sums of a slot take more bytes than that cache has
+MORE_POINTS, LARGE_SUMS = 256, 3 << 19  # as many where the sums of a slot take more bytes than that cache has
 OWN_COLUMNS = 512 << 10  # bytes of its trailing tables that all rows are multiplied with before the next
-OWN_BATCH = 8 << 20  # bytes of the sums of a batch of such slots
+OWN_BATCH = 12 << 20  # bytes of the sums of a batch of such slots
 SMALL = 1 << 18  # pairs of frequencies times points that one core takes alone
 LAUNCH_POINTS = 512  # points of a slot whose tables are made first, at least, where there are so many
 AMPLITUDE_BYTES = 256 << 20  # of the amplitudes of a batch, or of the rows of one pass over the points
@@ -24,6 +24,10 @@ LEAST_ITEMS = 4  # work-items for each core of a CPU at least, so that all cores
 GPU_ITEMS = 256  # the same for each multiprocessor of a GPU
 WIDE = 64  # bytes of a vector of AVX-512, of which there are 32 registers, twice as many as of narrower ones
 COMPENSATED_FROM = 32  # the rounding of a slot's sums is kept if it adds up more register sums than this
+PART_SUMS = 8  # register sums that are then added up plainly, before the rounding of what they make is kept
+PAIR_SUMS = (
+    12  # numbers that a pair of frequencies then has: four sums, each a part, a whole and its rounding
+)
 
 
 @dataclass(frozen=True)
@@ -122,7 +126,7 @@ def choose_slots(p: Precision, n: int, sets: int, rows: int, columns: int) -> Sl
     chunk = LAUNCH_POINTS
     room = max(chunk, TABLE_BYTES // ((rows + columns) * 2 * np.dtype(p.real).itemsize) // chunk * chunk)
     whole = padded(n, p.lanes)
-    amplitudes = rows * columns * 8 * np.dtype(p.sum).itemsize
+    amplitudes = rows * columns * PAIR_SUMS * np.dtype(p.sum).itemsize
     batch = max(1, min(sets, room // whole, AMPLITUDE_BYTES // amplitudes))
     tiles = rows // tile_rows(p) * columns
     splits = min(-(-items_of(p) // (tiles * batch)), -(-whole // chunk))
@@ -133,7 +137,7 @@ def choose_slots(p: Precision, n: int, sets: int, rows: int, columns: int) -> Sl
 
 def _own_slots(p: Precision, n: int, sets: int, rows: int, columns: int) -> Slots | None:
     """Choose slots that are one core's each, or None where there are too few points for all cores."""
-    cores, sums = p.runtime.device.compute_units, rows * columns * 8 * np.dtype(p.sum).itemsize
+    cores, sums = p.runtime.device.compute_units, rows * columns * PAIR_SUMS * np.dtype(p.sum).itemsize
     splits = min(-(-cores // sets), max(1, n // OWN_POINTS))
     if (splits * sets < cores and rows * columns * n > SMALL) or sums > OWN_BATCH:
         return None

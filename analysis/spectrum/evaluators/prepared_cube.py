@@ -13,7 +13,13 @@ from gbnbench.analysis.spectrum.digits import Division, Harmonics, cheapest_divi
 from gbnbench.analysis.spectrum.error_model import NOT_ROUNDED, Coordinates
 from gbnbench.analysis.spectrum.evaluators.cube_writer import CubeWriter
 from gbnbench.analysis.spectrum.evaluators.frequency_group import Group
-from gbnbench.analysis.spectrum.evaluators.point_slots import AMPLITUDE_BYTES, Slots, tile_columns, tile_rows
+from gbnbench.analysis.spectrum.evaluators.point_slots import (
+    AMPLITUDE_BYTES,
+    PAIR_SUMS,
+    Slots,
+    tile_columns,
+    tile_rows,
+)
 from gbnbench.analysis.spectrum.evaluators.small_cube import SmallCube, is_small
 from gbnbench.analysis.spectrum.evaluators.two_group_product import TwoGroupProduct, norms_of
 from gbnbench.core.torus import FloatArray
@@ -130,7 +136,7 @@ def most_rows(p: Precision, divided: Division) -> int:
     int
         One tile of them or more.
     """
-    of_a_row = 8 * np.dtype(p.sum).itemsize * half_size(divided.trailing)
+    of_a_row = PAIR_SUMS * np.dtype(p.sum).itemsize * half_size(divided.trailing)
     return max(tile_rows(p), AMPLITUDE_BYTES // of_a_row // tile_rows(p) * tile_rows(p))
 
 

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from gbnbench.analysis.precision import padded
-from gbnbench.analysis.spectrum.evaluators.frequency_tables import DevicePoints, FrequencyTables
+from gbnbench.analysis.spectrum.evaluators.device_points import DevicePoints
+from gbnbench.analysis.spectrum.evaluators.frequency_tables import FrequencyTables
 from gbnbench.analysis.spectrum.evaluators.point_slots import OWN_COLUMNS, Slots
 from gbnbench.analysis.spectrum.evaluators.turn_rows import TurnRows
 from gbnbench.opencl import Program, RepeatedLaunch

@@ -24,7 +24,8 @@ def multiply(
     slots: int,
     bounds: Any,
     amplitude: Any,
-    again: bool = False,
+    done: int = 0,
+    all_sums: int = 1,
 ) -> None:
     """Sum the products of both tables over their points.
 
@@ -46,8 +47,10 @@ def multiply(
         First and end of the columns that each row tile takes, such as ``FrequencyTables.all_columns``.
     amplitude : buffer
         Amplitudes, which are written.
-    again : bool
-        Add to the amplitudes that are there.
+    done : int
+        Register sums that the amplitudes hold, to which these are added.
+    all_sums : int
+        Those that they will hold at the end; what is kept apart of compensated sums is then put together.
     """
     p, width, tiles = frequencies.p, frequencies.width, frequencies.tiles
     tiles_each = each = 1
@@ -76,5 +79,6 @@ def multiply(
         np.uint32(frequencies.columns),
         np.uint32(each),
         amplitude,
-        np.uint32(again),
+        np.uint32(done),
+        np.uint32(all_sums),
     )

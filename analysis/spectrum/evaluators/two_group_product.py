@@ -16,13 +16,19 @@ from numpy.typing import NDArray
 
 from gbnbench.analysis.precision import SUM_POINTS, Precision, padded
 from gbnbench.analysis.spectrum.error_model import NOT_ROUNDED, Coordinates, Errors, sum_errors
+from gbnbench.analysis.spectrum.evaluators.device_points import DevicePoints
 from gbnbench.analysis.spectrum.evaluators.frequency_group import Group
 from gbnbench.analysis.spectrum.evaluators.frequency_tables import (
-    DevicePoints,
     FrequencyTables,
     whole_group_tables,
 )
-from gbnbench.analysis.spectrum.evaluators.point_slots import COMPENSATED_FROM, Slots, choose_slots
+from gbnbench.analysis.spectrum.evaluators.point_slots import (
+    COMPENSATED_FROM,
+    PAIR_SUMS,
+    PART_SUMS,
+    Slots,
+    choose_slots,
+)
 from gbnbench.analysis.spectrum.evaluators.slot_sums import SlotSums
 from gbnbench.analysis.spectrum.evaluators.table_product import multiply
 from gbnbench.analysis.spectrum.evaluators.turn_rows import TurnRows
@@ -86,7 +92,7 @@ class TwoGroupProduct:
         self.sizes = self.frequencies.table_sizes(self.slots.pitch)
         real, total = np.dtype(p.real).itemsize, np.dtype(p.sum).itemsize
         of_tables = [size * (self.slots.items or self.slots.count) * real for size in self.sizes]
-        of_amplitudes = self.slots.count * rows * columns * (8 if compensated else 4) * total
+        of_amplitudes = self.slots.count * rows * columns * (PAIR_SUMS if compensated else 4) * total
         self.amplitude_numbers = of_amplitudes // total
         self.nbytes = sum(of_tables) + of_amplitudes
         self.tables = p.runtime.empty(of_tables[0]), p.runtime.empty(of_tables[1])
@@ -134,7 +140,7 @@ class TwoGroupProduct:
                     self.frequencies.tabulate(
                         *(self.program, (0, 2), points, self.tables, slots), self.sizes, count, begin
                     )
-                    self.multiply(count, again=begin > 0)
+                    self.multiply(count, done=slots.sums(begin), all_sums=slots.sums(self.n))
             yield first, count
             self.p.runtime.finish()  # before the next points take the place of these, or nothing holds them
             if weights is None:
@@ -168,15 +174,15 @@ class TwoGroupProduct:
         padded_weights[:, : self.n] = weights
         return self.p.runtime.upload(padded_weights)
 
-    def multiply(self, sets: int, again: bool = False) -> None:
+    def multiply(self, sets: int, done: int = 0, all_sums: int = 1) -> None:
         """Multiply the tables of a batch.
 
         Parameters
         ----------
         sets : int
             Sets of the batch.
-        again : bool
-            Add to the amplitudes of the points before.
+        done, all_sums : int
+            Register sums of a slot that there are, and that there will be.
         """
         multiply(
             *(
@@ -190,7 +196,8 @@ class TwoGroupProduct:
             ),
             bounds=self._bounds,
             amplitude=self.amplitude,
-            again=again,
+            done=done,
+            all_sums=all_sums,
         )
 
 
@@ -216,7 +223,7 @@ def product_errors(p: Precision, n: int, slots: Slots, fmax: int, at: Coordinate
     Errors
     """
     sums = slots.sums(n)
-    beyond = (2 if sums > COMPENSATED_FROM else sums) + slots.splits
+    beyond = (PART_SUMS + 2 if sums > COMPENSATED_FROM else sums) + slots.splits
     in_registers = min(SUM_POINTS, slots.length, n)  # points beyond the last weigh nothing and round nothing
     return sum_errors(p.name, "double" if p.sum is np.float64 else "float", at, fmax, 3, in_registers, beyond)
 

@@ -9,7 +9,8 @@ import numpy as np
 
 from gbnbench.analysis.precision import Precision, padded
 from gbnbench.analysis.spectrum.digits import whole_axes
-from gbnbench.analysis.spectrum.evaluators.frequency_tables import DevicePoints, whole_group_tables
+from gbnbench.analysis.spectrum.evaluators.device_points import DevicePoints
+from gbnbench.analysis.spectrum.evaluators.frequency_tables import whole_group_tables
 from gbnbench.analysis.spectrum.evaluators.gridded.cells import SortedPoints
 from gbnbench.analysis.spectrum.evaluators.gridded.node_tables import node_table
 from gbnbench.analysis.spectrum.evaluators.kaiser_bessel import Window, nodes_for, window
