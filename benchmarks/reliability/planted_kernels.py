@@ -36,11 +36,14 @@ class Plant:
 
 PLANTS = {
     "a sign in the product": Plant("product.cl", "c2##r += c * e2;", "c2##r -= c * e2;", "two-group product"),
-    "a mean left out of frequency 0": Plant(
+    "sums of frequency 0 that forget": Plant(
         "product.cl", "tc##r += LOADV", "tc##r = LOADV", "two-group product"
     ),
-    "a part that takes the place of the whole": Plant(
-        "register_sums.cl", "SUMS sum = old + part", "SUMS sum = part", "two-group product"
+    "a whole that forgets its parts": Plant(
+        "register_sums.cl",
+        "old = whole > 1 ? LOAD_SUMS",
+        "old = whole > 2 ? LOAD_SUMS",
+        "two-group product",
     ),
     "a square subtracted": Plant(
         "power.cl", "(cc - ss) * (cc - ss) + ", "(cc - ss) * (cc - ss) - ", "two-group product"

@@ -220,7 +220,7 @@ def planned_checks(quick: bool, device: Device) -> list[tuple[KernelChecks, tupl
         ``function(*case, precision)`` yields checks.
     """
     planned: list[tuple[KernelChecks, tuple[float, ...], str]] = []
-    cubes = (*(QUICK_PERIODOGRAMS if quick else PERIODOGRAMS), (_many_points(), 1, 7))
+    cubes = (*(QUICK_PERIODOGRAMS if quick else PERIODOGRAMS), (_many_points(), 2, 2))
     for precision in [p for p in ("double", "float") if (p == "float" or device.has_double)]:
         work: list[tuple[KernelChecks, tuple[float, ...]]] = [
             *((_periodogram, case) for case in cubes),
