@@ -7,14 +7,9 @@
  * The output begins at the flat index `start` of the cube. Sets stand set_size numbers apart, or are added
  * up where set_size is 0.
  */
-/* Where the four sums of row i and of frequency j of `columns` stand in a slot whose rows are `stride` columns long. */
-INLINE ulong place_of(const uint i, const uint frequency, const uint columns, const uint stride)
+/* Where the four sums of row i and column j stand in a slot whose rows are `stride` columns long. */
+INLINE ulong place_of(const uint i, const uint j, const uint stride)
 {
-#if ZERO_LAST
-    const uint j = frequency ? frequency - 1 : columns - 1;
-#else
-    const uint j = frequency;
-#endif
     return ((ulong)(i / ROWS) * stride + j / LANES * LANES) * (ROWS * ROW_SUMS / LANES) + i % ROWS * ROW_SUMS
         + 2 * (j % LANES);
 }
@@ -48,10 +43,10 @@ INLINE void two_powers(__global const SUM *at, const ulong slot_size, const uint
     *opposite = ((cc + ss) * (cc + ss) + (sc - cs) * (sc - cs)) / norm;
 }
 
-/* The columns first .. end of a row, of all sets. */
+/* The frequencies first .. end of a row, of all sets; where `zero_last`, 0 has the last column (product.cl). */
 INLINE void write_power(__global const SUM *sums, const uint half_rows, const uint first_row,
-                        const uint rows, const uint columns, const uint stride, const uint splits,
-                        const uint sets, __global const SUM *norm, __global const SUM *gain,
+                        const uint rows, const uint columns, const uint zero_last, const uint stride,
+                        const uint splits, const uint sets, __global const SUM *norm, __global const SUM *gain,
                         const uint first_set, __global SUM *out, const ulong start, const ulong set_size,
                         const uint i, const uint first, const uint end)
 {
@@ -66,7 +61,8 @@ INLINE void write_power(__global const SUM *sums, const uint half_rows, const ui
         const SUM scale = norm[first_set + s] * gain[first_row + i];
         for (uint j = first; j < end; j++) {
             SUM same, opposite;
-            two_powers(of_set + place_of(i, j, columns, stride), slot_size, splits, scale, &same, &opposite);
+            const uint column = !zero_last ? j : j ? j - 1 : columns - 1;
+            two_powers(of_set + place_of(i, column, stride), slot_size, splits, scale, &same, &opposite);
             const ulong plus = centre + j, minus = centre - j;
             const SUM there = same + (add ? to[plus - start] : 0);
             const SUM here = opposite + (add ? to[(minus < start ? last - minus : minus) - start] : 0);
@@ -80,14 +76,15 @@ INLINE void write_power(__global const SUM *sums, const uint half_rows, const ui
 
 __kernel void cube_power(__global const SUM *sums, __global const SUM *norm, const uint splits, const uint sets,
                          const uint first_set, const uint half_rows, const uint first_row, const uint rows,
-                         const uint rows_each, const uint columns, const uint stride, const uint each,
+                         const uint rows_each, const uint columns, const uint zero_last, const uint stride,
+                         const uint each,
                          __global const SUM *gain, __global SUM *out, const ulong start, const ulong set_size)
 {
     const uint begin = get_global_id(1) * rows_each, first = get_global_id(0) * each;
     const uint end = first + each < columns ? first + each : columns;
     for (uint i = begin; i < begin + rows_each && i < rows; i++)
-        write_power(sums, half_rows, first_row, rows, columns, stride, splits, sets, norm, gain, first_set, out,
-                    start, set_size, i, first, end);
+        write_power(sums, half_rows, first_row, rows, columns, zero_last, stride, splits, sets, norm, gain,
+                    first_set, out, start, set_size, i, first, end);
 }
 
 /* Power of a block at (fa, fb) and (fa, -fb), side by side, for the columns within the bounds of a row tile.
@@ -110,7 +107,7 @@ __kernel void pair_power(__global const SUM *sums, __global const uint *bounds, 
         for (uint j = first; j < end; j++) {
             __global SUM *to = out + ((ulong)i * stride + j) * 2;
             SUM same, opposite;
-            two_powers(of_set + place_of(i, j, stride, stride), slot_size, splits, scale, &same, &opposite);
+            two_powers(of_set + place_of(i, j, stride), slot_size, splits, scale, &same, &opposite);
             to[0] = first_set + s ? to[0] + same : same;
             to[1] = first_set + s ? to[1] + opposite : opposite;
         }

@@ -57,10 +57,10 @@
     add_up(c2##r, at + r * ROW_SUMS + LANES, started, whole);                                    \
     add_up(s2##r, at + r * ROW_SUMS + ROW_SUMS / 2 + LANES, started, whole);
 
-#if ZERO_LAST
+#if LANES > 2 && !FOLDED
 /* The frequency 0 of the trailing group has the cosine 1 and the sine 0, so that its sums are those of the rows
- * themselves. Where it stands alone behind the last whole or half block, vectors of points are added up. */
-#define ZERO_APART(left) ((left) == 1 || (left) == LANES / 2 + 1)
+ * themselves. Where `zero_last`, it stands alone behind the last whole or half block, and vectors of points are
+ * added up. */
 #define CLEAR_TOTAL(r) REALV tc##r = (REALV)0, ts##r = (REALV)0;
 #define TOTAL(r)                                                                                 \
     tc##r += LOADV(points, 2 * LANES * r);                                                       \
@@ -98,7 +98,7 @@ INLINE void add_totals(__global const REAL *restrict points, const uint begin, c
  * `pitch` apart from those of the next tile. Of `all` register sums that a slot will have it has `done`. */
 INLINE void multiply(__global const REAL *restrict leading, const ulong leading_size,
                      __global const REAL *restrict trailing, const ulong trailing_size, const uint pitch,
-                     const uint length, const uint columns, __global SUM *restrict sums,
+                     const uint length, const uint columns, const uint zero_last, __global SUM *restrict sums,
                      const uint done, const uint all, const uint tiles, const uint tile, const ulong slot,
                      const uint from, const uint to)
 {
@@ -119,15 +119,18 @@ INLINE void multiply(__global const REAL *restrict leading, const ulong leading_
 #else
             const uint started = before, whole = 0;
 #endif
-#if ZERO_LAST
+#if LANES > 2 && !FOLDED
             const uint left = to - block * LANES;
-            if (ZERO_APART(left))
+            const uint apart = zero_last && (left == 1 || left == LANES / 2 + 1);
+            if (apart)
                 add_totals(row_tile + (ulong)begin * (2 * ROWS), begin, end, at + 2 * (left - 1), started, whole);
-            if (left == 1) continue;
+            if (apart && left == 1) continue;
+#else
+            const uint apart = 0;
 #endif
             EACH_ROW(CLEAR)
 #if LANES > 1
-            if (block * LANES + LANES / 2 + ZERO_LAST >= to) {
+            if (block * LANES + LANES / 2 + apart >= to) {
                 EACH_POINT(LOAD_FIRST, BY_FIRST)
                 EACH_ROW(ADD_FIRST)
                 continue;
@@ -143,7 +146,8 @@ INLINE void multiply(__global const REAL *restrict leading, const ulong leading_
 __kernel void product(__global const REAL *restrict leading, const ulong leading_size,
                       __global const REAL *restrict trailing, const ulong trailing_size, const uint pitch,
                       const uint length, __global const uint *bounds, const uint tiles, const uint tiles_each,
-                      const uint columns, const uint each, __global SUM *restrict sums, const uint done, const uint all)
+                      const uint columns, const uint zero_last, const uint each, __global SUM *restrict sums,
+                      const uint done, const uint all)
 {
 #if COLUMNS == 1 /* one work-item after another takes the same columns, which then stay in cache */
     const uint item = get_global_id(0), first = get_global_id(1) * each;
@@ -154,7 +158,7 @@ __kernel void product(__global const REAL *restrict leading, const ulong leading
     for (uint tile = item * tiles_each; tile < last; tile++) {
         const uint from = first < bounds[2 * tile] ? bounds[2 * tile] : first;
         const uint to = first + each > bounds[2 * tile + 1] ? bounds[2 * tile + 1] : first + each;
-        multiply(leading, leading_size, trailing, trailing_size, pitch, length, columns, sums, done, all, tiles, tile,
-                 get_global_id(2), from, to);
+        multiply(leading, leading_size, trailing, trailing_size, pitch, length, columns, zero_last, sums, done, all,
+                 tiles, tile, get_global_id(2), from, to);
     }
 }

@@ -65,7 +65,7 @@ INLINE void add_up(const REALV value, __global SUM *at, const uint started, cons
 #endif
 }
 
-#if ZERO_LAST
+#if LANES > 2 && !FOLDED
 /* The sum of a vector's lanes. */
 #define HALVED(type, v) (JOIN(convert_, type)((v).lo) + JOIN(convert_, type)((v).hi))
 

@@ -10,7 +10,8 @@ INLINE void sum_slot(__global const ulong *x, const uint n, __global TURN *turns
                      __global const TURN *multiple, __global const uint *code, __global const uint *groups,
                      __global REAL *leading, __global REAL *trailing, const uint length, const uint pitch,
                      const uint splits, const uint runs, __global const uint *bounds, const uint tiles,
-                     const uint columns, const uint columns_each, __global SUM *sums, const uint slot)
+                     const uint columns, const uint zero_last, const uint columns_each, __global SUM *sums,
+                     const uint slot)
 {
     const uint set = slot / splits, of_a_run = (length + SUM_POINTS - 1) / SUM_POINTS;
     for (uint run = 0; run < runs; run++) {
@@ -24,7 +25,7 @@ INLINE void sum_slot(__global const ulong *x, const uint n, __global TURN *turns
         for (uint first = 0; first < columns; first += columns_each) {
             for (uint tile = 0; tile < tiles; tile++) {
                 const uint last = first + columns_each, low = bounds[2 * tile], high = bounds[2 * tile + 1];
-                multiply(leading, 0, trailing, 0, pitch, length, columns,
+                multiply(leading, 0, trailing, 0, pitch, length, columns, zero_last,
                          sums + (ulong)slot * tiles * columns * (ROWS * ROW_SUMS / LANES),
                          run * of_a_run, runs * of_a_run, tiles, tile, 0,
                          first < low ? low : first, last > high ? high : last);
@@ -40,12 +41,12 @@ __kernel void slot_sums(__global const ulong *x, __global const REAL *weight, co
                         const ulong leading_size, __global REAL *trailing, const ulong trailing_size,
                         const uint length, const uint pitch, const uint splits, const uint runs,
                         __global const uint *bounds, const uint tiles, const uint columns,
-                        const uint columns_each, __global SUM *sums, const uint each)
+                        const uint zero_last, const uint columns_each, __global SUM *sums, const uint each)
 {
     const uint item = get_global_id(0);
     const uint end = (item + 1) * each < slots ? (item + 1) * each : slots;
     for (uint slot = item * each; slot < end; slot++)
         sum_slot(x, n, turns, lost, weight, stride, dim, weight_stride, multiple, code, groups, leading + item * leading_size,
-                 trailing + item * trailing_size, length, pitch, splits, runs, bounds, tiles, columns, columns_each,
-                 sums, slot);
+                 trailing + item * trailing_size, length, pitch, splits, runs, bounds, tiles, columns, zero_last,
+                 columns_each, sums, slot);
 }

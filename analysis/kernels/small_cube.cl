@@ -10,14 +10,14 @@ __kernel void small_cube(__global const ulong *x, __global const REAL *weight, _
                          __global const TURN *multiple, __global const uint *code, __global const uint *groups,
                          __global REAL *leading, __global REAL *trailing, const uint length, const uint pitch,
                          const uint splits, const uint runs, __global const uint *bounds, const uint sets,
-                         const uint rows, const uint columns, __global SUM *sums, __global const SUM *gain,
+                         const uint rows, const uint columns, const uint zero_last, __global SUM *sums, __global const SUM *gain,
                          __global SUM *out, const ulong start, const ulong set_size)
 {
     const uint stride_of_sums = (columns + LANES - 1) / LANES * LANES, tiles = (rows + ROWS - 1) / ROWS;
     for (uint slot = 0; slot < sets * splits; slot++)
         sum_slot(x, n, turns, lost, weight, stride, dim, weight_stride, multiple, code, groups, leading, trailing, length, pitch,
-                 splits, runs, bounds, tiles, stride_of_sums, stride_of_sums, sums, slot);
+                 splits, runs, bounds, tiles, stride_of_sums, zero_last, stride_of_sums, sums, slot);
     for (uint i = 0; i < rows; i++)
-        write_power(sums, rows, 0, rows, columns, stride_of_sums, splits, sets, norm, gain, 0, out, start,
+        write_power(sums, rows, 0, rows, columns, zero_last, stride_of_sums, splits, sets, norm, gain, 0, out, start,
                     set_size, i, 0, columns);
 }

@@ -10,13 +10,13 @@
  * held may be denormals, which take a processor a hundred cycles each.
  *
  * Layout of the leading table: [tile of frequencies][LANES points][frequency in the tile][cos, sin][lane], of
- * the trailing one: [COLUMNS blocks][point][block][LANES frequencies][cos, sin], without frequency 0 where ZERO_LAST
- * (product.cl); or where BY_POINT, as spread.cl
+ * the trailing one: [COLUMNS blocks][point][block][LANES frequencies][cos, sin], or where BY_POINT, as spread.cl
  * reads it, [LANES frequencies][point][cos, sin][lane]. `groups` holds for each group its first
  * coordinate, its number of coordinates, leading entries, trailing entries of the half space, where its
- * multiples begin, where its codes begin, its number of frequencies, and frequencies in a tile.
+ * multiples begin, where its codes begin, its number of frequencies, frequencies in a tile, and whether its
+ * frequency 0 is summed apart (product.cl), and needs no table.
  */
-#define FIELDS 8
+#define FIELDS 9
 
 /* Vectors of points become vectors of frequencies: LANES of them are transposed in log2(LANES) perfect shuffles. */
 #if LANES > 1
@@ -66,16 +66,6 @@ INLINE void entry_of(const uint pair, const uint leading, const REALV *cosine, c
     *s = su * cv + cu * sv;
 }
 
-/* The trailing frequency at a place of its table. */
-INLINE uint column_at(const uint place, const uint count)
-{
-#if ZERO_LAST
-    return place + 1; /* 0 needs no table */
-#else
-    return place < count ? place : count - 1;
-#endif
-}
-
 /* The entries of one group at LANES points from the k-th of a slot on. */
 INLINE void tabulate(__global const TURN *x, __global const REAL *weight, const uint stride, const uint dim,
                      const uint weight_stride, __global const TURN *multiple, __global const uint *code,
@@ -88,7 +78,7 @@ INLINE void tabulate(__global const TURN *x, __global const REAL *weight, const 
     const uint point = begin + slot % splits * length + k;
     __global const uint *group = groups + which * FIELDS;
     const uint coordinates = group[1], leading = group[2], trailing = group[3];
-    const uint count = group[6], width = group[7];
+    const uint count = group[6], width = group[7], without_zero = group[8];
     __global const TURN *at = x + ((ulong)set * dim + group[0]) * stride + point;
     __global const TURN *factor = multiple + group[4];
     __global const uint *pair = code + group[5];
@@ -137,11 +127,14 @@ INLINE void tabulate(__global const TURN *x, __global const REAL *weight, const 
 #if LANES > 1
     if (which) {
         __global REAL *out = trailing_table + slot * trailing_size + (ulong)k * 2 * width * LANES;
-        for (uint j = 0; j < count - ZERO_LAST; j += LANES / 2) {
+        pair += without_zero;
+        const uint columns = count - without_zero;
+        for (uint j = 0; j < columns; j += LANES / 2) {
             REALV entries[LANES];
 #pragma unroll
             for (uint l = 0; l < LANES / 2; l++)
-                entry_of(pair[column_at(j + l, count)], leading, cosine, sine, entries + 2 * l, entries + 2 * l + 1);
+                entry_of(pair[j + l < columns ? j + l : columns - 1], leading, cosine, sine, entries + 2 * l,
+                         entries + 2 * l + 1);
             transpose(entries, out + j % LANES * 2, 2 * LANES);
             out += j % LANES ? (ulong)pitch * 2 * LANES : 0;
         }

@@ -69,7 +69,7 @@ class CubeWriter:
             p.runtime.device.is_cpu
         )  # whose kernels write the host's memory: a copy wakes a thread
         self.out = p.runtime.shared(self._power) if self._in_place else p.runtime.empty(self.nbytes)
-        self._launches: dict[tuple[int, int, int], RepeatedLaunch] = {}
+        self._launches: dict[tuple[int, int, int, bool], RepeatedLaunch] = {}
         self.gains = p.runtime.upload((np.ones(self._rows) if gains is None else gains).astype(p.sum))
 
     def add(
@@ -82,6 +82,7 @@ class CubeWriter:
         count: int,
         first_row: int,
         rows: int,
+        zero_last: bool = False,
     ) -> None:
         """Turn the amplitudes of a batch into power, which is added up over sets or written set by set.
 
@@ -99,13 +100,15 @@ class CubeWriter:
             First set of the batch, and how many sets it has.
         first_row, rows : int
             First leading frequency of the amplitudes, and how many there are.
+        zero_last : bool
+            Whether the trailing frequency 0 stands behind the others.
         """
-        key = id(program), first_row, rows
+        key = id(program), first_row, rows, zero_last
         if key not in self._launches:
-            self._launches[key] = self._launch(program, first_row, rows)
+            self._launches[key] = self._launch(program, first_row, rows, zero_last)
         self._launches[key](amplitude, norms, np.uint32(splits), np.uint32(count), np.uint32(first))
 
-    def _launch(self, program: Program, first_row: int, rows: int) -> RepeatedLaunch:
+    def _launch(self, program: Program, first_row: int, rows: int, zero_last: bool) -> RepeatedLaunch:
         """Prepare the launch for a run of leading frequencies."""
         group, columns = self._p.runtime.group, self._columns
         each, rows_each = (GPU_COLUMNS, 1) if group > 1 else (columns, max(1, ITEM_POWERS // columns))
@@ -120,6 +123,7 @@ class CubeWriter:
             np.uint32(rows),
             np.uint32(rows_each),
             np.uint32(columns),
+            np.uint32(zero_last),
             np.uint32(padded(columns, group * self._p.lanes)),
             np.uint32(each),
             self.gains,

@@ -80,7 +80,8 @@ class FrequencyTables:
             first = group.axes[0].coordinate if group.axes else 0
             end = group.axes[-1].coordinate + 1 if group.axes else 1
             factors += [part[:, first:end].ravel() for part in parts]
-            of_tables += [first, end - first, lead, trail, begin, code, group.count, width]
+            apart = int(group is self.b and self.zero_last)
+            of_tables += [first, end - first, lead, trail, begin, code, group.count, width, apart]
             of_digits += [
                 group.count,
                 len(group.axes),
@@ -136,7 +137,6 @@ class FrequencyTables:
             ROWS=self.rows,
             COLUMNS=self.width,
             ENTRIES=self.entries,
-            ZERO_LAST=int(self.zero_last and not folded),
             COMPENSATED=int(compensated),
             FOLDED=int(folded),
             BY_POINT=0,
@@ -147,7 +147,7 @@ class FrequencyTables:
 
     def program_by_point(self) -> Program:
         """Build the kernel of tables in the layout that spread.cl reads."""
-        return self.p.program("tables.cl", ENTRIES=self.entries, ZERO_LAST=0, BY_POINT=1)
+        return self.p.program("tables.cl", ENTRIES=self.entries, BY_POINT=1)
 
     def table_sizes(self, pitch: int) -> tuple[int, int]:
         """Count the numbers in a slot's leading and trailing table, of ``pitch`` points a tile."""

@@ -87,6 +87,7 @@ class PreparedCube:
                 self.writer.add(
                     *(product.program, product.amplitude, product.slots.splits, norms),
                     *(first, count, first_row, rows),
+                    zero_last=product.frequencies.zero_last,
                 )
             used.append(product.slots)
             self._rounded = self._rounded.or_larger(product.rounded)

@@ -101,6 +101,7 @@ class SlotSums:
             self._bounds,
             np.uint32(f.tiles),
             np.uint32(f.columns),
+            np.uint32(f.zero_last),
             np.uint32(padded(max(1, OWN_COLUMNS // of_a_column), f.p.lanes)),
             self._sums,
             np.uint32(-(-slots.count // slots.items)),

@@ -75,6 +75,7 @@ class SmallCube:
             np.uint32(sets),
             np.uint32(tables.a.count),
             np.uint32(tables.b.count),
+            np.uint32(tables.zero_last),
             product.amplitude,
             writer.gains,
             writer.out,

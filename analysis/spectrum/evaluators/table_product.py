@@ -77,6 +77,7 @@ def multiply(
         np.uint32(tiles),
         np.uint32(tiles_each),
         np.uint32(frequencies.columns),
+        np.uint32(frequencies.zero_last),
         np.uint32(each),
         amplitude,
         np.uint32(done),
