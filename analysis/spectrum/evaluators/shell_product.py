@@ -15,7 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.analysis.precision import Precision
-from gbnbench.analysis.spectrum.error_model import Errors, coordinates, rounded_at_worst
+from gbnbench.analysis.spectrum.coordinate_rounding import coordinates, rounded_at_worst
+from gbnbench.analysis.spectrum.error_model import Errors
 from gbnbench.analysis.spectrum.evaluators.cube_product import CubeProduct, product_slots
 from gbnbench.analysis.spectrum.evaluators.device_evaluator import DeviceEvaluator
 from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
