@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gbnbench.analysis.radial.curve_statistics import effective_nyquist, oscillations, suffices
 from gbnbench.analysis.radial.windowed_power import windowed_power
 from gbnbench.analysis.spatial.rdf import pair_density
 from gbnbench.analysis.standard_errors import left_out_sums, sample_variance
@@ -178,11 +179,11 @@ def statistics_of(excess: FloatArray, n: int) -> SpectralStatistics:
     while True:
         frequency: FloatArray = np.arange(rows, dtype=np.float64) * (0.5 * n / total)
         power = windowed_power(density, frequency, n, total)
-        if rows == total or all(_suffices(curve, frequency, n) for curve in _curves(power)):
+        if rows == total or all(suffices(curve, frequency, n) for curve in _curves(power)):
             break
         rows = total
     found = [
-        (_effective_nyquist(curve, frequency, n), _oscillations(curve, frequency, n))
+        (effective_nyquist(curve, frequency, n), oscillations(curve, frequency, n))
         for curve in _curves(power)
     ]
     nyquist, omega = (np.array(column) for column in zip(*found, strict=True))
@@ -210,46 +211,3 @@ def _curves(power: FloatArray) -> Iterator[FloatArray]:
 def _jackknife(left_out: FloatArray) -> float:
     sets = len(left_out)
     return (sets - 1) * math.sqrt(float(sample_variance(left_out)) / sets) if sets > 1 else math.nan
-
-
-def _rise(power: FloatArray) -> int:
-    """Index where the power first reaches 0.98, or of its maximum where it never does."""
-    reached = np.flatnonzero(power >= 0.98)
-    return int(reached[0]) if len(reached) else int(np.argmax(power))
-
-
-def _accumulated(power: FloatArray, frequency: FloatArray) -> FloatArray:
-    running = np.cumsum(2 * frequency * power) * frequency[1]
-    running[1:] /= frequency[1:] ** 2
-    return np.asarray(running)
-
-
-def _first_high(power: FloatArray, frequency: FloatArray, n: int) -> int | None:
-    """Index of the first accumulated power above 0.5 from sqrt(n)/2 on."""
-    start = int(math.sqrt(n) / 2 / frequency[1])
-    high = np.flatnonzero(_accumulated(power, frequency)[start:] > 0.5)
-    return start + int(high[0]) if len(high) else None
-
-
-def _effective_nyquist(power: FloatArray, frequency: FloatArray, n: int) -> float:
-    high = _first_high(power, frequency, n)
-    if high is None:
-        return 0.0
-    low = np.flatnonzero(_accumulated(power, frequency)[1:high] < 0.1)
-    return float(frequency[1 + low[-1]] / math.sqrt(n)) if len(low) else 0.0
-
-
-def _oscillations(power: FloatArray, frequency: FloatArray, n: int) -> float:
-    rise = _rise(power)
-    v0 = frequency[rise]
-    v1 = min(v0 + 5 * math.sqrt(n), n / 2)
-    end = min(int(v1 / frequency[1]) + 1, len(frequency) - 1)
-    samples = ((power - 1) ** 2 * frequency)[rise : end + 1]
-    integral = np.trapezoid(samples, dx=float(frequency[1]))
-    return 10 * math.sqrt(2 * math.pi * float(integral) / (math.pi * (v1**2 - v0**2)))
-
-
-def _suffices(power: FloatArray, frequency: FloatArray, n: int) -> bool:
-    """Tell whether the frequencies evaluated so far determine both statistics."""
-    settled = (power >= 0.98).any() and frequency[_rise(power)] + 5 * math.sqrt(n) < frequency[-2]
-    return bool(settled) and _first_high(power, frequency, n) is not None

@@ -7,7 +7,6 @@ takes fewer multiply-adds: the box up to about eight dimensions, as far as it fi
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 
@@ -19,7 +18,7 @@ from gbnbench.analysis.spectrum.box_shells import harmonics_within
 from gbnbench.analysis.spectrum.choice import choose
 from gbnbench.analysis.spectrum.error_model import Errors
 from gbnbench.analysis.spectrum.evaluators.protocol import Evaluator
-from gbnbench.analysis.spectrum.request import SpectrumRequest, box_request
+from gbnbench.analysis.spectrum.request import Progress, SpectrumRequest, box_request
 from gbnbench.analysis.spectrum.shells import EDGE
 from gbnbench.core.errors import InputError
 from gbnbench.core.integer_frequencies import MOST_FREQUENCIES
@@ -58,7 +57,7 @@ def ball_power(
     weights: FloatArray | None,
     precision: PrecisionName,
     floor: float | None,
-    progress: Callable[[float], None] | None,
+    progress: Progress | None,
 ) -> BallPower:
     """Evaluate the power at every frequency of a band, of each pair f, -f once.
 

@@ -6,7 +6,7 @@ A request can be made, checked and planned before there are any points.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -21,6 +21,7 @@ from gbnbench.core.errors import InputError
 from gbnbench.core.memory import memory_limit
 
 Frequencies = Literal["cube", "half cube", "shells", "listed"]
+Progress = Callable[[float], None]  # called with the share done
 SHELL_BYTES = 96  # for each shell: on the device, twice on the host, and where they are merged
 GROUP_BYTES = 64  # for each frequency of a group of axes while it is listed and sorted
 

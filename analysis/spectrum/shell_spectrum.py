@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,7 +16,7 @@ from gbnbench.analysis.spectrum.choice import choose
 from gbnbench.analysis.spectrum.input_checks import check_weights
 from gbnbench.analysis.spectrum.limits import check_harmonic, default_radius
 from gbnbench.analysis.spectrum.listed_shells import default_shells, half_ball
-from gbnbench.analysis.spectrum.request import check_band, shell_request
+from gbnbench.analysis.spectrum.request import Progress, check_band, shell_request
 from gbnbench.analysis.spectrum.shell_moments import moments_of_list
 from gbnbench.core.errors import InputError
 from gbnbench.core.results.radial import ShellSpectrum
@@ -34,7 +34,7 @@ def shells(
     corners: bool = False,
     weights: ArrayLike | None = None,
     floor: float | None = None,
-    progress: Callable[[float], None] | None = None,
+    progress: Progress | None = None,
     sides: ArrayLike | None = None,
     device: str | None = None,
 ) -> ShellSpectrum:
@@ -112,7 +112,7 @@ def shells(
     return joined_shells(parts)
 
 
-def _part_of(progress: Callable[[float], None], k: int, count: int) -> Callable[[float], None]:
+def _part_of(progress: Progress, k: int, count: int) -> Progress:
     """Tell the share done of one of several bands as that of all."""
     return lambda share: progress((k + share) / count)
 
@@ -125,7 +125,7 @@ def _of_cube(
     w: FloatArray | None,
     precision: PrecisionName,
     floor: float | None,
-    progress: Callable[[float], None] | None,
+    progress: Progress | None,
 ) -> ShellSpectrum:
     """Evaluate the exact shells of |f| of a torus with equal sides."""
     sets, n, d = points.shape
@@ -167,7 +167,7 @@ def _of_box(
     weights: FloatArray | None,
     precision: PrecisionName,
     floor: float | None,
-    progress: Callable[[float], None] | None,
+    progress: Progress | None,
 ) -> ShellSpectrum:
     """Evaluate the exact shells of |k| of a torus with unequal sides."""
     sets, n, d = points.shape

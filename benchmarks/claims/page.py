@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 import re
 import sys
-import textwrap
 from collections.abc import Iterator, Sequence
 from importlib import resources
 from pathlib import Path
@@ -18,12 +17,11 @@ from gbnbench.benchmarks.claims.registry import CLAIMS
 from gbnbench.benchmarks.claims.run import Table, read
 from gbnbench.core.atomic_write import write_whole
 from gbnbench.core.errors import InputError
+from gbnbench.core.prose_lines import paragraph
 
 HEAD = "head.md"  # how the page begins, a count of verdicts left to be filled in
 CRITERIA = "criteria.md"  # how it ends: a list that names claims, which become links
 PACKAGE = "gbnbench.benchmarks.claims"
-WIDTH = 110  # of the page's prose
-MARKS = re.compile(r" (?=(?:[-+*=#>|:]+|\d+[.)])(?: |$))")  # what a line must not begin with
 PLACEHOLDER = re.compile(r"\{([A-Za-z0-9.\-]+)\}")
 
 
@@ -36,37 +34,6 @@ def number(text: str) -> str:
 def cell(text: str) -> str:
     """Return words as a table's cell takes them."""
     return text.replace("|", "\\|")
-
-
-def paragraph(text: str, before: str = "") -> str:
-    """Return prose in lines of at most ``WIDTH``, none of which begins as an item of a list does.
-
-    Parameters
-    ----------
-    text : str
-        Words with single spaces between them.
-    before : str
-        What every line begins with.
-
-    Returns
-    -------
-    str
-
-    Examples
-    --------
-    >>> print(paragraph("Power falls as the wave number does. " * 4, "> "))
-    > Power falls as the wave number does. Power falls as the wave number does. Power falls as the wave number
-    > does. Power falls as the wave number does.
-    """
-    lines = textwrap.wrap(
-        MARKS.sub("\0", text),
-        WIDTH,
-        initial_indent=before,
-        subsequent_indent=before,
-        break_long_words=False,
-        break_on_hyphens=False,
-    )
-    return "\n".join(lines).replace("\0", " ")
 
 
 def filled(claim: Claim, table: Table) -> str:

@@ -8,6 +8,7 @@ from importlib import resources
 from gbnbench.benchmarks.reliability.registry import PARTS, Part
 from gbnbench.benchmarks.reliability.table import Table
 from gbnbench.benchmarks.reliability.trial import FAULT, UNTRIED, Trials, summed
+from gbnbench.core.prose_lines import paragraph
 
 HEAD, PACKAGE = "head.md", "gbnbench.benchmarks.reliability"
 
@@ -49,7 +50,7 @@ def page(table: Table) -> str:
     lines += ["| part | pieces carried out | trials | faults | not to be had here |", "|---|--:|--:|--:|--:|"]
     lines += [_part_row(part, table) for part in PARTS]
     for part in PARTS:
-        lines += ["", f"## {part.title}", "", part.says, ""]
+        lines += ["", f"## {part.title}", "", paragraph(part.says), ""]
         trials = trials_of(part, table)
         lines += _file_table(trials) if part.name == "files" else _plain_table(trials)
     return "\n".join(lines) + "\n"

@@ -1,8 +1,9 @@
-"""Programs of kernels: their source, and how a kernel is launched."""
+"""Programs of kernels: their source, how it is built, and how a kernel is launched."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import warnings
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from importlib import resources
@@ -11,10 +12,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gbnbench.core.cache_folder import cache_folder
+from gbnbench.core.errors import DeviceError
 from gbnbench.opencl.device import import_pyopencl
 
 if TYPE_CHECKING:
     from gbnbench.opencl.runtime import Runtime
+
+# Safe everywhere it was tried; -cl-fast-relaxed-math and -cl-unsafe-math-optimizations give wrong gradients.
+OPTIONS = ("-cl-std=CL1.2", "-cl-mad-enable", "-cl-finite-math-only")
 
 # A kernel object holds its arguments from the moment they are set until it is enqueued: one thread at a time.
 LAUNCH = Lock()
@@ -146,6 +152,40 @@ def _types(args: Sequence[Any]) -> list[Any]:
         np.dtype(arg) if isinstance(arg, type) else arg.dtype if isinstance(arg, np.generic) else None
         for arg in args
     ]
+
+
+def build(owner: Runtime, package: str, files: tuple[str, ...], defines: Mapping[str, object]) -> Program:
+    """Build kernel files for a device, or take from pyopencl's folder what was built for it before.
+
+    Parameters
+    ----------
+    owner : Runtime
+        The device.
+    package, files
+        As in ``source``.
+    defines : mapping
+        ``-D`` macros.
+
+    Returns
+    -------
+    Program
+
+    Raises
+    ------
+    DeviceError
+        If the compiler refuses; its log is in the text.
+    """
+    cl = import_pyopencl()
+    options = [*OPTIONS, *(f"-D {name}={value}" for name, value in defines.items())]
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", cl.CompilerWarning)
+            built = cl.Program(owner.context, source(package, files)).build(
+                options, cache_dir=str(cache_folder() / "pyopencl")
+            )
+    except cl.RuntimeError as error:
+        raise DeviceError(f"{owner.device.label} cannot build {', '.join(files)}: {error}") from None
+    return Program(owner, built)
 
 
 @cache

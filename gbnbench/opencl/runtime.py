@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import warnings
 from collections.abc import Mapping, Sequence
 from functools import cache, cached_property
 from typing import Any
@@ -11,14 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gbnbench.core.cache_folder import cache_folder
 from gbnbench.core.errors import DeviceError
 from gbnbench.opencl.device import Device, choose, handle, import_pyopencl
-from gbnbench.opencl.program import Program, source
+from gbnbench.opencl.program import Program, build
 from gbnbench.opencl.width_probe import VectorWidths, vector_widths
-
-# Safe everywhere it was tried; -cl-fast-relaxed-math and -cl-unsafe-math-optimizations give wrong gradients.
-OPTIONS = ("-cl-std=CL1.2", "-cl-mad-enable", "-cl-finite-math-only")
 
 
 class Runtime:
@@ -111,16 +106,7 @@ class Runtime:
         """
         key = (package, tuple(files), tuple(sorted((defines or {}).items(), key=str)))
         if key not in self._programs:
-            options = [*OPTIONS, *(f"-D {name}={value}" for name, value in (defines or {}).items())]
-            try:
-                with warnings.catch_warnings():
-                    warnings.simplefilter("ignore", self._cl.CompilerWarning)
-                    built = self._cl.Program(self.context, source(package, tuple(files))).build(
-                        options, cache_dir=str(cache_folder() / "pyopencl")
-                    )
-            except self._cl.RuntimeError as error:
-                raise DeviceError(f"{self.device.label} cannot build {', '.join(files)}: {error}") from None
-            self._programs[key] = Program(self, built)
+            self._programs[key] = build(self, package, tuple(files), defines or {})
         return self._programs[key]
 
     def enqueue(self, kernel: Any, global_size: tuple[int, ...], local_size: tuple[int, ...]) -> None:

@@ -15,14 +15,12 @@ from gbnbench.analysis.piece_measures import measure_piece
 from gbnbench.core.large_arrays import filled
 from gbnbench.core.sides import as_sides
 from gbnbench.core.torus import FloatArray
-from gbnbench.generators.protocol import Generator, checked_draw, realization_rng
-from gbnbench.generators.third_parties.faults import faults_in_words
 from gbnbench.io.points.point_sets import NO_TORUS
 from gbnbench.runs.comparison_folder import Realization
 from gbnbench.runs.comparison_result import SourceResult
 from gbnbench.runs.task import Task
 from gbnbench.runs.task_keys import piece_key, realization_key
-from gbnbench.studies.timed_draw import mean_cost, timed_draw
+from gbnbench.studies.timed_draw import draw_realization, mean_cost
 
 if TYPE_CHECKING:  # a worker loads the generators that it draws from, not all of them
     from gbnbench.runs.sources import Source
@@ -103,36 +101,6 @@ def _measuring(source: Source, draws: tuple[str, ...], row: str, done: str) -> l
         here=True,
     )
     return [*measures, merger]
-
-
-def draw_realization(
-    generator: Generator, n: int, d: int, seed: int, k: int, redraw: bool = False
-) -> Realization:
-    """Draw realization k in a worker.
-
-    Parameters
-    ----------
-    generator : Generator
-        What draws it.
-    n, d : int
-        Points and dimension.
-    seed, k : int
-        It draws from ``SeedSequence(seed, spawn_key=(k,))``.
-    redraw : bool
-        As in ``timed_draw``.
-
-    Returns
-    -------
-    Realization
-        The points with the CPU seconds of one draw, and whether that was the worker's first of its kind.
-    """
-
-    def draw() -> FloatArray:
-        with faults_in_words(type(generator), f"drawing n={n}, d={d}"):
-            x = generator(n, d, realization_rng(seed, k))
-        return checked_draw(generator, x, n, d)
-
-    return timed_draw((generator, n, d), draw, redraw)
 
 
 def measure_realizations(

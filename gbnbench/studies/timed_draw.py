@@ -1,4 +1,4 @@
-"""The cost of drawing a set in a worker process, free of what the first of its kind pays once."""
+"""Sets drawn in a worker process, and their cost, free of what the first of its kind pays once."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ import numpy as np
 
 from gbnbench.core.cpu_time import cpu_seconds
 from gbnbench.core.torus import FloatArray
+from gbnbench.generators.protocol import Generator, checked_draw, realization_rng
+from gbnbench.generators.third_parties.faults import faults_in_words
 from gbnbench.runs.comparison_folder import Realization
 
 REDRAW_SECONDS = 5.0
@@ -44,6 +46,36 @@ def timed_draw(kind: Hashable, draw: Callable[[], FloatArray], redraw: bool) -> 
         draw()
         return Realization(x, cpu_seconds() - began, False)
     return Realization(x, cost, first)
+
+
+def draw_realization(
+    generator: Generator, n: int, d: int, seed: int, k: int, redraw: bool = False
+) -> Realization:
+    """Draw realization k of a generator in a worker, timed.
+
+    Parameters
+    ----------
+    generator : Generator
+        What draws it.
+    n, d : int
+        Points and dimension.
+    seed, k : int
+        It draws from ``SeedSequence(seed, spawn_key=(k,))``.
+    redraw : bool
+        As in ``timed_draw``.
+
+    Returns
+    -------
+    Realization
+        The points with the CPU seconds of one draw, and whether that was the worker's first of its kind.
+    """
+
+    def draw() -> FloatArray:
+        with faults_in_words(type(generator), f"drawing n={n}, d={d}"):
+            x = generator(n, d, realization_rng(seed, k))
+        return checked_draw(generator, x, n, d)
+
+    return timed_draw((generator, n, d), draw, redraw)
 
 
 def mean_cost(costs: Sequence[float], firsts: Sequence[bool]) -> float:

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from itertools import groupby
 
 from gbnbench import __version__
+from gbnbench.core.prose_lines import paragraph
 from gbnbench.core.settings import parse
 from gbnbench.generators.registry import GENERATORS
 from gbnbench.verification.published_figure import KINDS, PublishedFigure
@@ -57,7 +58,8 @@ def markdown(found: Sequence[Verified]) -> str:
     """
     kinds = "\n".join(f"- *{kind}*: {meaning};" for kind, meaning in KINDS.items())
     parts = [HEAD.format(kinds=f"{kinds[:-1]}.")]
-    parts.append(f"**{agreeing(found)}** Measured by gbnbench {__version__}.\n")
+    agree = paragraph(f"**{agreeing(found)}**")
+    parts.append(f"{agree}\nMeasured by gbnbench {__version__}.\n")
     for family, group in groupby(found, lambda one: GENERATORS[parse(one.figure.generator)[0]].family):
         rows = [_row(COLUMNS), _row(["---"] * len(COLUMNS)), *(_row(_cells(one)) for one in group)]
         parts.append(f"## {family.capitalize()}\n\n" + "\n".join(rows) + "\n")
@@ -87,7 +89,7 @@ def _without_reference() -> Iterator[str]:
     yield ""
     ends = [*[";"] * (len(WITHOUT_REFERENCE) - 1), "."]
     for (name, reason), end in zip(WITHOUT_REFERENCE.items(), ends, strict=True):
-        yield f"- `{name}`: {reason}{end}"
+        yield paragraph(f"`{name}`: {reason}{end}", "- ", "  ")
 
 
 def _definitions(figures: Sequence[PublishedFigure]) -> Iterator[str]:
@@ -98,4 +100,5 @@ def _definitions(figures: Sequence[PublishedFigure]) -> Iterator[str]:
             names[figure.definition].append(figure.measure_name)
     for definition, those in names.items():
         text = re.sub(r"``([^`]+)``|(\b2\*\*(?:\w+|\([^)]*\)))", r"`\1\2`", definition.replace("\n", " "))
-        yield f"- {', '.join(f'`{name}`' for name in those)}: {text[0].lower()}{text[1:]}"
+        of = ", ".join(f"`{name}`" for name in those)
+        yield paragraph(f"{of}: {text[0].lower()}{text[1:]}", "- ", "  ")

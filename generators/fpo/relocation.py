@@ -44,7 +44,7 @@ class Sweeps:
                 "choose another device: gbnbench devices lists them"
             )
         self._program = self._runtime.program(
-            "gbnbench.generators", ("fpo.cl",), {"EQUAL": EQUAL, "WIDEST": WIDEST}
+            "gbnbench.generators", ("fpo_circles.cl", "fpo.cl"), {"EQUAL": EQUAL, "WIDEST": WIDEST}
         )
         self._x = x.copy()
         sets, n, _ = x.shape

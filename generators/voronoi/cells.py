@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from itertools import chain
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,14 +13,13 @@ from gbnbench.core.periodic_delaunay import (
     circumcentre,
     overhang,
     triangulation,
-    voronoi_diagram,
     with_images,
 )
 from gbnbench.core.torus import FloatArray, spacing, wrap
+from gbnbench.generators.voronoi.cell_simplices import COINCIDENT, face_fans, segments
 from gbnbench.generators.voronoi.flags import cell_moments, circumcentres, flattest
 
 FLAT = 1e-8  # d! volume / side**d of a simplex below which its circumcentre is not to be trusted
-COINCIDENT = "x must hold distinct points for Voronoi cells; at least two coincide"
 
 
 @dataclass(frozen=True)
@@ -92,7 +90,7 @@ def toroidal_cells(x: FloatArray, margin: float | None = None) -> Cells:
     if d > 4:
         raise RefusalError(f"d must be 1, 2, 3 or 4 for Voronoi cells; got d={d}")
     if d == 1:
-        return _moments(x, *_intervals(x))
+        return _moments(x, *segments(x))
     margin = min(1.0, 4.0 * spacing(n, d) if margin is None else margin)
     noise = 0.0
     while True:
@@ -104,7 +102,8 @@ def toroidal_cells(x: FloatArray, margin: float | None = None) -> Cells:
             if d == 4 and noise < 1e-3:
                 noise = max(10 * noise, 1e-5)
                 continue
-            cells = _by_faces(x, margin)
+            fans = face_fans(x, margin)
+            cells = None if fans is None else _moments(x, *fans)
         if cells is None and margin >= 1:
             raise InputError(COINCIDENT)
         if cells is not None and (margin >= 1 or cells.reach <= margin):
@@ -137,15 +136,6 @@ def _by_flags(x: FloatArray, margin: float, noise: float) -> Cells | None:
     reach = overhang(centre, np.sqrt(np.sum((centre - corners[:, 0]) ** 2, axis=1)))
     with np.errstate(divide="ignore", invalid="ignore"):
         return Cells(volume, first / volume[:, None], second, reach)
-
-
-def _intervals(x: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
-    """Cut cells in 1D into two segments each, from the point to either midpoint."""
-    order = np.argsort(x[:, 0])
-    half = np.diff(x[order, 0], append=x[order[0], 0] + 1) / 2
-    if not (half > 0).all():
-        raise InputError(COINCIDENT)
-    return np.concatenate([order, order]), np.concatenate([half, -np.roll(half, 1)])[:, None, None]
 
 
 def _by_triangles(x: FloatArray, margin: float) -> Cells | None:
@@ -181,32 +171,6 @@ def _by_triangles(x: FloatArray, margin: float) -> Cells | None:
     # Each vertex is the centre of a triangle on the left of a side, met from one of its points.
     reach = overhang(centre[left], np.sqrt(radius))
     return Cells(volume, first / volume[:, None], second, reach)
-
-
-def _by_faces(x: FloatArray, margin: float) -> Cells | None:
-    """Cut cells in 3D into a fan of tetrahedra over each face, the same for the points on both its sides."""
-    tiled, _ = with_images(x, margin)
-    diagram = voronoi_diagram(tiled)
-    if diagram is None:
-        return None
-    inner = np.flatnonzero(diagram.ridge_points.min(axis=1) < len(x))
-    faces = [diagram.ridge_vertices[i] for i in inner]
-    corners = np.fromiter(chain.from_iterable(faces), dtype=np.intp)
-    if (corners < 0).any():
-        return None
-    count = np.array([len(face) for face in faces], dtype=np.intp)
-    first = np.cumsum(count) - count
-    face = np.repeat(np.arange(len(faces)), count - 2)
-    start = np.cumsum(count - 2) - (count - 2)
-    second = first[face] + 1 + np.arange(len(face)) - start[face]
-    fan = diagram.vertices[np.stack([corners[first[face]], corners[second], corners[second + 1]], axis=1)]
-    pair = diagram.ridge_points[inner[face]]
-    site, fan = pair.T.reshape(-1).astype(np.intp), np.concatenate([fan, fan])
-    own = site < len(x)
-    site, fan = site[own], fan[own]
-    if len(np.unique(site)) < len(x):
-        return None
-    return _moments(x, site, fan - x[site][:, None])
 
 
 def _moments(x: FloatArray, site: NDArray[np.intp], rays: FloatArray) -> Cells:

@@ -25,7 +25,7 @@ from gbnbench.benchmarks.claims import (
     profile,
 )
 from gbnbench.benchmarks.claims.claim import BESIDE, COLUMNS, VERDICTS, verdict
-from gbnbench.benchmarks.claims.page import WIDTH, filled, number, page, paragraph
+from gbnbench.benchmarks.claims.page import filled, number, page
 from gbnbench.benchmarks.claims.registry import CLAIMS, MEASURES
 from gbnbench.benchmarks.claims.run import fill, main, measure, named, read, record_machine
 from gbnbench.benchmarks.claims.sets import MissingError, SetCache
@@ -47,15 +47,6 @@ def claim(name):
 
 def test_the_page_is_what_the_table_says():
     assert (ROOT / "docs" / "claims.md").read_text() == page(read(TABLE))
-
-
-@pytest.mark.parametrize("mark", ["-", "+", "*", "1.", "12)", ">", "#", "|", "="])
-def test_no_line_of_a_paragraph_begins_as_another_block_does(mark):
-    for length in range(WIDTH - 12, WIDTH + 3):
-        text = f"{'a' * (length - 2)} b {mark} c d"
-        lines = paragraph(text, "> ").splitlines()
-        assert all(line.startswith("> ") and not line[2:].startswith(mark) for line in lines)
-        assert " ".join(line[2:] for line in lines) == text
 
 
 def test_every_claim_is_measured_and_every_row_has_a_verdict():

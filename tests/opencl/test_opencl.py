@@ -11,7 +11,8 @@ import pytest
 
 from gbnbench.core.errors import DeviceError
 from gbnbench.opencl import choose, devices, runtime
-from gbnbench.opencl.runtime import OPTIONS, Runtime
+from gbnbench.opencl.program import OPTIONS
+from gbnbench.opencl.runtime import Runtime
 from gbnbench.opencl.width_probe import VectorWidths, vector_widths
 from tests.processes import python
 

@@ -24,13 +24,13 @@ met = []
 
 def alter(pattern, replacement):
     '''Change the first place in every program's text that the pattern meets.'''
-    runtime = importlib.import_module("gbnbench.opencl.runtime")
-    source = runtime.source
+    program = importlib.import_module("gbnbench.opencl.program")
+    source = program.source
     def altered(package, files):
         text, count = re.subn(pattern, replacement, source(package, files), count=1)
         met.append(count)
         return text
-    runtime.source = altered
+    program.source = altered
 
 def wrap(module, name, make):
     '''Replace a function by one made of it.'''

@@ -15,7 +15,7 @@ from gbnbench.runs.comparison_folder import read_run
 from gbnbench.runs.comparison_result import Run
 from gbnbench.runs.sources import resolve
 from gbnbench.studies.comparison import ComparisonOutcome, _require_common, run_comparison
-from gbnbench.studies.comparison_tasks import draw_realization
+from gbnbench.studies.timed_draw import draw_realization
 
 
 @pytest.fixture(scope="module")

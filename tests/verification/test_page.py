@@ -48,7 +48,8 @@ def test_every_generator_is_held_against_something_or_excused() -> None:
 
 def test_every_measure_beside_the_scalars_is_defined_in_one_sentence() -> None:
     text = markdown([Verified(figure, 1.0) for figure in PUBLISHED]).partition("## Measures defined here")[2]
+    items = [" ".join(item.split()) for item in text.split("\n- ")]
     for name in {one.measure_name for one in PUBLISHED if not isinstance(one.measure, str)}:
-        (line,) = [line for line in text.splitlines() if f"`{name}`" in line.partition(": ")[0]]
-        assert line.startswith("- `")
+        (line,) = [line for line in items if f"`{name}`" in line.partition(": ")[0]]
+        assert line.startswith("`")
         assert line.endswith(".")

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from gbnbench.analysis.precision import Precision, padded
+from gbnbench.analysis.spectrum.coordinate_rounding import coordinates, rounded_at_worst
 from gbnbench.analysis.spectrum.digits import (
     Harmonics,
     cheapest_division,
@@ -13,7 +14,7 @@ from gbnbench.analysis.spectrum.digits import (
     half_size,
     multiplied_columns,
 )
-from gbnbench.analysis.spectrum.error_model import Errors, coordinates, rounded_at_worst
+from gbnbench.analysis.spectrum.error_model import Errors
 from gbnbench.analysis.spectrum.evaluators.device_evaluator import DeviceEvaluator
 from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
 from gbnbench.analysis.spectrum.evaluators.kept_memory import kept

@@ -9,13 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.analysis.precision import Precision, padded
-from gbnbench.analysis.spectrum.error_model import (
-    Coordinates,
-    Errors,
-    coordinates,
-    rounded_at_worst,
-    sum_errors,
-)
+from gbnbench.analysis.spectrum.coordinate_rounding import Coordinates, coordinates, rounded_at_worst
+from gbnbench.analysis.spectrum.error_model import Errors, sum_errors
 from gbnbench.analysis.spectrum.evaluators.device_evaluator import DeviceEvaluator
 from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
 from gbnbench.analysis.spectrum.evaluators.point_blocks import (

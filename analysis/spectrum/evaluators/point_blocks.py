@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.analysis.precision import Precision
-from gbnbench.analysis.spectrum.error_model import UNIT, Coordinates, Errors
+from gbnbench.analysis.spectrum.coordinate_rounding import Coordinates
+from gbnbench.analysis.spectrum.error_model import UNIT, Errors
 from gbnbench.analysis.spectrum.evaluators.frequency_group import Group
 from gbnbench.analysis.spectrum.evaluators.two_group_product import TwoGroupProduct, product_errors
 from gbnbench.core.double_double import two_sum

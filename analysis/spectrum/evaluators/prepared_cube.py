@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from gbnbench.analysis.precision import Precision
+from gbnbench.analysis.spectrum.coordinate_rounding import NOT_ROUNDED, Coordinates
 from gbnbench.analysis.spectrum.digits import Division, Harmonics, cheapest_division, half_size, size
-from gbnbench.analysis.spectrum.error_model import NOT_ROUNDED, Coordinates
 from gbnbench.analysis.spectrum.evaluators.cube_writer import CubeWriter
 from gbnbench.analysis.spectrum.evaluators.frequency_group import Group
 from gbnbench.analysis.spectrum.evaluators.point_slots import (

@@ -7,7 +7,7 @@ dimension.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
@@ -15,7 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.analysis.precision import Precision
-from gbnbench.analysis.spectrum.error_model import Errors, coordinates, rounded_at_worst
+from gbnbench.analysis.spectrum.coordinate_rounding import coordinates, rounded_at_worst
+from gbnbench.analysis.spectrum.error_model import Errors
 from gbnbench.analysis.spectrum.evaluators.cube_product import CubeProduct, product_slots
 from gbnbench.analysis.spectrum.evaluators.device_evaluator import DeviceEvaluator
 from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
@@ -24,7 +25,7 @@ from gbnbench.analysis.spectrum.evaluators.point_blocks import POINTS, amplitude
 from gbnbench.analysis.spectrum.evaluators.point_slots import TABLE_BYTES, tile_rows
 from gbnbench.analysis.spectrum.evaluators.two_group_product import norms_of, product_errors
 from gbnbench.analysis.spectrum.evaluators.work_model import ENTRY, SHELL, TILE, device_cost
-from gbnbench.analysis.spectrum.request import Frequencies, SpectrumRequest
+from gbnbench.analysis.spectrum.request import Frequencies, Progress, SpectrumRequest
 from gbnbench.analysis.spectrum.shell_moments import ShellMoments
 from gbnbench.analysis.spectrum.sorted_groups import SortedGroup, count_pairs, two_sorted_groups
 from gbnbench.core.torus import FloatArray
@@ -33,8 +34,6 @@ BLOCK_ROWS, BLOCK_COLUMNS = 510, 1024  # frequencies of a block's two groups: 17
 BIN_BYTES = 64 << 20  # of the moments of all strips
 SUMMED = 13  # times that a block's sums are held while those over blocks of points are added up
 STRIPS = 4  # strips of rows for each core
-
-Progress = Callable[[float], None]
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from gbnbench.analysis.precision import Precision, padded
-from gbnbench.analysis.spectrum.error_model import Coordinates, coordinates_of_sums
+from gbnbench.analysis.spectrum.coordinate_rounding import Coordinates, coordinates_of_sums
 from gbnbench.opencl import RepeatedLaunch
 
 GPU_POINTS = 4  # that one work-item of a GPU rounds

@@ -15,7 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.analysis.precision import SUM_POINTS, Precision, padded
-from gbnbench.analysis.spectrum.error_model import NOT_ROUNDED, Coordinates, Errors, sum_errors
+from gbnbench.analysis.spectrum.coordinate_rounding import NOT_ROUNDED, Coordinates
+from gbnbench.analysis.spectrum.error_model import Errors, sum_errors
 from gbnbench.analysis.spectrum.evaluators.device_points import DevicePoints
 from gbnbench.analysis.spectrum.evaluators.frequency_group import Group
 from gbnbench.analysis.spectrum.evaluators.frequency_tables import (

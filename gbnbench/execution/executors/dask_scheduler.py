@@ -8,15 +8,15 @@ import time
 import warnings
 from collections.abc import Callable
 from concurrent.futures import Future
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from typing import Any, ClassVar
 
 from gbnbench.core.errors import InputError, UnfinishedError
 from gbnbench.core.readable_text import in_one_line
+from gbnbench.execution.executors.dask_call import at_worker, several_threads
 from gbnbench.execution.executors.extra import require
 from gbnbench.execution.one_thread import ONE_THREAD
-from gbnbench.execution.remote_call import Answer
 from gbnbench.execution.worker_pool import BACKLOG
 
 LOCAL = "local"
@@ -185,7 +185,7 @@ class DaskWorkers:
         """Refuse workers that would carry out several calls in one process; later ones refuse themselves."""
         for address, about in self._present().items():
             if about["nthreads"] != 1:
-                raise InputError(_several_threads(address, about["nthreads"]))
+                raise InputError(several_threads(address, about["nthreads"]))
 
 
 def _started_here(jobs: int) -> Any:
@@ -219,34 +219,3 @@ def _silence() -> None:
     for name in [*logging.root.manager.loggerDict, "tornado.application"]:
         if name.partition(".")[0] in ("distributed", "tornado"):
             logging.getLogger(name).setLevel(logging.CRITICAL)
-
-
-def _several_threads(address: str, threads: int) -> str:
-    """Say why a worker with several threads cannot serve."""
-    told = f"the Dask worker {address} carries out {threads} calls at once in one process"
-    return f"{told}; gbnbench needs one: dask worker ADDRESS --nthreads 1 --nworkers N"
-
-
-def at_worker(function: Callable[..., Any], *arguments: Any) -> Any:
-    """Carry out a call in a Dask worker; one with several threads, which came late, says it cannot serve.
-
-    Parameters
-    ----------
-    function : callable
-        A function of a module.
-    *arguments
-        Its arguments.
-
-    Returns
-    -------
-    object
-        What it returned.
-    """
-    from distributed import get_worker
-
-    worker = get_worker()
-    if worker.state.nthreads != 1:
-        told = _several_threads(worker.address, worker.state.nthreads)
-        return Answer(failure=told, again=True, unfit=True, worker=worker.address)
-    answer = function(*arguments)
-    return replace(answer, worker=worker.address) if isinstance(answer, Answer) else answer

@@ -13,7 +13,7 @@ from gbnbench.core.errors import RefusalError
 from gbnbench.core.results.measures import Measures
 from gbnbench.generators.protocol import Generator
 from gbnbench.runs.comparison_folder import Realization
-from gbnbench.studies.comparison_tasks import draw_realization
+from gbnbench.studies.timed_draw import draw_realization
 
 
 @dataclass(frozen=True)

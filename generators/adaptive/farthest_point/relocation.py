@@ -44,7 +44,7 @@ class AdaptiveSweeps:
                 f"fpo needs double precision, which {rt.device.label} lacks; "
                 "choose another device: gbnbench devices lists them"
             )
-        self._program = rt.program(PACKAGE, ("adaptive_fpo.cl",), {})
+        self._program = rt.program(PACKAGE, ("adaptive_voids.cl", "adaptive_fpo.cl"), {})
         self._n, (rows, columns) = len(x), places.cells
         mode = interpolation_mode(toroidal=density.toroidal)
         spacing = places.spacing.astype(np.float64)

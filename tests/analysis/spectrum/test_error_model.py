@@ -10,11 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gbnbench.analysis.precision import precision_of
-from gbnbench.analysis.spectrum.error_model import (
-    coordinates,
-    rms_for,
-    rounded_at_worst,
-)
+from gbnbench.analysis.spectrum.coordinate_rounding import coordinates, rounded_at_worst
+from gbnbench.analysis.spectrum.error_model import rms_for
 from gbnbench.analysis.spectrum.evaluators.cube_product import cube_powers
 from gbnbench.analysis.spectrum.evaluators.direct_sum import listed_power
 from gbnbench.analysis.spectrum.periodogram import periodogram

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from gbnbench.core.periodic_delaunay import triangulation, with_images
-from gbnbench.generators.voronoi.cells import _by_faces
+from gbnbench.generators.voronoi.cell_simplices import face_fans
+from gbnbench.generators.voronoi.cells import _moments
 from gbnbench.generators.voronoi.flags import cell_moments, circumcentres, flattest
 
 
@@ -31,8 +32,9 @@ def test_flat_simplices_are_told_from_regular_ones() -> None:
 
 def test_sums_over_flags_are_those_of_cells_cut_along_their_faces() -> None:
     x = np.random.default_rng(8).random((60, 3))
-    faces = _by_faces(x, 1.0)
-    assert faces is not None
+    fans = face_fans(x, 1.0)
+    assert fans is not None
+    faces = _moments(x, *fans)
     tiled, _ = with_images(x, 1.0)
     mesh = triangulation(tiled)
     assert mesh is not None

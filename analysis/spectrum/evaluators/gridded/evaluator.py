@@ -8,8 +8,9 @@ from typing import ClassVar
 import numpy as np
 
 from gbnbench.analysis.precision import Precision, padded
+from gbnbench.analysis.spectrum.coordinate_rounding import rounded_at_worst
 from gbnbench.analysis.spectrum.digits import half_size, whole_axes
-from gbnbench.analysis.spectrum.error_model import Errors, rounded_at_worst
+from gbnbench.analysis.spectrum.error_model import Errors
 from gbnbench.analysis.spectrum.evaluators.cube_product import CubeProduct
 from gbnbench.analysis.spectrum.evaluators.device_evaluator import DeviceEvaluator
 from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost

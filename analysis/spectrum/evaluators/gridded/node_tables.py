@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.analysis.precision import Precision, padded
+from gbnbench.analysis.spectrum.coordinate_rounding import BITS
 from gbnbench.analysis.spectrum.digits import whole_axes
-from gbnbench.analysis.spectrum.error_model import BITS
 from gbnbench.analysis.spectrum.evaluators.device_points import DevicePoints
 from gbnbench.analysis.spectrum.evaluators.frequency_tables import whole_group_tables
 from gbnbench.analysis.spectrum.evaluators.point_slots import Slots

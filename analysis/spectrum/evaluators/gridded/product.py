@@ -14,8 +14,9 @@ import math
 import numpy as np
 
 from gbnbench.analysis.precision import SUM_POINTS, Precision
+from gbnbench.analysis.spectrum.coordinate_rounding import BITS, Coordinates, coordinates
 from gbnbench.analysis.spectrum.digits import Division, whole_axes
-from gbnbench.analysis.spectrum.error_model import BITS, UNIT, Coordinates, Errors, coordinates, sum_errors
+from gbnbench.analysis.spectrum.error_model import UNIT, Errors, sum_errors
 from gbnbench.analysis.spectrum.evaluators.cube_product import cube_powers
 from gbnbench.analysis.spectrum.evaluators.cube_writer import CubeWriter
 from gbnbench.analysis.spectrum.evaluators.gridded.cells import sorted_by_cell

@@ -6,7 +6,8 @@ import math
 from functools import lru_cache
 
 from gbnbench.analysis.precision import Precision
-from gbnbench.analysis.spectrum.error_model import UNIT, Coordinates, Errors
+from gbnbench.analysis.spectrum.coordinate_rounding import Coordinates
+from gbnbench.analysis.spectrum.error_model import UNIT, Errors
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import RealGrid, transform_of_window
 
 # In units of rounding. Typical: of scattered points, and for each point of the fullest bin; those that

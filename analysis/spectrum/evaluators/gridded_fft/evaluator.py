@@ -6,7 +6,8 @@ import math
 from dataclasses import dataclass, field
 from typing import ClassVar, NamedTuple
 
-from gbnbench.analysis.spectrum.error_model import UNIT, Errors, rms_for, rounded_at_worst
+from gbnbench.analysis.spectrum.coordinate_rounding import rounded_at_worst
+from gbnbench.analysis.spectrum.error_model import UNIT, Errors, rms_for
 from gbnbench.analysis.spectrum.evaluators.cube_product import CubeProduct
 from gbnbench.analysis.spectrum.evaluators.device_evaluator import DeviceEvaluator
 from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost

@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 
 from gbnbench.analysis.precision import Precision
-from gbnbench.analysis.spectrum.error_model import Errors, coordinates
+from gbnbench.analysis.spectrum.coordinate_rounding import coordinates
+from gbnbench.analysis.spectrum.error_model import Errors
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.bands import (
     BinnedPoints,
     binned,

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import gbnbench
-from gbnbench.analysis.spectrum import error_model
+from gbnbench.analysis.spectrum import coordinate_rounding
 from gbnbench.analysis.spectrum.evaluators import direct_sum, point_blocks, shell_product
 from gbnbench.opencl import devices_present
 from tests.oracles.power import direct_power, lattice_of
@@ -28,7 +28,7 @@ def small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
     """Cut sets in blocks of 700 points, whose last is filled up."""
     for module in (point_blocks, shell_product, direct_sum):
         monkeypatch.setattr(module, "POINTS", 700)
-    monkeypatch.setattr(error_model, "ROWS", 700)
+    monkeypatch.setattr(coordinate_rounding, "ROWS", 700)
 
 
 def true_power(x: np.ndarray, f: np.ndarray, weights: np.ndarray | None) -> np.ndarray:
@@ -81,9 +81,9 @@ def test_rounding_of_coordinates_is_the_same_by_blocks(monkeypatch: pytest.Monke
     weights = RNG.standard_normal((2, 2000))
     for precision in ("double", "float"):
         for w in (None, weights, weights[:1]):
-            whole = error_model.coordinates(x, precision, w)
-            monkeypatch.setattr(error_model, "ROWS", 300)
-            parts = error_model.coordinates(x, precision, w)
+            whole = coordinate_rounding.coordinates(x, precision, w)
+            monkeypatch.setattr(coordinate_rounding, "ROWS", 300)
+            parts = coordinate_rounding.coordinates(x, precision, w)
             monkeypatch.undo()
             for name in ("coherent", "scattered", "share"):
                 assert getattr(parts, name) == pytest.approx(getattr(whole, name), rel=1e-12)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from gbnbench.analysis.precision import precision_of
-from gbnbench.analysis.spectrum.error_model import coordinates
+from gbnbench.analysis.spectrum.coordinate_rounding import coordinates
 from gbnbench.analysis.spectrum.evaluators.turn_rows import TurnRows
 from gbnbench.core.torus import fixed_point
 from tests.devices import gpu_form
