@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import resource
 import subprocess
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -59,9 +60,9 @@ def full_disk(name: str, number: int) -> list[Trials]:
 
 
 def quota(name: str, number: int) -> list[Trials]:
-    """Run a command whose files get a largest size at a random moment, then without one.
+    """Run a command whose files get a largest size at a random moment after the first one, then without one.
 
-    From its beginning nothing would be tried but the refusal of kernels, which need a megabyte.
+    Before the first, nothing would be tried but the refusal of kernels, which need a megabyte.
 
     Parameters
     ----------
@@ -82,7 +83,7 @@ def quota(name: str, number: int) -> list[Trials]:
 
 
 def _run_limited(name: str, folder: Path, limit: int, moment: float) -> subprocess.CompletedProcess[str]:
-    """Run a command whose files, after a moment, may not grow beyond a limit.
+    """Run a command whose files, a moment after the first one, may not grow beyond a limit.
 
     Parameters
     ----------
@@ -93,7 +94,7 @@ def _run_limited(name: str, folder: Path, limit: int, moment: float) -> subproce
     limit : int
         In bytes.
     moment : float
-        Seconds after its start.
+        Seconds after its first file.
 
     Returns
     -------
@@ -104,6 +105,9 @@ def _run_limited(name: str, folder: Path, limit: int, moment: float) -> subproce
         stdout=subprocess.PIPE, stderr=subprocess.PIPE,
     ) as started:  # fmt: skip
         try:
+            latest = time.monotonic() + TIMEOUT
+            while not any(folder.iterdir()) and started.poll() is None and time.monotonic() < latest:
+                time.sleep(0.005)
             output, complaints = started.communicate(timeout=moment)
         except subprocess.TimeoutExpired:
             with contextlib.suppress(ProcessLookupError):  # it may have ended
