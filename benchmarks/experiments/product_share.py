@@ -70,14 +70,40 @@ def _cpu_seconds(call: Callable[[], object]) -> float:
 
 
 def request_share(d: int, fmax: int, n: int, precision: PrecisionName) -> tuple[float, float]:
-    """Measure a whole request for a cube, as ``share_of_peak`` does."""
+    """Measure a whole request for a cube.
+
+    Parameters
+    ----------
+    d, fmax, n : int
+        Dimension, largest harmonic on each axis, and points.
+    precision : {"double", "float"}
+        That of the request.
+
+    Returns
+    -------
+    milliseconds, share : float
+        As ``share_of_peak`` gives them.
+    """
     x = np.random.default_rng(0).random((n, d))
     flops = 2.0 * n * (2 * fmax + 1) ** d
     return share_of_peak(lambda: periodogram(x, fmax, precision, method="product"), flops, precision)
 
 
 def blas_share(a: int, b: int, n: int, precision: PrecisionName) -> float:
-    """Measure numpy's product of tables of n points for groups whose half spaces have a and b frequencies."""
+    """Measure numpy's product of ready tables.
+
+    Parameters
+    ----------
+    a, b, n : int
+        Frequencies of the half spaces of the two groups, and points.
+    precision : {"double", "float"}
+        That of the tables.
+
+    Returns
+    -------
+    float
+        Share of the peak.
+    """
     rng, real = np.random.default_rng(0), precision_of(precision).real
     left, right = rng.random((2 * a - 1, n)).astype(real), rng.random((n, 2 * b - 1)).astype(real)
     out = np.empty((len(left), right.shape[1]), real)
@@ -85,7 +111,17 @@ def blas_share(a: int, b: int, n: int, precision: PrecisionName) -> float:
 
 
 def row(d: int, fmax: int, n: int) -> str:
-    """Measure one case in both precisions, and say it in a row of a Markdown table."""
+    """Measure one case in both precisions, and say it in a row of a Markdown table.
+
+    Parameters
+    ----------
+    d, fmax, n : int
+        Dimension, largest harmonic on each axis, and points.
+
+    Returns
+    -------
+    str
+    """
     p = precision_of("double")
     divided = cheapest_division(d, fmax, tile_rows(p), tile_columns(p))
     a, b = half_size(divided.leading), half_size(divided.trailing)
@@ -98,7 +134,13 @@ def row(d: int, fmax: int, n: int) -> str:
 
 
 def main(cases: list[str]) -> None:
-    """Print the table."""
+    """Print the table.
+
+    Parameters
+    ----------
+    cases : list of str
+        Each "d,F,n"; ``CASES`` if there are none.
+    """
     one_thread()  # before the device is opened
     print(f"| {' | '.join((*HEAD, *(f'BLAS, {precision}' for precision in PRECISIONS)))} |")
     print(f"|---|---|{'--:|' * (len(HEAD) + len(PRECISIONS) - 2)}")
