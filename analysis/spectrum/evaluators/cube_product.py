@@ -18,14 +18,9 @@ from gbnbench.analysis.spectrum.error_model import Errors
 from gbnbench.analysis.spectrum.evaluators.device_evaluator import DeviceEvaluator
 from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
 from gbnbench.analysis.spectrum.evaluators.kept_memory import kept
-from gbnbench.analysis.spectrum.evaluators.point_slots import (
-    TABLE_BYTES,
-    Slots,
-    choose_slots,
-    tile_columns,
-    tile_rows,
-)
+from gbnbench.analysis.spectrum.evaluators.point_slots import Slots, choose_slots, tile_columns, tile_rows
 from gbnbench.analysis.spectrum.evaluators.prepared_cube import PreparedCube
+from gbnbench.analysis.spectrum.evaluators.row_runs import held_bytes, planned_runs
 from gbnbench.analysis.spectrum.evaluators.small_cube import MOST_WORK
 from gbnbench.analysis.spectrum.evaluators.two_group_product import product_errors
 from gbnbench.analysis.spectrum.evaluators.work_model import (
@@ -66,16 +61,19 @@ class CubeProduct(DeviceEvaluator):
 
     def cost(self, request: SpectrumRequest) -> EvaluationCost:
         """Estimate the product's cost on the device."""
-        slots = product_slots(self.on_device, request)
-        launches = 3.0 * slots.launches(request.n) * -(-request.realizations // slots.sets)
-        held = 3 * 8 * request.frequencies + 2 * TABLE_BYTES
+        runs = [slots for _, slots in planned_runs(self.on_device, request)]
+        launches = 3.0 * sum(s.launches(request.n) * -(-request.realizations // s.sets) for s in runs)
+        held = held_bytes(self.on_device, request)
         return device_cost(self.on_device, request, self._product_work(request), launches, held)
 
     def expected_errors(self, request: SpectrumRequest) -> Errors:
         """State the product's errors, coordinates being exact in double and rounded at worst in float."""
         p, n = self.on_device, request.n
         at = rounded_at_worst(n, request.d, p.name)
-        return product_errors(p, n, product_slots(p, request), request.fmax, at)
+        errors = Errors(0.0, 0.0)
+        for _, slots in planned_runs(p, request):
+            errors = errors.or_larger(product_errors(p, n, slots, request.fmax, at))
+        return errors
 
     def cube(
         self, x: FloatArray, fmax: int, weights: FloatArray | None, *, half: bool, mean: bool

@@ -25,9 +25,10 @@ GPU_ITEMS = 256  # the same for each multiprocessor of a GPU
 WIDE = 64  # bytes of a vector of AVX-512, of which there are 32 registers, twice as many as of narrower ones
 COMPENSATED_FROM = 32  # the rounding of a slot's sums is kept if it adds up more register sums than this
 PART_SUMS = 8  # register sums that are then added up plainly, before the rounding of what they make is kept
-PAIR_SUMS = (
-    12  # numbers that a pair of frequencies then has: four sums, each a part, a whole and its rounding
-)
+PLAIN_POINTS = 24 * SUM_POINTS  # up to so many points no slot adds up more than COMPENSATED_FROM
+# Numbers that a pair of frequencies has: its four sums, and where the rounding is kept, of each a part, a
+# whole and what was rounded.
+PLAIN_SUMS, PAIR_SUMS = 4, 12
 
 
 @dataclass(frozen=True)

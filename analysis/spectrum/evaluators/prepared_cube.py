@@ -6,20 +6,13 @@ from collections.abc import Iterator
 from functools import cached_property
 from typing import Any
 
-import numpy as np
-
 from gbnbench.analysis.precision import Precision
 from gbnbench.analysis.spectrum.coordinate_rounding import NOT_ROUNDED, Coordinates
-from gbnbench.analysis.spectrum.digits import Division, Harmonics, cheapest_division, half_size, size
+from gbnbench.analysis.spectrum.digits import Harmonics, cheapest_division, half_size
 from gbnbench.analysis.spectrum.evaluators.cube_writer import CubeWriter
 from gbnbench.analysis.spectrum.evaluators.frequency_group import Group
-from gbnbench.analysis.spectrum.evaluators.point_slots import (
-    AMPLITUDE_BYTES,
-    PAIR_SUMS,
-    Slots,
-    tile_columns,
-    tile_rows,
-)
+from gbnbench.analysis.spectrum.evaluators.point_slots import Slots, tile_columns, tile_rows
+from gbnbench.analysis.spectrum.evaluators.row_runs import most_rows, row_blocks
 from gbnbench.analysis.spectrum.evaluators.small_cube import SmallCube, is_small
 from gbnbench.analysis.spectrum.evaluators.two_group_product import TwoGroupProduct, norms_of
 from gbnbench.core.torus import FloatArray
@@ -51,7 +44,7 @@ class PreparedCube:
         self._p, self._n, self._d, self._sets = p, n, d, sets
         self._divided = cheapest_division(d, fmax, tile_rows(p), tile_columns(p))
         self.writer = CubeWriter(p, self._divided, fmax, sets, d, half=half, mean=mean)
-        whole = half_size(self._divided.leading) <= most_rows(p, self._divided)
+        whole = half_size(self._divided.leading) <= most_rows(p, self._divided, n)
         self._whole = self._product(Group(self._divided.leading)) if whole else None
         small = self._whole is not None and is_small(self._whole, sets)
         self._rounded = NOT_ROUNDED
@@ -108,7 +101,7 @@ class PreparedCube:
         if self._whole is not None:
             yield 0, half_size(self._divided.leading), self._whole
             return
-        for first_row, group in row_blocks(self._p, self._divided):
+        for first_row, group in row_blocks(self._p, self._divided, self._n):
             yield first_row, group.count, self._product(group)
 
     def _product(self, leading: Group) -> TwoGroupProduct:
@@ -120,49 +113,3 @@ class PreparedCube:
 
     def _upload_norms(self, weights: FloatArray | None) -> Any:
         return self._p.runtime.upload(norms_of(weights, self._sets, self._n).astype(self._p.sum))
-
-
-def most_rows(p: Precision, divided: Division) -> int:
-    """Count the leading frequencies whose amplitudes fit in ``AMPLITUDE_BYTES``.
-
-    Parameters
-    ----------
-    p : Precision
-        Precision on the device.
-    divided : Division
-        The two groups of axes.
-
-    Returns
-    -------
-    int
-        One tile of them or more.
-    """
-    of_a_row = PAIR_SUMS * np.dtype(p.sum).itemsize * half_size(divided.trailing)
-    return max(tile_rows(p), AMPLITUDE_BYTES // of_a_row // tile_rows(p) * tile_rows(p))
-
-
-def row_blocks(p: Precision, divided: Division) -> Iterator[tuple[int, Group]]:
-    """Cut the leading frequencies in runs whose amplitudes fit in ``AMPLITUDE_BYTES``.
-
-    Parameters
-    ----------
-    p : Precision
-        Precision on the device.
-    divided : Division
-        The two groups of axes.
-
-    Yields
-    ------
-    first : int
-        Position of the run's first frequency.
-    group : Group
-        The frequencies of the run; the whole group where one run holds it.
-    """
-    total, most = half_size(divided.leading), most_rows(p, divided)
-    if total <= most:
-        yield 0, Group(divided.leading)
-        return
-    centre = size(divided.leading) // 2
-    for first in range(0, total, most):
-        order = np.arange(centre + first, centre + min(first + most, total), dtype=np.uint64)
-        yield first, Group(divided.leading, order)

@@ -27,6 +27,7 @@ from gbnbench.analysis.spectrum.evaluators.point_slots import (
     COMPENSATED_FROM,
     PAIR_SUMS,
     PART_SUMS,
+    PLAIN_SUMS,
     Slots,
     choose_slots,
 )
@@ -93,7 +94,7 @@ class TwoGroupProduct:
         self.sizes = self.frequencies.table_sizes(self.slots.pitch)
         real, total = np.dtype(p.real).itemsize, np.dtype(p.sum).itemsize
         of_tables = [size * (self.slots.items or self.slots.count) * real for size in self.sizes]
-        of_amplitudes = self.slots.count * rows * columns * (PAIR_SUMS if compensated else 4) * total
+        of_amplitudes = self.slots.count * rows * columns * (PAIR_SUMS if compensated else PLAIN_SUMS) * total
         self.amplitude_numbers = of_amplitudes // total
         self.nbytes = sum(of_tables) + of_amplitudes
         self.tables = p.runtime.empty(of_tables[0]), p.runtime.empty(of_tables[1])

@@ -6,13 +6,15 @@ import numpy as np
 import pytest
 
 from gbnbench.analysis.precision import precision_of
+from gbnbench.analysis.spectrum.coordinate_rounding import rounded_at_worst
 from gbnbench.analysis.spectrum.digits import cheapest_division, half_size
-from gbnbench.analysis.spectrum.evaluators import kept_memory, point_slots, prepared_cube
+from gbnbench.analysis.spectrum.evaluators import kept_memory, point_slots, prepared_cube, row_runs
 from gbnbench.analysis.spectrum.evaluators.cube_product import cube_powers
 from gbnbench.analysis.spectrum.evaluators.frequency_group import Group
 from gbnbench.analysis.spectrum.evaluators.point_slots import COMPENSATED_FROM
-from gbnbench.analysis.spectrum.evaluators.prepared_cube import row_blocks
-from gbnbench.analysis.spectrum.evaluators.two_group_product import TwoGroupProduct
+from gbnbench.analysis.spectrum.evaluators.row_runs import row_blocks
+from gbnbench.analysis.spectrum.evaluators.two_group_product import TwoGroupProduct, product_errors
+from gbnbench.analysis.spectrum.request import SpectrumRequest
 from tests.analysis.spectrum.evaluators.cube_truth import UNIT, check
 from tests.devices import gpu_form
 from tests.oracles.power import mean_power, on_grid, root_distance
@@ -75,10 +77,10 @@ def test_rows_in_blocks_change_nothing(monkeypatch, d, fmax, form):
     x = on_grid((3, 33, d), d)
     weights = np.random.default_rng(d).random((3, 33))
     whole = [cube_powers(p, x, fmax, weights, half, mean)[0] for half in (0, 1) for mean in (0, 1)]
-    monkeypatch.setattr(prepared_cube, "AMPLITUDE_BYTES", 1 << 10)
+    monkeypatch.setattr(row_runs, "AMPLITUDE_BYTES", 1 << 10)
     kept_memory.forget()
     divided = cheapest_division(d, fmax, point_slots.tile_rows(p))
-    assert len(list(row_blocks(p, divided))) > 1
+    assert len(list(row_blocks(p, divided, 33))) > 1
     parts = [cube_powers(p, x, fmax, weights, half, mean)[0] for half in (0, 1) for mean in (0, 1)]
     for one, other in zip(whole, parts, strict=True):
         assert np.allclose(np.sqrt(one), np.sqrt(other), rtol=0, atol=1e-13)
@@ -92,3 +94,26 @@ def test_many_small_sets_do_not_ask_for_more_than_the_room_of_amplitudes(n, sets
     rows, columns = half_size(divided.leading), half_size(divided.trailing)
     slots = point_slots.choose_slots(p, n, sets, rows, columns)
     assert slots.count * rows * columns * 4 * 8 <= point_slots.AMPLITUDE_BYTES
+
+
+@pytest.mark.parametrize("form", ["cpu", "gpu"])
+@pytest.mark.parametrize(
+    ("n", "d", "fmax", "sets", "room"),
+    [(300, 4, 2, 3, None), (5000, 4, 2, 1, None), (9000, 3, 3, 2, 1 << 12), (5000, 2, 30, 1, 1 << 14)],
+)
+def test_the_plan_foresees_the_memory_and_the_bound(monkeypatch, form, n, d, fmax, sets, room):
+    p = precision_of("double") if form == "cpu" else gpu_form()
+    if room is not None:
+        monkeypatch.setattr(row_runs, "AMPLITUDE_BYTES", room)
+    kept_memory.forget()
+    x = np.random.default_rng(n).random((sets, n, d))
+    request = SpectrumRequest("cube", n, d, fmax, sets, (2 * fmax + 1) ** d)
+    runs = row_runs.planned_runs(p, request)
+    assert (len(runs) > 1) == (room is not None)
+    _, errors = cube_powers(p, x, fmax)
+    planned = [product_errors(p, n, slots, fmax, rounded_at_worst(n, d, p.name)).bound for _, slots in runs]
+    assert errors.bound == pytest.approx(max(planned), rel=1e-12)
+    cube = prepared_cube.PreparedCube(p, n, d, sets, fmax, half=False, mean=True)
+    taken = cube.writer.nbytes + max(product.nbytes for _, _, product in cube._products())
+    turns = 2 * 8 * sets * d * point_slots.padded(n, 4096)
+    assert taken <= row_runs.held_bytes(p, request) + turns
