@@ -18,7 +18,7 @@ from gbnbench.analysis.spectrum.error_model import Errors
 from gbnbench.analysis.spectrum.evaluators.device_evaluator import DeviceEvaluator
 from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
 from gbnbench.analysis.spectrum.evaluators.kept_memory import kept
-from gbnbench.analysis.spectrum.evaluators.point_slots import Slots, choose_slots, tile_columns, tile_rows
+from gbnbench.analysis.spectrum.evaluators.point_slots import tile_columns, tile_rows
 from gbnbench.analysis.spectrum.evaluators.prepared_cube import PreparedCube
 from gbnbench.analysis.spectrum.evaluators.row_runs import held_bytes, planned_runs
 from gbnbench.analysis.spectrum.evaluators.small_cube import MOST_WORK
@@ -61,9 +61,12 @@ class CubeProduct(DeviceEvaluator):
 
     def cost(self, request: SpectrumRequest) -> EvaluationCost:
         """Estimate the product's cost on the device."""
-        runs = [slots for _, slots in planned_runs(self.on_device, request)]
-        launches = 3.0 * sum(s.launches(request.n) * -(-request.realizations // s.sets) for s in runs)
-        held = held_bytes(self.on_device, request)
+        runs = planned_runs(self.on_device, request)
+        launches = 3.0 * sum(
+            run.times * run.slots.launches(request.n) * -(-request.realizations // run.slots.sets)
+            for run in runs
+        )
+        held = held_bytes(self.on_device, request, runs)
         return device_cost(self.on_device, request, self._product_work(request), launches, held)
 
     def expected_errors(self, request: SpectrumRequest) -> Errors:
@@ -71,8 +74,8 @@ class CubeProduct(DeviceEvaluator):
         p, n = self.on_device, request.n
         at = rounded_at_worst(n, request.d, p.name)
         errors = Errors(0.0, 0.0)
-        for _, slots in planned_runs(p, request):
-            errors = errors.or_larger(product_errors(p, n, slots, request.fmax, at))
+        for run in planned_runs(p, request):
+            errors = errors.or_larger(product_errors(p, n, run.slots, request.fmax, at))
         return errors
 
     def cube(
@@ -87,27 +90,6 @@ class CubeProduct(DeviceEvaluator):
         """Evaluate the power of a box and nothing beyond it, as ``Evaluator.box`` describes it."""
         half = request.what == "half cube"
         return cube_powers(self.on_device, x, request.largest, weights, half, mean)
-
-
-def product_slots(p: Precision, request: SpectrumRequest) -> Slots:
-    """Deal the points of a request out to work-items, as the product of a cube does.
-
-    Parameters
-    ----------
-    p : Precision
-        Precision on the device.
-    request : SpectrumRequest
-        A request for a cube, or for shells of one.
-
-    Returns
-    -------
-    Slots
-    """
-    divided = cheapest_division(request.d, request.largest, tile_rows(p), tile_columns(p))
-    a, b = half_size(divided.leading), half_size(divided.trailing)
-    return choose_slots(
-        p, request.n, request.realizations, padded(a, tile_rows(p)), padded(b, p.runtime.group * p.lanes)
-    )
 
 
 def cube_powers(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -87,33 +88,28 @@ def row_blocks(p: Precision, divided: Division, n: int) -> Iterator[tuple[int, G
         yield first, Group(divided.leading, order)
 
 
-def planned_runs(p: Precision, request: SpectrumRequest) -> list[tuple[int, Slots]]:
-    """Give the different runs that a request for a cube takes: all alike but the last.
+@dataclass(frozen=True)
+class PlannedRuns:
+    """Runs that are alike.
 
-    Parameters
+    Attributes
     ----------
-    p : Precision
-        Precision on the device.
-    request : SpectrumRequest
-        A request for a cube, or for shells of one.
-
-    Returns
-    -------
-    list of (int, Slots)
-        Leading frequencies of a run, and how the points are dealt out.
+    rows, columns : int
+        Frequencies of the two groups, padded to whole tiles.
+    times : int
+        How many runs.
+    slots : Slots
+        How the points are dealt out.
     """
-    divided = cheapest_division(request.d, request.largest, tile_rows(p), tile_columns(p))
-    a, b = half_size(divided.leading), half_size(divided.trailing)
-    columns, most = padded(b, p.runtime.group * p.lanes), most_rows(p, divided, request.n)
-    lengths = {min(a, most), a % most or min(a, most)}
-    return [
-        (rows, choose_slots(p, request.n, request.realizations, padded(rows, tile_rows(p)), columns))
-        for rows in sorted(lengths, reverse=True)
-    ]
+
+    rows: int
+    columns: int
+    times: int
+    slots: Slots
 
 
-def held_bytes(p: Precision, request: SpectrumRequest) -> int:
-    """Count the bytes of the tables and amplitudes of a cube, and of its powers on the device and the host.
+def planned_runs(p: Precision, request: SpectrumRequest) -> list[PlannedRuns]:
+    """Give the runs that a request for a cube takes: all alike but a shorter last one.
 
     Parameters
     ----------
@@ -124,16 +120,64 @@ def held_bytes(p: Precision, request: SpectrumRequest) -> int:
 
     Returns
     -------
+    list of PlannedRuns
+        One, or two where the last run is shorter.
+    """
+    divided, rows, columns = _padded_groups(p, request)
+    most = min(rows, most_rows(p, divided, request.n))
+    whole, left = divmod(rows, most)
+    lengths = [(most, whole), *([(left, 1)] if left else [])]
+    return [PlannedRuns(run, columns, times, _slots(p, request, run, columns)) for run, times in lengths]
+
+
+def slots_of_all_rows(p: Precision, request: SpectrumRequest) -> Slots:
+    """Deal the points of a request out to work-items, as if one run took all rows.
+
+    Parameters
+    ----------
+    p : Precision
+        Precision on the device.
+    request : SpectrumRequest
+        A request for a cube, or for shells of one.
+
+    Returns
+    -------
+    Slots
+    """
+    _, rows, columns = _padded_groups(p, request)
+    return _slots(p, request, rows, columns)
+
+
+def held_bytes(p: Precision, request: SpectrumRequest, planned: list[PlannedRuns]) -> int:
+    """Count the bytes of the tables and amplitudes of a cube, and of its powers on the device and the host.
+
+    Parameters
+    ----------
+    p : Precision
+        Precision on the device.
+    request : SpectrumRequest
+        A request for a cube.
+    planned : list of PlannedRuns
+        Its runs; while one gives way to a shorter one, both are held.
+
+    Returns
+    -------
     int
     """
-    divided = cheapest_division(request.d, request.largest, tile_rows(p), tile_columns(p))
-    columns = padded(half_size(divided.trailing), p.runtime.group * p.lanes)
     copies = 2 if p.runtime.device.is_cpu else 3  # a CPU's kernels write the host's memory
-    powers = copies * np.dtype(np.float64).itemsize * request.frequencies
-    of_runs = []
-    for count, slots in planned_runs(p, request):
-        rows = padded(count, tile_rows(p))
-        tables = 2 * (rows + columns) * slots.pitch * (slots.items or slots.count) * np.dtype(p.real).itemsize
-        sums = slots.count * rows * columns * pair_sums(request.n) * np.dtype(p.sum).itemsize
-        of_runs.append(tables + sums)
-    return powers + sum(of_runs)
+    held = copies * np.dtype(np.float64).itemsize * request.frequencies
+    for run in planned:
+        tables = 2 * (run.rows + run.columns) * run.slots.pitch * (run.slots.items or run.slots.count)
+        sums = run.slots.count * run.rows * run.columns * pair_sums(request.n)
+        held += tables * np.dtype(p.real).itemsize + sums * np.dtype(p.sum).itemsize
+    return held
+
+
+def _padded_groups(p: Precision, request: SpectrumRequest) -> tuple[Division, int, int]:
+    divided = cheapest_division(request.d, request.largest, tile_rows(p), tile_columns(p))
+    rows = padded(half_size(divided.leading), tile_rows(p))
+    return divided, rows, padded(half_size(divided.trailing), p.runtime.group * p.lanes)
+
+
+def _slots(p: Precision, request: SpectrumRequest, rows: int, columns: int) -> Slots:
+    return choose_slots(p, request.n, request.realizations, rows, columns)

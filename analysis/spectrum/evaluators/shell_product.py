@@ -17,12 +17,13 @@ from numpy.typing import NDArray
 from gbnbench.analysis.precision import Precision
 from gbnbench.analysis.spectrum.coordinate_rounding import coordinates, rounded_at_worst
 from gbnbench.analysis.spectrum.error_model import Errors
-from gbnbench.analysis.spectrum.evaluators.cube_product import CubeProduct, product_slots
+from gbnbench.analysis.spectrum.evaluators.cube_product import CubeProduct
 from gbnbench.analysis.spectrum.evaluators.device_evaluator import DeviceEvaluator
 from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
 from gbnbench.analysis.spectrum.evaluators.frequency_group import Group
 from gbnbench.analysis.spectrum.evaluators.point_blocks import POINTS, amplitudes_of_sets, merged_errors
 from gbnbench.analysis.spectrum.evaluators.point_slots import TABLE_BYTES, tile_rows
+from gbnbench.analysis.spectrum.evaluators.row_runs import slots_of_all_rows
 from gbnbench.analysis.spectrum.evaluators.two_group_product import norms_of, product_errors
 from gbnbench.analysis.spectrum.evaluators.work_model import ENTRY, SHELL, TILE, device_cost
 from gbnbench.analysis.spectrum.request import Frequencies, Progress, SpectrumRequest
@@ -65,8 +66,8 @@ class ShellProduct(DeviceEvaluator):
         p, n = self.on_device, request.n
         at = rounded_at_worst(n, request.d, p.name)
         if n <= POINTS:
-            return product_errors(p, n, product_slots(p, request), request.fmax, at)
-        slots = product_slots(p, replace(request, n=POINTS, realizations=1))
+            return product_errors(p, n, slots_of_all_rows(p, request), request.fmax, at)
+        slots = slots_of_all_rows(p, replace(request, n=POINTS, realizations=1))
         return merged_errors(p, product_errors(p, POINTS, slots, request.fmax, at), at)
 
     def shells(

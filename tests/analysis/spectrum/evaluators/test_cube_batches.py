@@ -109,11 +109,16 @@ def test_the_plan_foresees_the_memory_and_the_bound(monkeypatch, form, n, d, fma
     x = np.random.default_rng(n).random((sets, n, d))
     request = SpectrumRequest("cube", n, d, fmax, sets, (2 * fmax + 1) ** d)
     runs = row_runs.planned_runs(p, request)
-    assert (len(runs) > 1) == (room is not None)
+    cut = row_runs.row_blocks(
+        p, cheapest_division(d, fmax, point_slots.tile_rows(p), point_slots.tile_columns(p)), n
+    )
+    assert sum(run.times for run in runs) == len(list(cut))
+    assert (sum(run.times for run in runs) > 1) == (room is not None)
     _, errors = cube_powers(p, x, fmax)
-    planned = [product_errors(p, n, slots, fmax, rounded_at_worst(n, d, p.name)).bound for _, slots in runs]
+    at = rounded_at_worst(n, d, p.name)
+    planned = [product_errors(p, n, run.slots, fmax, at).bound for run in runs]
     assert errors.bound == pytest.approx(max(planned), rel=1e-12)
     cube = prepared_cube.PreparedCube(p, n, d, sets, fmax, half=False, mean=True)
     taken = cube.writer.nbytes + max(product.nbytes for _, _, product in cube._products())
     turns = 2 * 8 * sets * d * point_slots.padded(n, 4096)
-    assert taken <= row_runs.held_bytes(p, request) + turns
+    assert taken <= row_runs.held_bytes(p, request, runs) + turns
