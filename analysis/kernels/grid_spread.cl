@@ -1,5 +1,5 @@
 /* Sums G(m) = sum_k w_k prod_a W(m_a - M_a x_ka) at the nodes of a real grid on AXES axes, 2 or 3; line_spread.cl
- * takes one axis, with the window of these.
+ * takes one axis, with the window of these. Needs grid_cells.cl.
  *
  * W is the window (kaiser_bessel.py) on WIDTH cells, given in each cell as an even and an odd polynomial of the
  * place less 1/2: the values of the lower cells are their sums, those of the upper ones, mirrored, their differences.
@@ -7,31 +7,17 @@
  *
  * A band is the nodes first_row .. end_row of the first axis (all, if there is only one axis) of one set.
  * It takes the points of its own band and of the band before, whose windows reach into its own. Where there are
- * several runs, each takes every runs-th point and is summed in `part`, which is then added to `grid`, so that the
- * rounding of a node's sum grows with the points of a run and the number of runs. A run's mean is left out then:
- * it is part of no frequency but 0, and would be most of what is rounded. The last axes have WIDTH cells beyond the
- * end, which are folded back. Points are [set][axis][stride]; band b of a set holds those from starts[b] on.
+ * several runs (deal_points.cl), each takes every runs-th point and is summed in `part`, which is then added to
+ * `grid`, so that the rounding of a node's sum grows with the points of a run and the number of runs. The mean of a
+ * run, a share of the set's, is left out then: it is part of no frequency but 0, and would be most of what is
+ * rounded. The last axes have WIDTH cells beyond the end, which are folded back. Points are [set][axis][stride];
+ * band b of a set holds those from starts[b] on.
  */
 #define REAL4 JOIN(REAL, 4)
 #define LOAD4(p) ((REAL4)((p)[0], (p)[1], (p)[2], (p)[3]))
 #define STORE4(v, p) do { const REAL4 kept = (v); (p)[0] = kept.s0; (p)[1] = kept.s1; (p)[2] = kept.s2; \
     (p)[3] = kept.s3; } while (0)
 #define ADD4(v, p) STORE4(LOAD4(p) + (v), p)
-
-/* The cell of a coordinate on `nodes` cells, and its place there less 1/2; exact, but for the place's rounding. */
-static uint cell_of(const TURN turn, const uint nodes, REAL *place)
-{
-#if DOUBLE
-    const ulong low = (turn & 0xffffffffUL) * nodes, high = (turn >> 32) * nodes + (low >> 32);
-    const ulong rest = high << 32 | (low & 0xffffffffUL);
-    *place = (REAL)as_long(rest ^ 0x8000000000000000UL) * (REAL)5.421010862427522170037e-20;
-    return (uint)(high >> 32);
-#else
-    const ulong scaled = (ulong)turn * nodes;
-    *place = (REAL)as_int((uint)scaled ^ 0x80000000u) * (REAL)2.3283064365386962890625e-10f;
-    return (uint)(scaled >> 32);
-#endif
-}
 
 /* Values of the window at the WIDTH cells around a place, as REAL4 named v0 .. v3 (v0, v1 where WIDTH is 8): begun
  * with the highest terms, a term at a time, and mirrored. Two windows side by side take less than one after the other.
@@ -159,7 +145,7 @@ INLINE void add_group(REAL (*values)[3 * WIDTH], const int *planes, const ulong 
 /* Carries the points of a set to a band of its grid: `grid`, which is cleared, with `part` beside it for runs. */
 static void spread_band(const uint set, const uint band, __global const TURN *turns, const uint stride,
                         __global const REAL *weight, const uint weight_stride, __global const uint *starts,
-                        const uint bands, const uint runs, const REAL mean, const uint nodes,
+                        const uint bands, const uint runs, const REAL mean_of_set, const uint nodes,
                         const uint rows_a_band, const uint row_length, __constant REAL *terms,
                         __global REAL *grid, __global REAL *part)
 {
@@ -167,6 +153,7 @@ static void spread_band(const uint set, const uint band, __global const TURN *tu
     const uint end_row = first_row + rows_a_band < nodes ? first_row + rows_a_band : nodes;
     const ulong plane = AXES == 3 ? (ulong)(nodes + WIDTH) * row_length : row_length;
     const ulong count = (end_row - first_row) * plane;
+    const REAL mean = mean_of_set / runs;
     __global const uint *start = starts + set * (bands + 1);
     __global REAL *into = runs > 1 ? part : grid;
 #if AXES == 3
@@ -235,14 +222,14 @@ static void spread_band(const uint set, const uint band, __global const TURN *tu
 
 __kernel void grid_spread(__global const TURN *turns, const uint stride, __global const REAL *weight,
                           const uint weight_stride, __global const uint *starts, const uint bands,
-                          const uint runs, __global const REAL *means, const uint nodes, const uint rows_a_band,
-                          const uint row_length, __constant REAL *terms, __global REAL *grids,
-                          __global REAL *parts, const ulong grid_size)
+                          __global const uint *crowds, __global const REAL *means, const uint nodes,
+                          const uint rows_a_band, const uint row_length, __constant REAL *terms,
+                          __global REAL *grids, __global REAL *parts, const ulong grid_size)
 {
     const uint band = get_global_id(0), set = get_global_id(1);
     const ulong plane = AXES == 3 ? (ulong)(nodes + WIDTH) * row_length : row_length;
     const ulong begin = set * grid_size + band * rows_a_band * plane;
-    spread_band(set, band, turns, stride, weight, weight_stride, starts, bands, runs, means[set], nodes,
-                rows_a_band, row_length, terms, grids + begin, parts + begin);
+    spread_band(set, band, turns, stride, weight, weight_stride, starts, bands, RUNS_OF(crowds, set), means[set],
+                nodes, rows_a_band, row_length, terms, grids + begin, parts + begin);
 }
 #endif

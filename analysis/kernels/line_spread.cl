@@ -1,4 +1,5 @@
-/* Sums G(m) = sum_k w_k W(m - M x_k) at the nodes of a real grid on a line; needs grid_spread.cl for the window.
+/* Sums G(m) = sum_k w_k W(m - M x_k) at the nodes of a real grid on a line; needs grid_cells.cl, and grid_spread.cl for
+ * the window.
  *
  * One work-item takes all points of a set, two at a time, in the order in which they stand. Where there are several
  * runs, the points of a bin of WIDTH cells are dealt to them in turn (`taken` counts them), and each run is summed in
@@ -43,15 +44,16 @@ static __global REAL *row_of(const uint cell, const uint runs, __global uint *ta
 }
 
 __kernel void line_spread(__global const TURN *turns, const uint stride, __global const REAL *weight,
-                          const uint weight_stride, const uint runs, __global const REAL *means,
-                          const uint nodes, const uint row_length, __constant REAL *terms,
-                          __global REAL *grids, __global REAL *all_parts, __global uint *all_taken)
+                          const uint weight_stride, const uint n, __global const uint *crowds,
+                          const uint most_runs, __global const REAL *means, const uint nodes,
+                          const uint row_length, __constant REAL *terms, __global REAL *grids,
+                          __global REAL *all_parts, __global uint *all_taken)
 {
-    const uint set = get_global_id(0), bins = (nodes + WIDTH - 1) / WIDTH;
+    const uint set = get_global_id(0), bins = (nodes + WIDTH - 1) / WIDTH, runs = RUNS_OF(crowds, set);
     __global const TURN *turn = turns + (ulong)set * stride;
     __global const REAL *w = weight + (ulong)set * weight_stride;
     __global REAL *grid = grids + (ulong)set * row_length;
-    __global REAL *parts = runs > 1 ? all_parts + (ulong)set * runs * row_length : grid;
+    __global REAL *parts = runs > 1 ? all_parts + (ulong)set * most_runs * row_length : grid;
     __global uint *taken = all_taken + (ulong)set * bins;
     clear(grid, row_length);
     if (runs > 1) {
@@ -59,7 +61,7 @@ __kernel void line_spread(__global const TURN *turns, const uint stride, __globa
         for (uint b = 0; b < bins; b++) taken[b] = 0;
     }
     uint k = 0;
-    for (; k + 1 < stride; k += 2) {
+    for (; k + 1 < n; k += 2) {
         REAL place, other;
         const uint cell = cell_of(turn[k], nodes, &place), next = cell_of(turn[k + 1], nodes, &other);
         BEGIN_LINE(x, place)
@@ -70,7 +72,7 @@ __kernel void line_spread(__global const TURN *turns, const uint stride, __globa
         at = row_of(next, runs, taken, parts, row_length) + next;
         ADD_LINE(w[k + 1], y, other, at)
     }
-    if (k < stride) {
+    if (k < n) {
         REAL place;
         const uint cell = cell_of(turn[k], nodes, &place);
         BEGIN_LINE(x, place)
@@ -80,5 +82,5 @@ __kernel void line_spread(__global const TURN *turns, const uint stride, __globa
     }
     for (uint run = 0; run < runs; run++) fold(parts + (ulong)run * row_length, 1, row_length, nodes, row_length);
     if (runs > 1)
-        for (uint run = 0; run < runs; run++) give(parts + (ulong)run * row_length, grid, row_length, means[set]);
+        for (uint run = 0; run < runs; run++) give(parts + (ulong)run * row_length, grid, row_length, means[set] / runs);
 }

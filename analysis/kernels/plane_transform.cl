@@ -1,5 +1,5 @@
 /* Transform of points in the plane by way of a real grid, and the power of its lowest harmonics; needs
- * fourier_passes.cl and grid_spread.cl.
+ * fourier_passes.cl, grid_cells.cl and grid_spread.cl.
  *
  * plane_rows: a work-item carries points to one band of a grid after another, always in the same memory, which so
  * stays in the cache, and transforms the band's rows there. A row of `nodes` numbers is transformed as half as many
@@ -51,9 +51,10 @@ static void transform_rows(__global const REAL *at, const size_t row_length, con
 }
 
 __kernel void plane_rows(__global const TURN *points, const uint stride, __global const REAL *weight,
-                         const uint weight_stride, __global const uint *starts, const uint bands, const uint runs,
-                         __global const REAL *means, const uint nodes, const uint rows_a_band, const uint sets,
-                         const uint row_length, __constant REAL *terms, __global REAL *grids,
+                         const uint weight_stride, __global const uint *starts, const uint bands,
+                         __global const uint *crowds, __global const REAL *means, const uint nodes,
+                         const uint rows_a_band, const uint sets, const uint row_length,
+                         __constant REAL *terms, __global REAL *grids,
                          __global REAL *parts, const ulong band_size,
                          __global const uint *radices, __global const REAL *twiddles, __global const REAL *turns,
                          const uint harmonics, __global REAL *transforms, const ulong transform_size,
@@ -61,7 +62,8 @@ __kernel void plane_rows(__global const TURN *points, const uint stride, __globa
 {
     __global REAL *grid = grids + get_global_id(0) * band_size, *part = parts + get_global_id(0) * band_size;
     for (uint one = get_global_id(0); one < bands * sets; one += get_global_size(0)) {
-        const uint set = one / bands, band = one % bands, first = band * rows_a_band;
+        const uint set = one / bands, band = one % bands, first = band * rows_a_band, runs = RUNS_OF(crowds, set);
+        if (runs == 0) continue;
         const uint rows = first + rows_a_band < nodes ? rows_a_band : nodes - first;
         spread_band(set, band, points, stride, weight, weight_stride, starts, bands, runs, means[set], nodes,
                     rows_a_band, row_length, terms, grid, part);

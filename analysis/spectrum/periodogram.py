@@ -115,9 +115,7 @@ def periodogram(
     f, request = cube_request(n, d, fmax, sets, lengths, half=half)
     with use_device(device):
         evaluator = choose(request, precision, floor, method)
-        if method is None:
-            evaluator = evaluator.for_points(points, request.fmax, floor)
-        power, errors = evaluator.box(points, request, w, mean=True)
+        power, errors, evaluator = evaluator.evaluate(points, request, w, mean=True)
         errors = errors.averaged(sets, n)
         return made_spectrum(
             power, request, evaluator, errors, fmax=f, half=half, weighted=w is not None, sides=lengths

@@ -46,8 +46,7 @@ def power_of_each(
     """
     sets, n, d = x.shape
     f, request = cube_request(n, d, fmax, sets, sides)
-    evaluator = choose(request, precision, None).for_points(x, request.fmax, None)
-    powers, errors = evaluator.box(x, request, None, mean=False)
+    powers, errors, evaluator = choose(request, precision, None).evaluate(x, request, None, mean=False)
     first = replace(request, realizations=1)
     return powers, made_spectrum(powers[0], first, evaluator, errors, fmax=f, sides=sides)
 

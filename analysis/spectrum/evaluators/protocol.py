@@ -109,25 +109,6 @@ class Evaluator(ABC):
         """Count what a request takes in multiply-adds, to compare exact evaluators without any timing."""
         return self.cost(request).flops / 2
 
-    def for_points(self, x: FloatArray, fmax: int, floor: float | None) -> Evaluator:
-        """Give the evaluator that shall take these points, once they are known.
-
-        Parameters
-        ----------
-        x : (sets, n, d) float64
-            Checked points.
-        fmax : int
-            Largest harmonic on each axis.
-        floor : float or None
-            Smallest power that must be known to 1%.
-
-        Returns
-        -------
-        Evaluator
-            Itself, or an exact one where these points make its errors larger than it stated.
-        """
-        return self
-
     @property
     def device(self) -> str:
         """Where it runs."""
@@ -196,6 +177,23 @@ class Evaluator(ABC):
         if half:
             inner[0] = slice(0, request.harmonics[0] + 1)
         return np.ascontiguousarray(power[(..., *inner)]), errors
+
+    def evaluate(
+        self, x: FloatArray, request: SpectrumRequest, weights: FloatArray | None, *, mean: bool
+    ) -> tuple[FloatArray, Errors, Evaluator]:
+        """Evaluate the power of a cube or a box, or have an exact evaluator do it for points that are hard.
+
+        Parameters are those of ``box``.
+
+        Returns
+        -------
+        power, errors
+            As ``box`` returns them.
+        evaluator : Evaluator
+            Itself, or an exact one where these points make its errors larger than it stated before they were known.
+        """
+        power, errors = self.box(x, request, weights, mean=mean)
+        return power, errors, self
 
     def listed(
         self, x: FloatArray, frequencies: NDArray[np.int64], weights: FloatArray | None

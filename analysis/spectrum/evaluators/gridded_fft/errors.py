@@ -6,7 +6,7 @@ import math
 from functools import lru_cache
 
 from gbnbench.analysis.precision import Precision
-from gbnbench.analysis.spectrum.coordinate_rounding import Coordinates
+from gbnbench.analysis.spectrum.coordinate_rounding import Coordinates, rounded_at_worst
 from gbnbench.analysis.spectrum.error_model import UNIT, Errors
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import RealGrid, transform_of_window
 
@@ -21,6 +21,7 @@ WORST, WORST_ADDITION, SHARE_OF_AN_AXIS = 8.0, 0.5, 0.7
 WINDOW_TYPICAL = {"double": 0.0, "float": 5e-8}  # of the window itself, where it is not below rounding
 
 
+@lru_cache(maxsize=256)
 def fft_errors(p: Precision, grid: RealGrid, n: int, crowd: int, runs: int, at: Coordinates) -> Errors:
     """State the errors of sqrt(power).
 
@@ -33,9 +34,9 @@ def fft_errors(p: Precision, grid: RealGrid, n: int, crowd: int, runs: int, at: 
     n : int
         Points of a set.
     crowd : int
-        Points in the fullest bin, as ``bands.Bands`` counts them.
+        Points in the fullest bin, as deal_points.cl counts them.
     runs : int
-        Runs in which points are summed.
+        Runs in which the points are summed, at least 1.
     at : Coordinates
         Rounding of the coordinates.
 
@@ -82,3 +83,42 @@ def usual_crowd(grid: RealGrid, n: int) -> int:
     """
     mean = n * (grid.width / grid.nodes) ** grid.d
     return min(n, math.ceil(mean + 4 * math.sqrt(mean) + 4))
+
+
+def too_crowded(p: Precision, grid: RealGrid, n: int, crowd: int, runs: int, allowed: float) -> bool:
+    """Tell whether a set is more crowded than by chance, and its typical error is larger than what is allowed.
+
+    Parameters
+    ----------
+    p, grid, n, crowd, runs
+        As in ``fft_errors``; ``runs`` may be 0 for a set that was given up.
+    allowed : float
+        Of sqrt(power).
+
+    Returns
+    -------
+    bool
+    """
+    if runs == 0:
+        return True
+    if crowd <= usual_crowd(grid, n):
+        return False
+    return fft_errors(p, grid, n, crowd, runs, rounded_at_worst(n, grid.d, p.name)).rms > allowed
+
+
+@lru_cache(maxsize=64)
+def most_crowd(p: Precision, grid: RealGrid, n: int, allowed: float) -> int:
+    """Count the points in the fullest bin beyond which a set is too crowded in any number of runs.
+
+    Parameters
+    ----------
+    p, grid, n, allowed
+        As in ``too_crowded``.
+
+    Returns
+    -------
+    int
+        At most n.
+    """
+    beyond_usual = allowed / (UNIT[p.name] * TYPICAL_CROWD)
+    return n if beyond_usual >= n else min(n, usual_crowd(grid, n) + math.ceil(beyond_usual))

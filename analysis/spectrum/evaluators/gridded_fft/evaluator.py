@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
 from gbnbench.analysis.spectrum.coordinate_rounding import rounded_at_worst
@@ -11,18 +11,16 @@ from gbnbench.analysis.spectrum.error_model import UNIT, Errors, rms_for
 from gbnbench.analysis.spectrum.evaluators.cube_product import CubeProduct
 from gbnbench.analysis.spectrum.evaluators.device_evaluator import DeviceEvaluator
 from gbnbench.analysis.spectrum.evaluators.evaluation_cost import EvaluationCost
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.bands import (
-    BAND_ROWS,
-    CACHE_BYTES,
-    BinnedPoints,
-    binned,
-    run_count,
-)
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.bands import BAND_ROWS, CACHE_BYTES, run_count
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.errors import WINDOW_TYPICAL, fft_errors, usual_crowd
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import AXES, real_grid
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.host_transform import shape_of_harmonics
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.plane_transform import plane_serves, transform_numbers
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.powers import fft_powers, sets_together
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.powers import (
+    TooCrowdedError,
+    fft_powers,
+    sets_together,
+)
 from gbnbench.analysis.spectrum.evaluators.protocol import Evaluator
 from gbnbench.analysis.spectrum.evaluators.work_model import device_cost, narrow
 from gbnbench.analysis.spectrum.limits import BYTES, MEMORY_SHARE
@@ -64,7 +62,6 @@ WORK = {
     2: GridWork(350.0, 6.57, 6.57, 2.65, 0.0, 2.25e6),
     3: GridWork(737.0, 4.0, 5.37, 3.62, 0.0, 4.16e6),
 }
-BINNED_BYTES = 32  # for each point: its bin, its place in their order, and its weight twice
 LARGEST_TYPICAL = 9.0  # typical error in units of rounding, beyond which crowded points go to the product
 
 
@@ -74,15 +71,15 @@ class GriddedFFT(DeviceEvaluator):
 
     Attributes
     ----------
-    points : BinnedPoints or None
-        The points that ``for_points`` binned, which need not be binned again.
+    allowed : float
+        Typical error of sqrt(power) that crowded points may have; without a limit where it was asked for by name.
     """
 
     method: ClassVar[str] = "fft"
     title: ClassVar[str] = "gridded FFT"
     serves: ClassVar[tuple[Frequencies, ...]] = ("cube", "half cube")
 
-    points: BinnedPoints | None = field(default=None, compare=False, repr=False)
+    allowed: float = math.inf
 
     @classmethod
     def offer(
@@ -94,7 +91,7 @@ class GriddedFFT(DeviceEvaluator):
         """
         if request.d > AXES or super().offer(request, precision) is None:
             return None
-        evaluator = cls(precision)
+        evaluator = cls(precision, allowed=math.inf if forced else allowed_error(precision, floor))
         fits = evaluator._held(request) <= MEMORY_SHARE * memory_limit()
         return evaluator if fits and evaluator.on_device.runtime.device.is_cpu else None
 
@@ -124,16 +121,19 @@ class GriddedFFT(DeviceEvaluator):
         return float(narrow(self.on_device) * request.realizations * each)
 
     def cost(self, request: SpectrumRequest) -> EvaluationCost:
-        """Estimate the cost on the device, the grids of a batch and their transforms included."""
-        held = self._held(request) + BINNED_BYTES * request.n * request.realizations
+        """Estimate the cost on the device, the points and grids of a batch and their transforms included."""
+        held = self._held(request)
         return device_cost(
             self.on_device, request, self._arithmetic(request), 2.0, held, WORK[request.d].call
         )
 
     def _held(self, request: SpectrumRequest) -> float:
-        """Count the bytes of the grids of a batch, their transforms and the cube."""
+        """Count the bytes of the points and grids of a batch, their transforms and the cube."""
         p, grid = self.on_device, real_grid(request.d, request.fmax, self.precision)
-        numbers = float(sets_together(p, grid, request.realizations))
+        sets = sets_together(p, grid, request.realizations)
+        # Turns, room to sort an axis of them, weights as given and as dealt; then places, and the counts of bins.
+        points = sets * (request.n * (grid.itemsize * (request.d + 3) + 4) + 4 * grid.bins**grid.d)
+        numbers = float(sets)
         if plane_serves(p, grid):
             numbers *= transform_numbers(grid)
             band = min(grid.size, max(2 * BAND_ROWS * grid.row_length, CACHE_BYTES // grid.itemsize))
@@ -141,7 +141,7 @@ class GriddedFFT(DeviceEvaluator):
         else:
             numbers *= 2 * (grid.size + math.prod(shape_of_harmonics(grid)))
         held = numbers * grid.itemsize
-        return float(held + BYTES * (2 * request.fmax + 1) ** request.d)
+        return float(held + points + BYTES * (2 * request.fmax + 1) ** request.d)
 
     def expected_errors(self, request: SpectrumRequest) -> Errors:
         """State the errors for points that are spread over the torus."""
@@ -150,23 +150,40 @@ class GriddedFFT(DeviceEvaluator):
         at = rounded_at_worst(n, request.d, p.name)
         return fft_errors(p, grid, n, crowd, run_count(grid, n, crowd), at)
 
-    def for_points(self, x: FloatArray, fmax: int, floor: float | None) -> Evaluator:
-        """Give the product's place to crowded points, as ``Evaluator.for_points`` describes it."""
-        p, (_, n, d) = self.on_device, x.shape
-        grid = real_grid(d, fmax, self.precision)
-        points = binned(p, grid, x)
-        if points.crowd <= usual_crowd(grid, n):
-            return GriddedFFT(self.precision, points=points)
-        runs = run_count(grid, n, points.crowd)
-        errors = fft_errors(p, grid, n, points.crowd, runs, rounded_at_worst(n, d, p.name))
-        usual = math.hypot(LARGEST_TYPICAL * UNIT[p.name], WINDOW_TYPICAL[p.name])
-        allowed = usual if floor is None else max(usual, rms_for(floor))
-        usable = errors.rms <= allowed
-        return GriddedFFT(self.precision, points=points) if usable else CubeProduct(self.precision)
+    def evaluate(
+        self, x: FloatArray, request: SpectrumRequest, weights: FloatArray | None, *, mean: bool
+    ) -> tuple[FloatArray, Errors, Evaluator]:
+        """Give the product's place to crowded points, as ``Evaluator.evaluate`` describes it."""
+        try:
+            return *self.box(x, request, weights, mean=mean), self
+        except TooCrowdedError:
+            product = CubeProduct(self.precision)
+            return *product.box(x, request, weights, mean=mean), product
 
     def cube(
         self, x: FloatArray, fmax: int, weights: FloatArray | None, *, half: bool, mean: bool
     ) -> tuple[FloatArray, Errors]:
-        """Evaluate the power of a cube, as ``Evaluator.cube`` describes it."""
-        known = self.points if self.points is not None and self.points.x is x else None
-        return fft_powers(self.on_device, x, fmax, weights, half, mean, known)
+        """Evaluate the power of a cube, as ``Evaluator.cube`` describes it.
+
+        Where it was not asked for by name, it raises TooCrowdedError for crowded points.
+        """
+        return fft_powers(self.on_device, x, fmax, weights, half, mean, self.allowed)
+
+
+def allowed_error(precision: str, floor: float | None) -> float:
+    """Give the typical error that crowded points may have: that of others, or what a floor allows if that is more.
+
+    Parameters
+    ----------
+    precision : {"double", "float"}
+        Precision of the arithmetic.
+    floor : float or None
+        Smallest power that must be known to 1%.
+
+    Returns
+    -------
+    float
+        Of sqrt(power).
+    """
+    usual = math.hypot(LARGEST_TYPICAL * UNIT[precision], WINDOW_TYPICAL[precision])
+    return usual if floor is None else max(usual, rms_for(floor))

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +20,7 @@ from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import (
     transform_of_window,
     window_terms,
 )
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.spreading import SpreadPoints
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.dealt_points import DealtPoints
 from gbnbench.analysis.spectrum.evaluators.optional_library import loads
 from gbnbench.opencl import Program
 
@@ -33,6 +33,8 @@ class HostTransform:
 
     Attributes
     ----------
+    needs_runs : bool
+        As ``PlaneTransform`` has it.
     grid : RealGrid
         Layout of a grid.
     nodes : (sets, *grid.shape) float64 or float32
@@ -49,6 +51,7 @@ class HostTransform:
         The kernels.
     """
 
+    needs_runs: ClassVar[bool] = True
     grid: RealGrid
     nodes: NDArray[Any]
     harmonics: NDArray[Any]
@@ -70,7 +73,7 @@ class HostTransform:
         return self.spread.owner.empty(self.nodes.nbytes)
 
     def write_powers(
-        self, points: SpreadPoints, over: Any, first: int, half: bool, out: Any, set_size: int
+        self, points: DealtPoints, over: Any, first: int, half: bool, out: Any, set_size: int
     ) -> None:
         """Carry points to their grids, transform these, and write the powers.
 
@@ -85,7 +88,7 @@ class HostTransform:
             np.uint32(grid.row_length),
             self.terms,
             self.grids,
-            self.parts if points.runs > 1 else self.grids,
+            self.parts if max(runs for _, runs in points.crowds()) > 1 else self.grids,
             np.uint64(grid.size),
         )
         rt.finish()
@@ -138,7 +141,7 @@ def host_transform(p: Precision, grid: RealGrid, sets: int) -> HostTransform:
         transforms=rt.shared(harmonics),
         terms=rt.upload(terms.astype(p.real)),
         gains=rt.upload((transform_of_window(grid) ** -2.0).astype(p.sum)),
-        spread=p.program("grid_spread.cl", AXES=grid.d, WIDTH=grid.width, TERMS=len(terms)),
+        spread=p.program("grid_cells.cl", "grid_spread.cl", AXES=grid.d, WIDTH=grid.width, TERMS=len(terms)),
         power=p.program("grid_power.cl", AXES=grid.d),
     )
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from gbnbench.analysis.spectrum.evaluators.gridded_fft.host_transform import (
     real_transform,
     shape_of_harmonics,
 )
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.spreading import SpreadPoints
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.dealt_points import DealtPoints
 
 
 class LineTransform:
@@ -30,7 +30,14 @@ class LineTransform:
         Layout of a grid of one axis.
     sets : int
         Most sets of a batch.
+
+    Attributes
+    ----------
+    needs_runs : bool
+        As ``PlaneTransform`` has it.
     """
+
+    needs_runs: ClassVar[bool] = True
 
     def __init__(self, p: Precision, grid: RealGrid, sets: int) -> None:
         rt, terms = p.runtime, window_terms(p.name)
@@ -41,7 +48,7 @@ class LineTransform:
         self._terms = rt.upload(terms.astype(p.real))
         self._gains = rt.upload((transform_of_window(grid) ** -2.0).astype(p.sum))
         self._spread = p.program(
-            *("grid_spread.cl", "line_spread.cl"), AXES=1, WIDTH=grid.width, TERMS=len(terms)
+            *("grid_cells.cl", "grid_spread.cl", "line_spread.cl"), AXES=1, WIDTH=grid.width, TERMS=len(terms)
         )
         self._power = p.program("grid_power.cl", AXES=1)
         self._taken = rt.empty(4 * sets * grid.bins)
@@ -53,25 +60,25 @@ class LineTransform:
         return self._nodes.nbytes + self._harmonics.nbytes + self._parts_bytes
 
     def write_powers(
-        self, points: SpreadPoints, over: Any, first: int, half: bool, out: Any, set_size: int
+        self, points: DealtPoints, over: Any, first: int, half: bool, out: Any, set_size: int
     ) -> None:
         """Carry points to their grids, transform these, and write the powers.
 
         Parameters are those of ``PlaneTransform.write_powers``.
         """
         grid, rt, sets = self._grid, self._runtime, points.sets
-        turns, n, weight, stride = points.arguments[:4]
-        means = points.arguments[7]
+        of_points, crowds, means = points.arguments[:4], *points.arguments[6:8]
+        most_runs = max(runs for _, runs in points.crowds())
         self._spread.run(
             "line_spread",
             (sets,),
             (1,),
-            *(turns, n, weight, stride, np.uint32(points.runs), means),
+            *(*of_points, np.uint32(points.n), crowds, np.uint32(most_runs), means),
             np.uint32(grid.nodes),
             np.uint32(grid.row_length),
             self._terms,
             self._grids,
-            self._parts_for(points),
+            self._parts_for(most_runs * sets if most_runs > 1 else 0),
             self._taken,
         )
         rt.finish()
@@ -96,9 +103,9 @@ class LineTransform:
             np.uint64(set_size),
         )
 
-    def _parts_for(self, points: SpreadPoints) -> Any:
+    def _parts_for(self, rows: int) -> Any:
         """Give memory in which each run of each set is summed, more than before if need be."""
-        needed = 0 if points.runs == 1 else points.runs * points.sets * self._nodes[0].nbytes
+        needed = rows * self._nodes[0].nbytes
         if needed > self._parts_bytes:
             self._parts, self._parts_bytes = self._runtime.empty(needed), needed
         return self._parts

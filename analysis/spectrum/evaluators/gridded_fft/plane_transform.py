@@ -7,7 +7,7 @@ wanted. A row needs f = 0 .. fmax alone, and the last pass over the columns make
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -19,7 +19,7 @@ from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import (
     transform_of_window,
     window_terms,
 )
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.spreading import SPREAD_ARGUMENTS, SpreadPoints
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.dealt_points import SPREAD_ARGUMENTS, DealtPoints
 from gbnbench.opencl.program import Launch
 
 
@@ -29,6 +29,8 @@ class PlaneTransform:
 
     Attributes
     ----------
+    needs_runs : bool
+        Whether the points must have been dealt out before the host enqueues more.
     rows : Launch
         Carries points to bands of their grids, and transforms the rows of these.
     columns : Launch
@@ -37,19 +39,20 @@ class PlaneTransform:
         Bytes of the bands and of the transformed rows.
     """
 
+    needs_runs: ClassVar[bool] = False
     rows: Launch
     columns: Launch
     nbytes: int
 
     def write_powers(
-        self, points: SpreadPoints, over: Any, first: int, half: bool, out: Any, set_size: int
+        self, points: DealtPoints, over: Any, first: int, half: bool, out: Any, set_size: int
     ) -> None:
         """Carry points to their grids, transform these, and write the powers.
 
         Parameters
         ----------
-        points : SpreadPoints
-            Sets of the batch.
+        points : DealtPoints
+            Sets of the batch, which are dealt out by kernels that may still run.
         over : buffer
             One over the norm of every set, those of other batches included.
         first : int
@@ -125,7 +128,7 @@ def plane_transform(p: Precision, grid: RealGrid, sets: int, rows: int) -> Plane
     band_bytes, transform_bytes = cores * band * grid.itemsize, sets * size * grid.itemsize
     transforms = rt.empty(transform_bytes)
     program = p.program(
-        "fourier_passes.cl", "grid_spread.cl", "plane_transform.cl",
+        "fourier_passes.cl", "grid_cells.cl", "grid_spread.cl", "plane_transform.cl",
         AXES=grid.d, WIDTH=grid.width, TERMS=len(terms), TILE=tile,
     )  # fmt: skip
     return PlaneTransform(

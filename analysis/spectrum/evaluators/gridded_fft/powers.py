@@ -7,6 +7,7 @@ less than rounding, and cells and places are exact, so that no digit is lost.
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
 from typing import Any
 
@@ -15,20 +16,21 @@ import numpy as np
 from gbnbench.analysis.precision import Precision
 from gbnbench.analysis.spectrum.coordinate_rounding import coordinates
 from gbnbench.analysis.spectrum.error_model import Errors
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.bands import (
-    BinnedPoints,
-    binned,
-    dealt_to_bands,
-)
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.errors import fft_errors
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.bands import division
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.dealt_points import DealtPoints
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.errors import fft_errors, most_crowd, too_crowded
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import RealGrid, real_grid
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.plane_transform import plane_serves, transform_numbers
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.spreading import spread_points
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.transform_choice import transform_for
+from gbnbench.analysis.spectrum.evaluators.kept_memory import kept
 from gbnbench.analysis.spectrum.evaluators.two_group_product import norms_of
 from gbnbench.core.torus import FloatArray
 
 BATCH_BYTES = 4 << 20  # of the grids of a batch, or of their transformed rows in the plane
+
+
+class TooCrowdedError(Exception):
+    """Points share bins of the grid more than by chance, and errors would be larger than what is allowed."""
 
 
 def fft_powers(
@@ -38,12 +40,13 @@ def fft_powers(
     weights: FloatArray | None = None,
     half: bool = False,
     mean: bool = True,
-    points: BinnedPoints | None = None,
+    allowed: float = math.inf,
 ) -> tuple[FloatArray, Errors]:
     """Evaluate the power at all frequencies with |f_a| <= fmax.
 
     Parameters and returns are those of ``cube_product.cube_powers``; the device is a CPU, and d at most 3.
-    ``points`` are the same points with their bins, where those are known.
+    ``TooCrowdedError`` is raised where points are crowded and the typical error of sqrt(power) would be larger
+    than ``allowed``.
     """
     sets, n, d = x.shape
     grid, base, rt = real_grid(d, fmax, p.name), 2 * fmax + 1, p.runtime
@@ -51,17 +54,30 @@ def fft_powers(
     power = np.empty((1 if mean else sets, fmax + 1 if half else base, *(base,) * (d - 1)), p.sum)
     norms, over = _of_equal_points(p, sets, n) if weights is None else _norms(p, weights, sets, n)
     out = rt.shared(power)
-    at, errors = coordinates(x, p.name, weights), Errors(0.0, 0.0)
+    errors, most = Errors(0.0, 0.0), most_crowd(p, grid, n, allowed)
+    rounded = None if weights is None else coordinates(x, p.name, weights)
     for first in range(0, sets, together):
         end = min(first + together, sets)
-        some = binned(p, grid, x[first:end]) if points is None else points[first:end]
-        bands = dealt_to_bands(p, grid, some)
-        errors = errors.or_larger(fft_errors(p, grid, n, bands.crowd, bands.runs, at))
-        weight = None if weights is None or len(weights) == 1 else weights[first:end]
-        points_there = spread_points(p, grid, bands, weights if weight is None else weight)
-        transform = transform_for(p, grid, together, bands.rows)
-        transform.write_powers(points_there, over, first, half, out, 0 if mean else power[0].size)
-        rt.finish()
+        bands, rows = division(rt.device.compute_units, grid, end - first, n)
+        points = kept(DealtPoints, p, grid, together, n, bands, rows)
+        transform = transform_for(p, grid, together, rows)
+        reals = rt.readable(x[first:end])  # it lives until kernels have read it
+        weight = weights if weights is None or len(weights) == 1 else weights[first:end]
+        points(reals, weight, end - first, most)
+        if transform.needs_runs:
+            rt.finish()
+        else:
+            transform.write_powers(points, over, first, half, out, 0 if mean else power[0].size)
+            rt.finish()
+        crowds = points.crowds()
+        if any(too_crowded(p, grid, n, crowd, runs, allowed) for crowd, runs in crowds):
+            raise TooCrowdedError
+        if transform.needs_runs:
+            transform.write_powers(points, over, first, half, out, 0 if mean else power[0].size)
+            rt.finish()
+        at = points.coordinates() if rounded is None else rounded
+        for crowd, runs in crowds:
+            errors = errors.or_larger(fft_errors(p, grid, n, crowd, runs, at))
     total = norms if weights is None else np.broadcast_to(weights.sum(axis=1), (sets,)) ** 2 / norms
     centre = (slice(None), 0 if half else fmax, *(fmax,) * (d - 1))
     power[centre] = total.sum() if mean else total  # DC is known, and its error would be coherent

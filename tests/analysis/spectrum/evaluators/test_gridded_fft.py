@@ -11,14 +11,13 @@ from gbnbench.analysis.spectrum.evaluators.cube_product import cube_powers
 from gbnbench.analysis.spectrum.evaluators.gridded_fft import bands as bands_module
 from gbnbench.analysis.spectrum.evaluators.gridded_fft import host_transform
 from gbnbench.analysis.spectrum.evaluators.gridded_fft import powers as powers_module
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.bins import bin_counts, bins, bins_nearly, cells
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import next_fast_length, real_grid, window_terms
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.powers import fft_powers
 from gbnbench.analysis.spectrum.evaluators.kaiser_bessel import window
+from gbnbench.analysis.spectrum.evaluators.kept_memory import forget
 from gbnbench.analysis.spectrum.periodogram import periodogram
 from gbnbench.analysis.spectrum.plan import plan
 from gbnbench.core.errors import InputError
-from gbnbench.core.torus import fixed_point
 from gbnbench.generators.registry import generate
 from tests.oracles.power import direct_power
 
@@ -31,6 +30,14 @@ def on_grid(rng, shape):
 
 def away(power, exact):
     return np.abs(np.sqrt(power) - np.sqrt(exact))
+
+
+@pytest.fixture
+def nothing_kept():
+    """No kernels of other constants, before and after."""
+    forget()
+    yield
+    forget()
 
 
 @pytest.fixture(params=["scipy", "ducc0"])
@@ -92,6 +99,7 @@ def test_where_columns_do_not_fit_in_local_memory_a_library_transforms(monkeypat
 
 @pytest.mark.parametrize("weighting", ["shared", "own"])
 @pytest.mark.parametrize("crowded", [False, True])
+@pytest.mark.usefixtures("nothing_kept")
 def test_weights_halves_and_single_sets(weighting, crowded, monkeypatch):
     if crowded:
         monkeypatch.setattr(bands_module, "CROWDED", 1)
@@ -180,6 +188,7 @@ def test_deep_powers_are_read_as_by_the_product():
         assert np.sqrt(np.mean(off**2)) <= 1e-15
 
 
+@pytest.mark.usefixtures("nothing_kept")
 def test_bands_and_batches_change_nothing_but_rounding(monkeypatch):
     rng = np.random.default_rng(6)
     p = precision_of("double")
@@ -191,7 +200,9 @@ def test_bands_and_batches_change_nothing_but_rounding(monkeypatch):
             patch.setattr(bands_module, "CACHE_BYTES", 1 << 10)
             patch.setattr(bands_module, "BAND_ROWS", 32)
             patch.setattr(powers_module, "BATCH_BYTES", 1)
+            forget()
             divided, _ = fft_powers(p, x, fmax, mean=False)
+            forget()
         assert away(divided, usual).max() <= 1e-13 <= errors.bound
 
 
@@ -200,30 +211,6 @@ def test_other_widths_of_vectors_give_the_same():
     x = on_grid(np.random.default_rng(7), (2, 300, 2))
     usual, _ = fft_powers(p, x, 20)
     assert away(fft_powers(Precision(p.runtime, True, 1), x, 20)[0], usual).max() <= 1e-14
-
-
-def test_cells_and_bins_are_exact():
-    rng = np.random.default_rng(8)
-    grid = real_grid(2, 40, "double")
-    turns = rng.integers(0, 2**64, (1, 2, 200), dtype=np.uint64)
-    assert [int(c) for c in cells(turns[0, 0], grid.nodes)] == [
-        int(t) * grid.nodes >> 64 for t in turns[0, 0]
-    ]
-    small = (turns >> np.uint64(32)).astype(np.uint32)
-    assert [int(c) for c in cells(small[0, 0], 97)] == [int(t) * 97 >> 32 for t in small[0, 0]]
-    bin_of = bins(turns, grid)
-    counts = bin_counts(bin_of, grid)
-    assert counts.shape == (1, grid.bins**2)
-    assert counts.sum() == 200
-    assert counts[0, bin_of[0, 7]] >= 1
-
-
-def test_bins_of_doubles_are_the_exact_ones_but_for_points_on_a_border():
-    grid = real_grid(2, 57, "double")
-    x = np.random.default_rng(4).random((2, 300, 2))
-    assert np.array_equal(bins_nearly(x, grid), bins(fixed_point(x, 64).transpose(0, 2, 1), grid))
-    ends = np.array([[[0.0, 1 - 2.0**-53], [1 - 2.0**-53, 0.0]]])
-    assert np.array_equal(bins_nearly(ends, grid), [[grid.bins - 1, (grid.bins - 1) * grid.bins]])
 
 
 @pytest.mark.parametrize("precision", ["double", "float"])

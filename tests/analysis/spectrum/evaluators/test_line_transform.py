@@ -7,7 +7,7 @@ import pytest
 
 from gbnbench.analysis.precision import precision_of
 from gbnbench.analysis.spectrum.evaluators.gridded_fft import host_transform
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.bands import binned, dealt_to_bands
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.dealt_points import DealtPoints
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import real_grid
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.powers import fft_powers
 from tests.oracles.power import mean_power, on_grid, root_distance
@@ -42,9 +42,10 @@ def test_crowded_bins_are_dealt_to_runs_in_any_order_of_points():
     p, fmax, n = precision_of("double"), 30, 2000
     x = np.concatenate([on_grid((1, n // 2, 1), 1), on_grid((1, n // 2, 1), 2) / 256], axis=1)
     grid = real_grid(1, fmax, "double")
-    bands = dealt_to_bands(p, grid, binned(p, grid, x))
-    assert bands.order is None
-    assert bands.runs > 5
+    points = DealtPoints(p, grid, 1, n, 1, grid.nodes)
+    points(p.runtime.readable(x), None, 1, n)
+    p.runtime.finish()
+    assert all(runs > 5 for _, runs in points.crowds())
     power = check("double", x, fmax)
     for order in (np.argsort(x[0, :, 0]), np.arange(n)[::-1]):
         assert root_distance(power, fft_powers(p, x[:, order], fmax)[0]).max() < 1e-13
