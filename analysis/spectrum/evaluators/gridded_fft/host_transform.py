@@ -15,12 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gbnbench.analysis.precision import Precision
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.dealt_points import DealtPoints
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import (
     RealGrid,
     transform_of_window,
     window_terms,
 )
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.dealt_points import DealtPoints
 from gbnbench.analysis.spectrum.evaluators.optional_library import loads
 from gbnbench.opencl import Program
 

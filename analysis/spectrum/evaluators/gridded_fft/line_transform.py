@@ -7,6 +7,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from gbnbench.analysis.precision import Precision
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.dealt_points import DealtPoints
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import (
     RealGrid,
     transform_of_window,
@@ -16,7 +17,6 @@ from gbnbench.analysis.spectrum.evaluators.gridded_fft.host_transform import (
     real_transform,
     shape_of_harmonics,
 )
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.dealt_points import DealtPoints
 
 
 class LineTransform:

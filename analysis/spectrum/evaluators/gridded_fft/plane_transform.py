@@ -12,6 +12,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from gbnbench.analysis.precision import Precision, padded
+from gbnbench.analysis.spectrum.evaluators.gridded_fft.dealt_points import SPREAD_ARGUMENTS, DealtPoints
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.fourier_tables import radices, turns, twiddles
 from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import (
     TILE,
@@ -19,7 +20,6 @@ from gbnbench.analysis.spectrum.evaluators.gridded_fft.grid import (
     transform_of_window,
     window_terms,
 )
-from gbnbench.analysis.spectrum.evaluators.gridded_fft.dealt_points import SPREAD_ARGUMENTS, DealtPoints
 from gbnbench.opencl.program import Launch
 
 
