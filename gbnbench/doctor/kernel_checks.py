@@ -46,17 +46,10 @@ from gbnbench.generators.gbn.plan import plan_energy
 from gbnbench.opencl import Device, choose
 
 # n, d, fmax: none a multiple of a vector, a tile or a chunk; the one of 613 takes several launches, that
-# of 601 several runs on a line. The transforms of fmax = 8 and 10 in the plane have all radices between them; the points
-# of fmax = 82 are sorted by bands.
-QUICK_PERIODOGRAMS = (
-    (601, 1, 22),
-    (613, 2, 22),
-    (61, 2, 8),
-    (61, 2, 10),
-    (37, 2, 82),
-    (61, 3, 3),
-    (29, 5, 1),
-)
+# of 601 several runs on a line. The transforms of fmax = 8 and 10 in the plane have all radices between them;
+# for that of 82 points are sorted.
+IN_THE_PLANE = ((613, 2, 22), (61, 2, 8), (61, 2, 10), (37, 2, 82))
+QUICK_PERIODOGRAMS = ((601, 1, 22), *IN_THE_PLANE, (61, 3, 3), (29, 5, 1))
 PERIODOGRAMS = ((7, 1, 19), (131, 2, 11), (333, 2, 5), *QUICK_PERIODOGRAMS)
 TURNS = ((83, 3),)  # n, d
 # n, d, sigma: wide boxes, then narrow ones, each by every evaluation that serves it.

@@ -190,7 +190,7 @@ class Evaluator(ABC):
         power, errors
             As ``box`` returns them.
         evaluator : Evaluator
-            Itself, or an exact one where these points make its errors larger than it stated before they were known.
+            Itself, or an exact one where these points make its errors larger than it stated without them.
         """
         power, errors = self.box(x, request, weights, mean=mean)
         return power, errors, self

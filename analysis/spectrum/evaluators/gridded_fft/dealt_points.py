@@ -99,7 +99,7 @@ class DealtPoints:
         Returns
         -------
         set of (int, int)
-            Points in the fullest bin, and runs in which the points are summed: none of a set that was given up.
+            Points in the fullest bin, and runs in which points are summed: none of a set that was given up.
         """
         return {(crowd, runs) for crowd, runs in self._crowds[: self.sets].tolist()}
 

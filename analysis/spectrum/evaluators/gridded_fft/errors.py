@@ -86,7 +86,7 @@ def usual_crowd(grid: RealGrid, n: int) -> int:
 
 
 def too_crowded(p: Precision, grid: RealGrid, n: int, crowd: int, runs: int, allowed: float) -> bool:
-    """Tell whether a set is more crowded than by chance, and its typical error is larger than what is allowed.
+    """Tell whether a set is more crowded than by chance, and its typical error larger than is allowed.
 
     Parameters
     ----------

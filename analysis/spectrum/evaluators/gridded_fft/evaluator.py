@@ -72,7 +72,7 @@ class GriddedFFT(DeviceEvaluator):
     Attributes
     ----------
     allowed : float
-        Typical error of sqrt(power) that crowded points may have; without a limit where it was asked for by name.
+        Typical error of sqrt(power) that crowded points may have; inf where it was asked for by name.
     """
 
     method: ClassVar[str] = "fft"
@@ -131,7 +131,7 @@ class GriddedFFT(DeviceEvaluator):
         """Count the bytes of the points and grids of a batch, their transforms and the cube."""
         p, grid = self.on_device, real_grid(request.d, request.fmax, self.precision)
         sets = sets_together(p, grid, request.realizations)
-        # Turns, room to sort an axis of them, weights as given and as dealt; then places, and the counts of bins.
+        # Turns, room to sort an axis of them, weights as given and as dealt; then places, and counts of bins.
         points = sets * (request.n * (grid.itemsize * (request.d + 3) + 4) + 4 * grid.bins**grid.d)
         numbers = float(sets)
         if plane_serves(p, grid):
@@ -171,7 +171,7 @@ class GriddedFFT(DeviceEvaluator):
 
 
 def allowed_error(precision: str, floor: float | None) -> float:
-    """Give the typical error that crowded points may have: that of others, or what a floor allows if that is more.
+    """Give the typical error that crowded points may have: that of others, or more if a floor allows it.
 
     Parameters
     ----------

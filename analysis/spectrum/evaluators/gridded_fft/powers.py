@@ -45,8 +45,8 @@ def fft_powers(
     """Evaluate the power at all frequencies with |f_a| <= fmax.
 
     Parameters and returns are those of ``cube_product.cube_powers``; the device is a CPU, and d at most 3.
-    ``TooCrowdedError`` is raised where points are crowded and the typical error of sqrt(power) would be larger
-    than ``allowed``.
+    ``TooCrowdedError`` is raised where points are crowded and the typical error of sqrt(power) would be
+    larger than ``allowed``.
     """
     sets, n, d = x.shape
     grid, base, rt = real_grid(d, fmax, p.name), 2 * fmax + 1, p.runtime
