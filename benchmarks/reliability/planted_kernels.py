@@ -74,6 +74,9 @@ PLANTS = {
     "an eighth of a turn": Plant("fourier_passes.cl", "b3), -root", "b3), root", "gridded FFT"),
     "a negative frequency": Plant("grid_power.cl", "f + wrap : f", "f + wrap - 1 : f", "gridded FFT"),
     "another point's place": Plant("line_spread.cl", "y, other, at)", "y, place, at)", "gridded FFT"),
+    "a point in another's place": Plant(
+        "deal_points.cl", "counts[places[k]]++;\n    for", "counts[places[k]];\n    for", "gridded FFT"
+    ),
     "lanes in another order": Plant(
         "tables.cl", "STORE_ALIGNED(v[l]", "STORE_ALIGNED(v[LANES - 1 - l]", "two-group product"
     ),
