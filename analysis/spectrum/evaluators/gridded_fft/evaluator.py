@@ -58,8 +58,8 @@ class GridWork(NamedTuple):
 # in double and in float: 7 to 9 in 10 are within 15%. In the plane bands of a grid stay in
 # the cache; the transform writes the powers.
 WORK = {
-    1: GridWork(354.0, 2.43, 2.43, 0.0, 429.0, 2.55e6),
-    2: GridWork(350.0, 6.57, 6.57, 2.65, 0.0, 2.25e6),
+    1: GridWork(200.0, 2.43, 2.43, 0.0, 429.0, 2.42e6),
+    2: GridWork(35.0, 6.57, 6.57, 2.65, 0.0, 2.0e6),
     3: GridWork(737.0, 4.0, 5.37, 3.62, 0.0, 4.16e6),
 }
 LARGEST_TYPICAL = 9.0  # typical error in units of rounding, beyond which crowded points go to the product
