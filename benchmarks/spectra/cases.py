@@ -94,6 +94,12 @@ CASES = (
     PSA,
     SpectrumCase(1024, 1, 4096),
 )
+MORE_CASES = (
+    SpectrumCase(4096, 2, 319),
+    SpectrumCase(65_536, 2, 512),
+    SpectrumCase(1024, 3, 8),
+    SpectrumCase(4096, 3, 32),
+)
 # In each dimension the F whose cube is nearest to 20,000 frequencies, then what 3^d gives.
 BY_DIMENSION = ((1, 10_000), (2, 70), (3, 13), (4, 6), (5, 3), (6, 2), (7, 2), (8, 1), (9, 1), (10, 1))
 
@@ -111,7 +117,7 @@ def _sweeps(most: float) -> Iterator[tuple[str, tuple[SpectrumCase, ...]]]:
 
 def full() -> SpectrumBenchmark:
     """Return the benchmark that takes under five minutes on two cores."""
-    return SpectrumBenchmark(CASES, dict(_sweeps(1e10)), 14.0, 1.2, 2.0, 200, False, 3, 2.0)
+    return SpectrumBenchmark((*CASES, *MORE_CASES), dict(_sweeps(1e10)), 10.0, 1.2, 2.0, 200, False, 3, 2.0)
 
 
 def quick() -> SpectrumBenchmark:

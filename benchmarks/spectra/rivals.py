@@ -26,6 +26,7 @@ from gbnbench.core.torus import FloatArray
 from gbnbench.opencl import runtime
 
 NAIVE_RATE = 2e8  # sines and cosines a second at least, to leave out what takes too long
+SEPARABLE_RATE = 1.5e9  # the same of numpy's products of complex exponentials
 ZGEMM_FROM = 4  # dimensions from which the product alone, its tables ready, is a rival
 Power = Callable[[], FloatArray]
 
@@ -86,7 +87,7 @@ def rivals(n: int, d: int, fmax: int, sets: int, longest: float) -> Iterator[Riv
     n, d, fmax, sets : int
         Points in a set, dimension, largest harmonic, number of sets.
     longest : float
-        Seconds of a call beyond which the naive kernel is left out.
+        Seconds of a call beyond which the naive kernel, and numpy's complex exponentials, are left out.
 
     Returns
     -------
@@ -98,7 +99,8 @@ def rivals(n: int, d: int, fmax: int, sets: int, longest: float) -> Iterator[Riv
     work = float((2 * fmax + 1) ** d) * n * sets / 2
     if runtime().device.has_double and work <= longest * NAIVE_RATE:
         yield Rival("naive kernel", "naive kernel", "double", _naive, DirectSum.title)
-    yield Rival("numpy separable", "numpy separable", "double", _set_by_set(separable))
+    if work <= longest * SEPARABLE_RATE:
+        yield Rival("numpy separable", "numpy separable", "double", _set_by_set(separable))
     if d >= ZGEMM_FROM:
         yield Rival("zgemm on ready tables", "zgemm on ready tables", "double", _ready)
     for library, tolerance, transform in transform_calls(d):
