@@ -61,8 +61,8 @@ def interleave(calls: Mapping[str, Call], seconds: float) -> dict[str, Timing]:
     """Time every method once a round, in an order that turns around, after calls that warm up.
 
     All but the slowest are called once more before each timing, since the method before may have emptied the
-    caches: the first call after numpy's arrays of a hundred megabytes took up to a hundred times as long as the
-    next one.
+    caches: the first call after numpy's arrays of a hundred megabytes took up to a hundred times as long as
+    the next one.
 
     Parameters
     ----------
