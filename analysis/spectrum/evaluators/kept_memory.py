@@ -8,7 +8,7 @@ from collections.abc import Callable, Hashable
 from typing import Protocol, TypeVar
 
 KEPT_BYTES = 128 << 20  # that a thread keeps in all
-KEPT_REQUESTS = 8  # whose memory a thread keeps
+KEPT_REQUESTS = 16  # whose memory a thread keeps; a gridded FFT keeps its points and its transform apart
 
 
 class Sized(Protocol):
