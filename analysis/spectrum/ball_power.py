@@ -91,7 +91,7 @@ def ball_power(
     request = cheapest_request(n, d, len(x), band, sides, precision, floor)
     evaluator = choose(request, precision, floor)
     if request.what == "cube":
-        power, errors = evaluator.box(x, request, weights, mean=True)
+        power, errors, evaluator = evaluator.evaluate(x, request, weights, mean=True)
         square = squared_lengths(harmonics_within(band[1], sides), sides).ravel()
         wanted = _within(square, band)
         wanted[: len(wanted) // 2 + 1] = False  # one half space

@@ -118,6 +118,14 @@ def test_pools_have_enough_frequencies_and_lose_none(sides: tuple[float, ...]) -
     np.testing.assert_array_equal(wide.count, groups.count)
 
 
+def test_crowded_points_are_the_products_in_boxes_and_shells_too() -> None:
+    x = np.random.default_rng(0).random((2500, 2))
+    x[500:] = 0.3 + x[500:] / 1000
+    boxed, ringed = periodogram(x, 64, sides=(1.5, 1)), shells(x, 64, sides=(1.5, 1))
+    assert boxed.method == ringed.method == "product"
+    np.testing.assert_allclose(ringed.power, shells_from_cube(boxed).power, rtol=1e-9)
+
+
 @pytest.mark.parametrize("sides", [(2, 1), (math.sqrt(3), 1), (1, 1, 2), (1, 2, 1, 3)])
 @pytest.mark.parametrize("band", [None, (1.5, 3.2)])
 def test_listed_or_as_a_box_shells_are_the_same(
