@@ -43,7 +43,7 @@ __kernel void deal_points(__global const ulong *x, __global const REAL *weight, 
         if (counts[bin] > crowd) crowd = counts[bin];
     if (crowd > CROWDED)
         while (runs < most_runs && (ulong)(runs + 1) * (runs + 1) <= crowd) runs++;
-    CROWD_OF(crowds, set) = crowd;
+    crowds[2 * set] = crowd;
     RUNS_OF(crowds, set) = crowd > most_crowd ? 0 : runs;
     starts[0] = 0;
     for (uint band = 1; band <= bands; band++) starts[band] = n;

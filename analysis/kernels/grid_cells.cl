@@ -16,5 +16,4 @@ static uint cell_of(const TURN turn, const uint nodes, REAL *place)
 }
 
 /* What deal_points.cl tells of each set: the points of its fullest bin, and the runs in which its points are summed. */
-#define CROWD_OF(crowds, set) (crowds)[2 * (set)]
 #define RUNS_OF(crowds, set) (crowds)[2 * (set) + 1]

@@ -8,7 +8,7 @@ less than rounding, and cells and places are exact, so that no digit is lost.
 from __future__ import annotations
 
 import math
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
@@ -64,16 +64,15 @@ def fft_powers(
         reals = rt.readable(x[first:end])  # it lives until kernels have read it
         weight = weights if weights is None or len(weights) == 1 else weights[first:end]
         points(reals, weight, end - first, most)
-        if transform.needs_runs:
-            rt.finish()
-        else:
-            transform.write_powers(points, over, first, half, out, 0 if mean else power[0].size)
-            rt.finish()
+        write = partial(transform.write_powers, points, over, first, half, out, 0 if mean else power[0].size)
+        if not transform.needs_runs:
+            write()
+        rt.finish()
         crowds = points.crowds()
         if any(too_crowded(p, grid, n, crowd, runs, allowed) for crowd, runs in crowds):
             raise TooCrowdedError
         if transform.needs_runs:
-            transform.write_powers(points, over, first, half, out, 0 if mean else power[0].size)
+            write()
             rt.finish()
         at = points.coordinates() if rounded is None else rounded
         for crowd, runs in crowds:
