@@ -94,9 +94,15 @@ class Slurm:
         )
         return done.stdout
 
-    def jobs(self, state: str = "PENDING,RUNNING") -> list[str]:
-        """Give the numbers of the jobs that are queued or run."""
+    def jobs(self, state: str = "PENDING,RUNNING,SUSPENDED") -> list[str]:
+        """Give the numbers of the jobs that are queued, run or are suspended."""
         return self.said("squeue", "-h", "-o", "%A", "-t", state).split()
+
+    def suspended(self) -> list[str]:
+        """Suspend one running job, so that it cannot end by itself; give its number, or none if none runs."""
+        for job in self.jobs("RUNNING")[:1]:
+            self.said("scontrol", "suspend", job)  # refused if the job has just ended
+        return self.jobs("SUSPENDED")
 
     def command(self, out: Path, asked: list[str], **settings: object) -> list[str]:
         """Give what asks for something by jobs of this Slurm, with these settings beside those of all."""
