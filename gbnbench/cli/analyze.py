@@ -29,31 +29,37 @@ LOW, BAND = 0.5, 0.05  # nu to which a box's own spectrum is shown, and of each 
 
 @click.command(cls=options.Command)
 @click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="FILE...")
-@click.option("--explain", is_flag=True, help="Say how the spectra would be found, at what cost; do nothing.")
+@click.option("--explain", is_flag=True, help="Only say how the spectra would be computed, and at what cost.")
 @click.option(
     "--projections", metavar="SUBSETS",
-    help="Also measure projections: 1 for every axis, 2 for every plane, 0+2 for one; parted by /.",
+    help="Also measure projections: 1 for every axis, 2 for every plane, 0+2 for one plane. Separate several "
+    "by /.",
 )  # fmt: skip
-@click.option("--box", is_flag=True, help="Also measure sets of the box: density by depth, own spectrum.")
+@click.option(
+    "--box",
+    is_flag=True,
+    help="Also measure each set as points of a box that is no torus: density by depth, and a spectrum of "
+    "its own.",
+)
 @click.option(
     "--window", metavar="ENDS",
-    help="The points are what a window shows that is no torus: estimates that hold there. Ends of each axis, "
-    "such as 0,512,0,256; 'file' takes the box that the file tells.",
+    help="Take the points for a sample seen through a window that is no torus, and estimate what can be "
+    "estimated there. Give the ends of each axis, such as 0,512,0,256, or 'file' for the box in the file.",
 )  # fmt: skip
 @click.option(
     "--rdf", "rdf_file", metavar="FILE.csv", type=click.Path(path_type=Path, dir_okay=False),
-    help="Write the radial distribution function g(r) there, in place of the measures.",
+    help="Write the radial distribution function g(r) to this file, instead of the measures.",
 )  # fmt: skip
 @click.option(
     "--range", "reach", type=click.FloatRange(0, min_open=True), metavar="SPACINGS",
-    help="With --rdf: the longest distance, in densest spacings.  [default: 8]",
+    help="With --rdf: the longest distance, in spacings of the densest lattice.  [default: 8]",
 )  # fmt: skip
-@click.option("--bins", type=click.IntRange(1), help="With --rdf: bins up to there.  [default: n/8 to 8]")
+@click.option("--bins", type=click.IntRange(1), help="With --rdf: number of bins.  [default: n/8 to 8]")
 @click.option(
     "--fmax", type=click.IntRange(1),
     help="Largest harmonic on each axis of the spectrum.  [default: just beyond nu = 2, or as affordable]",
 )  # fmt: skip
-@options.out_file("With --window: draw the estimates, as .png, .pdf or .svg.")
+@options.out_file("With --window: picture of the estimates to write, .png, .pdf or .svg.")
 @options.reading
 @options.json
 @options.quiet
@@ -75,9 +81,9 @@ def analyze(
 ) -> None:
     """Every measure of the sets in files, one row a set.
 
-    --json prints a list of {path, set, n, d, measures, reasons}, the reasons why a measure is null. With
-    --window the points need no torus: structure factor, pair correlation, hyperuniformity and distances, each
-    with its standard error.
+    --json prints a list of {path, set, n, d, measures, reasons}; reasons say why a measure is null. With
+    --window the points need no torus: structure factor, pair correlation, hyperuniformity and distances
+    are estimated, each with its standard error.
     """
     if rdf_file is None and (reach is not None or bins is not None):
         raise click.UsageError("--range and --bins are of g(r): give --rdf FILE.csv too")

@@ -37,8 +37,8 @@ FORCE_HEAD = ("case", "precision", "kernel", "sigmas", "CPU ms", "median", "rms 
 )
 @click.option(
     "--jobs", type=click.IntRange(1),
-    help="Share the sets out among so many processes, each of which times whole races; the same command goes "
-    "on where it was stopped.  [default: all in turn in this process]",
+    help="Share the sets among this many processes, each of which times whole races. If it is stopped, the "
+    "same command continues it.  [default: all in turn in this process]",
 )  # fmt: skip
 @executor
 @options.json

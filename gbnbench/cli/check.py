@@ -27,11 +27,11 @@ WIDE = 10.0  # a factor that is allowed, above which a measure guards little
 
 
 @click.command(cls=options.Command)
-@click.option("--only", multiple=True, metavar="NAME", help="Only this case; may be given again.")
+@click.option("--only", multiple=True, metavar="NAME", help="Only this case; may be given several times.")
 @click.option(
     "--cases", "path", type=click.Path(path_type=Path), help="File of cases.  [default: gbnbench's own]"
 )
-@click.option("--update", is_flag=True, help="Measure anew what is expected, and rewrite the file.")
+@click.option("--update", is_flag=True, help="Measure the expected values anew, and rewrite the file.")
 @click.option(
     "--spread", type=click.IntRange(3), metavar="SEEDS",
     help=f"With --update: seeds over which values and tolerances are measured.  [default: {SEEDS}]",
@@ -40,7 +40,7 @@ WIDE = 10.0  # a factor that is allowed, above which a measure guards little
 @options.json
 @click.option(
     "--jobs", type=click.IntRange(1),
-    help="Worker processes; with 1 all is done in the command's own.  [default: one a core]",
+    help="Worker processes; 1 does all the work in this process.  [default: one per core]",
 )  # fmt: skip
 @click.option("--quiet", is_flag=True, help="No progress, and only the lines of the table that are not ok.")
 @options.device
@@ -56,9 +56,9 @@ def check(
 ) -> None:
     """Check that noise floors are what they were.
 
-    What is worse than expected is said, and then the exit code is 1. Cases are seeded sets of several
-    generators, whose floor, peak and order are held against their spread over seeds, and exact values: the
-    energy's field at fixed points and the spectra of lattices, in double and float.
+    The cases are seeded sets of several generators, whose floor, peak and order are compared with their
+    spread over seeds, and exact values: the energy's field at fixed points and the spectra of lattices,
+    in double and float. Whatever is worse than expected is named, and the exit code is then 1.
     """
     from gbnbench.execution import progress
     from gbnbench.regression.case_file import default_path, read_cases

@@ -38,19 +38,21 @@ Examples:
 
 @click.command(cls=options.Command, epilog=EPILOG)
 @click.argument("sources", nargs=-1)
-@click.option("-n", "n", type=options.WholeNumbers(), default="1024", show_default=True, help="Points a set.")
+@click.option(
+    "-n", "n", type=options.WholeNumbers(), default="1024", show_default=True, help="Points in a set."
+)
 @click.option("-d", "d", type=options.WholeNumbers(), default="2", show_default=True, help="Dimensions.")
 @click.option(
     "--density",
     metavar="IMAGE",
     help="Compare stipplings of this image: a file, or a name such as camera. SOURCES are then adaptive "
-    "generators and files of points, in the unit square or in pixels; -n is by the image and "
-    "--realizations 1 unless given.",
+    "generators and files of points, in the unit square or in pixels. Unless given, -n follows from the "
+    "image and --realizations is 1.",
 )
-@click.option("--invert", is_flag=True, help="With --density: light is dense.")
+@click.option("--invert", is_flag=True, help="With --density: dots are dense where the image is light.")
 @options.groups
-@options.out_folder("Run folder.  [default: runs/NAME, by the settings]")
-@click.option("--baseline", type=click.Path(path_type=Path), help="A finished run to be judged against.")
+@options.out_folder("Folder of the run.  [default: runs/NAME, NAME made from the settings]")
+@click.option("--baseline", type=click.Path(path_type=Path), help="A finished run to judge this one against.")
 @click.option("--pdf", is_flag=True, help="Write the figures also as PDF.")
 @options.reading
 @options.realizations(16)
@@ -79,8 +81,8 @@ def compare(
 ) -> None:
     """Compare generators and files side by side: table, report.
 
-    SOURCES are generators with settings, files and folders, any mix; a folder is one source for each (n, d)
-    in it. Stopped in any way, the same command goes on where it was.
+    SOURCES are any mix of generators with settings, files and folders; a folder is one source for each
+    (n, d) in it. However a run is stopped, the same command continues it.
     """
     if density is not None:
         from gbnbench.cli.compare_stipplings import compare_stipplings

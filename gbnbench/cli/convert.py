@@ -26,12 +26,13 @@ Examples:
 @click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="FILE...")
 @click.option("--fractions", is_flag=True, help="Write fractions of the box and leave the box out.")
 @options.reading
-@options.out_file("File to write, replacing any; its format goes by the suffix.", required=True)
+@options.out_file("File to write; one that exists is replaced. Its suffix says the format.", required=True)
 def convert(files: tuple[Path, ...], out: Path, fractions: bool, reading: ReadingOptions) -> None:
     """Write the sets of files in another format.
 
-    Coordinates stay in the unit of their box where the format holds the box, else they are fractions of it.
-    What the format cannot hold is refused: sides that differ, a box that is no torus.
+    Coordinates stay in the unit of their box where the format can hold the box; otherwise they become
+    fractions of it. What the format cannot hold is refused, such as sides that differ or a box that is no
+    torus.
     """
     from gbnbench.cli.spectrum_output import check_outs
     from gbnbench.io.points import PointSets, read_sets

@@ -32,26 +32,42 @@ NAMES = {"points": "-n", "dimension": "-d", "number_type": "--type"}
 @click.command(cls=options.Command, epilog=EPILOG)
 @click.argument("sources", nargs=-1, metavar="[SETS]...")
 @options.out_file(
-    "File to write, replacing any: .h, .bin, .raw, .json and other files of points; masks .png and .exr too.",
+    "File to write; one that exists is replaced. Formats: .h, .bin, .raw, .json and other files of "
+    "points; masks .png and .exr too.",
     required=True,
 )
-@click.option("-n", "points", type=click.IntRange(1), help="Points a set of a generator.  [default: 1024]")
+@click.option("-n", "points", type=click.IntRange(1), help="Points in a set of a generator.  [default: 1024]")
 @click.option("-d", "dimension", type=click.IntRange(1), help="Dimension of its sets.  [default: 2]")
 @click.option(
     "--type", "number_type", type=click.Choice(["float32", "float64", "uint32"]),
     help="Numbers of the file; uint32 counts 2^-32.  [default: float32 in .h, .bin and .raw, else float64]",
 )  # fmt: skip
-@click.option("--swap", metavar="A,B", multiple=True, help="Exchange two axes, from 0; may come again.")
+@click.option(
+    "--swap",
+    metavar="A,B",
+    multiple=True,
+    help="Exchange two axes, counted from 0; may be given several times.",
+)
 @click.option("--flip", metavar="AXES", help="Reflect axes, such as 0 or 0,1.")
-@click.option("--shift", metavar="VECTOR", help="Shift on the torus: random, or such as 0.5,0.25 in sides.")
-@click.option("--copies", type=click.IntRange(1), help="Copies of each set, which differ by all three.")
+@click.option(
+    "--shift", metavar="VECTOR", help="Shift on the torus: random, or a vector such as 0.5,0.25 in sides."
+)
+@click.option(
+    "--copies",
+    type=click.IntRange(1),
+    help="Copies of each set, told apart by random swaps, flips and shifts.",
+)
 @click.option("--repeat", metavar="COUNTS", help="Lay the tile side by side, such as 2x2.")
 @click.option("--mask", metavar="PIXELS", help="A dither mask: 64, 128x64 (wide x high), 64x64x16 (frames).")
 @click.option("--sigma", type=float, help="Width of the mask's Gaussian in pixels.  [default: 1.5]")
-@click.option("--bits", type=click.Choice(["8", "16"]), help="Of a .png.  [default: 16 for over 256 pixels]")
+@click.option(
+    "--bits",
+    type=click.Choice(["8", "16"]),
+    help="Bits of a pixel in a .png.  [default: 16 for over 256 pixels]",
+)
 @click.option(
     "--picture", type=click.Path(path_type=Path, dir_okay=False),
-    help="PNG or PDF of the mask, its patterns and their spectra.",
+    help="PNG or PDF to draw the mask in, with its patterns and their spectra.",
 )  # fmt: skip
 @click.option("--realizations", type=click.IntRange(1), help="Sets of a generator.  [default: 1]")
 @options.seed
@@ -65,8 +81,9 @@ def export(
 ) -> None:  # fmt: skip
     """Write point sets or a dither mask for a renderer.
 
-    SETS are files, folders or a generator, as "gbnbench compare" takes them, of one n and d. What was written
-    is measured: the noise floor after rounding, and for d > 2 every axis and pair of axes.
+    SETS are files, folders or a generator, as in "gbnbench compare", all of one n and d. What has been
+    written is measured: the noise floor after rounding, and for d > 2 the projections on every axis and
+    every pair of axes.
     """
     if (mask is None) == (not sources):
         raise InputError("name sets, such as gbn or sets.npz, or a mask by --mask 64: one of the two")

@@ -28,14 +28,16 @@ Examples:
 @options.out_folder("Folder for pictures and what they are drawn from.", default="figures")
 @click.option(
     "--sets", multiple=True, metavar="NAME=PATH",
-    help="Sets of a method of the paper (bnot, kdm, vnc, bluenets, ccvt, step, ...), in place of ours: "
-    "a file or folder.",
+    help="File or folder of sets by a method of the paper (bnot, kdm, vnc, bluenets, ccvt, step, ...), used "
+    "instead of our own.",
 )  # fmt: skip
 @click.option(
     "--image", "images", multiple=True, metavar="N=IMAGE",
-    help="Image of figure 10, 15, 16 or 17, a file or a name such as camera, in place of ours.",
+    help="Image for figure 10, 15, 16 or 17, a file or a name such as camera, used instead of our own.",
 )  # fmt: skip
-@click.option("--no-captions", is_flag=True, help="Leave captions out of the pictures; captions.md has them.")
+@click.option(
+    "--no-captions", is_flag=True, help="Leave the captions out of the pictures; captions.md has them too."
+)
 @options.reading
 @options.quick_or_full("Small counts: minutes instead of hours.", default="full")
 @options.seed
@@ -57,9 +59,10 @@ def figures(
 ) -> None:
     """Make the figures of the paper (Ahmed, Ren & Wonka 2022).
 
-    All are made, or those numbered N; 'depth' is our own. Each becomes a PNG and a PDF, with a page
-    index.html of them all. What they are drawn from stays in OUT/data: stopped in any way, the same command
-    goes on where it was. Figures 10 and 15 to 17 show images of scikit-image's, which --image replaces.
+    All of them are made, or those numbered N; 'depth' is a figure of our own. Each becomes a PNG and a
+    PDF, and the page index.html shows them all. The data behind them are kept in OUT/data: however a run
+    is stopped, the same command continues it. Figures 10 and 15 to 17 show images from scikit-image,
+    which --image replaces.
     """
     from gbnbench.execution import progress
     from gbnbench.reports.paper.figure import FigureOptions

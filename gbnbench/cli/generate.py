@@ -27,31 +27,33 @@ PATIENCE = 1.0  # seconds before progress is shown
 
 @click.command(cls=options.Command)
 @click.argument("name")
-@click.option("-n", "n", type=click.IntRange(1), default=1024, show_default=True, help="Points a set.")
+@click.option("-n", "n", type=click.IntRange(1), default=1024, show_default=True, help="Points in a set.")
 @click.option("-d", "d", type=click.IntRange(1), default=2, show_default=True, help="Dimension.")
 @options.out_file(
-    "File to write, replacing any; its format goes by the suffix. Only --explain needs none.",
+    "File to write; one that exists is replaced. Its suffix says the format. --explain needs none.",
     cls=NeededUnless, unless="explain",
 )  # fmt: skip
 @click.option(
     "--checkpoint", type=click.Path(path_type=Path, dir_okay=False),
-    help="File for the state of a long run; the same command goes on from it. Removed at the end.",
+    help="File that keeps the state of a long run, from which the same command continues. It is removed at "
+    "the end.",
 )  # fmt: skip
 @click.option(
     "--trace", type=click.Path(path_type=Path, dir_okay=False),
-    help="CSV of energy, excess energy, largest force and step, gradient by gradient.",
+    help="CSV to write energy, excess energy, largest force and step in, a row for each gradient.",
 )  # fmt: skip
 @click.option(
     "--spectra-at", type=options.WholeNumbers(), default=(), metavar="GRADIENTS",
-    help="With --trace: radial power after so many gradients, such as 10,100,300, to TRACE-spectra.csv.",
+    help="With --trace: write the radial power after these numbers of gradients, such as 10,100,300, to "
+    "TRACE-spectra.csv.",
 )  # fmt: skip
-@click.option("--explain", is_flag=True, help="Say how the energy would be found, at what cost; do nothing.")
+@click.option("--explain", is_flag=True, help="Only say how the energy would be computed, and at what cost.")
 @options.realizations(1)
 @options.seed
 @click.option(
     "--jobs", type=click.IntRange(1),
-    help="Draw by so many processes of one thread each, piece by piece; the same command goes on where it "
-    "was stopped.  [default: this process moves all sets together]",
+    help="Generate the sets by this many processes of one thread each, piece by piece. If it is stopped, the "
+    "same command continues it.  [default: this process moves all sets together]",
 )  # fmt: skip
 @executor
 @options.quiet
@@ -62,8 +64,8 @@ def generate(
 ) -> None:  # fmt: skip
     """Make point sets and write them to a file.
 
-    NAME is one of "gbnbench generators", such as gbn or 'gbn[iterations=1000]'. With --jobs or --executor
-    workers draw the sets; they are the same, however many draw them.
+    NAME is one of "gbnbench generators", such as gbn or 'gbn[iterations=1000]'. With --jobs or
+    --executor, workers generate the sets; the sets are the same however many workers there are.
     """
     from gbnbench.cli import generate_by_workers as by_workers
     from gbnbench.generators.gbn.generator import GaussianBlueNoise

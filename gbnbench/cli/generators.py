@@ -32,10 +32,12 @@ Examples:
     "--verify",
     "verifying",
     is_flag=True,
-    help="Hold them against published figures, others' sets and theory.",
+    help="Check them against published figures, sets made by others, and theory.",
 )
-@click.option("--only", multiple=True, metavar="NAME", help="With --verify: only this one; may come again.")
-@options.out_file("With a name its picture, .png or .pdf; with --verify the table, .md.")
+@click.option(
+    "--only", multiple=True, metavar="NAME", help="With --verify: only this one; may be given several times."
+)
+@options.out_file("File to write: with NAME its picture, .png or .pdf; with --verify the table, .md.")
 @click.option("-n", "n", type=click.IntRange(1), help="Points of the picture's sets.  [default: 1024]")
 @click.option("-d", "d", type=click.IntRange(1), help="Dimension of the picture's sets.  [default: 2]")
 @options.realizations(1)
@@ -50,8 +52,9 @@ def generators(
 ) -> None:  # fmt: skip
     """Every generator: list, settings, picture, proof.
 
-    Without NAME a list of all, those of installed packages and of your own file of programs too. With the
-    NAME of one, with or without settings, what it does, what its settings mean, which n and d it serves.
+    Without NAME, all generators are listed, including those of installed packages and those in your own
+    file of programs. With NAME, with or without settings, one generator is described: what it does, what
+    its settings mean, and which n and d it serves.
     """
     if name is not None and (family is not None or verifying):
         raise click.UsageError("a name goes with neither --family nor --verify: leave one out")

@@ -58,12 +58,18 @@ def _settings(family: Family) -> str:
 @click.command(cls=options.Command, epilog=EPILOG)
 @click.argument("sources", nargs=-1)
 @click.option(
-    "-n", "n", type=options.WholeNumbers(), default="16,64,256,1024", show_default=True, help="Points a set."
+    "-n",
+    "n",
+    type=options.WholeNumbers(),
+    default="16,64,256,1024",
+    show_default=True,
+    help="Points in a set.",
 )
 @click.option("-d", "d", type=options.WholeNumbers(), default="2", show_default=True, help="Dimensions.")
 @click.option(
     "--integrand", "integrands", multiple=True, metavar="FAMILY",
-    help="Family of integrands, with or without settings; may come again.  [default: gaussians, half-space]",
+    help="Family of integrands, with or without settings; may be given several times.  [default: gaussians, "
+    "half-space]",
 )  # fmt: skip
 @click.option(
     "--instances", type=click.IntRange(1), default=100, show_default=True, help="Integrands of each family."
@@ -77,7 +83,7 @@ def _settings(family: Family) -> str:
     help="List the families of integrands.",
 )  # fmt: skip
 @options.groups
-@options.out_folder("Folder of results.  [default: runs/NAME, by the settings]")
+@options.out_folder("Folder of the results.  [default: runs/NAME, NAME made from the settings]")
 @options.reading
 @options.realizations(16)
 @options.seed
@@ -104,10 +110,10 @@ def integrate(
 ) -> None:
     """Variance of integrals estimated by point sets.
 
-    Integrals are estimated by the means over the points of SOURCES, which are generators with settings, files
-    and folders, any mix. Every integrand of a family is estimated with every set. Beside each variance stands
-    what the power spectrum of the points predicts, where the family is periodic. Stopped in any way, the
-    same command goes on where it was.
+    Integrals are estimated by means over the points of SOURCES, any mix of generators with settings,
+    files and folders. Every integrand of a family is estimated with every set. Where a family is
+    periodic, the variance that the power spectrum of the points predicts stands beside the one that was
+    measured. However a run is stopped, the same command continues it.
     """
     from gbnbench.api.integration import integrate as make
     from gbnbench.cli.integrate_text import as_lines, as_record

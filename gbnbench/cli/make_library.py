@@ -25,13 +25,15 @@ Examples:
 @click.argument("generators", nargs=-1)
 @click.option(
     "-n", "n", type=NumberRanges(doubling=True), default="16-65536", show_default=True,
-    help="Points a set; a range is of powers of two.",
+    help="Points in a set; a range means the powers of two in it.",
 )  # fmt: skip
 @click.option("-d", "d", type=NumberRanges(), default="1-8", show_default=True, help="Dimensions.")
-@options.out_folder("Folder, or archive by its suffix; what is there already is kept and added to.")
-@click.option("--dry-run", is_flag=True, help="Only say what would be made, refused, and what it costs.")
+@options.out_folder("Folder, or archive if its suffix says so; what it holds already is kept and added to.")
+@click.option(
+    "--dry-run", is_flag=True, help="Only say what would be made, what would be refused, and at what cost."
+)
 @click.option("--list", "listed", metavar="LIBRARY", help="List the files of a library, with measures.")
-@click.option("--check", "checked", metavar="LIBRARY", help="Hold every file against its SHA-256.")
+@click.option("--check", "checked", metavar="LIBRARY", help="Check every file against its SHA-256.")
 @click.option("--unpack", "unpacked", metavar="LIBRARY", help="Write the files of a library to a new folder.")
 @options.realizations(8)
 @options.seed
@@ -46,9 +48,9 @@ def library(
 ) -> None:  # fmt: skip
     """Ready point sets in files, with measures and checksums.
 
-    GENERATORS are those of "gbnbench generators", by default gbn, deep, stealthy and bnot. Stopped in any
-    way, the same command goes on where it was, to the same bits. A LIBRARY is a folder, an archive, or
-    "bundled": the choice that is installed.
+    GENERATORS are those of "gbnbench generators", by default gbn, deep, stealthy and bnot. However a run
+    is stopped, the same command continues it and writes the same bits. A LIBRARY is a folder, an archive,
+    or "bundled", the choice of sets that is installed.
     """
     reading = [text for text in (listed, checked, unpacked) if text is not None]
     if len(reading) > 1 or (reading and (generators or dry_run)):

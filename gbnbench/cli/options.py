@@ -168,7 +168,7 @@ def seed(command: F) -> F:
 
 def jobs(command: F) -> F:
     """Add ``--jobs``."""
-    return click.option("--jobs", type=click.IntRange(1), help="Worker processes.  [default: one a core]")(
+    return click.option("--jobs", type=click.IntRange(1), help="Worker processes.  [default: one per core]")(
         command
     )
 
@@ -183,19 +183,20 @@ def groups(command: F) -> F:
 
     decorated = click.option(
         "--preset", metavar="NAME", multiple=True,
-        help="Also a choice of generators: paper, the methods of the paper's figures 1 and 8.",
+        help="Also the generators of this preset. There is one, paper: the methods of the paper's figures "
+        "1 and 8.",
     )(with_groups)  # fmt: skip
     return click.option(
         "--family",
         metavar="NAME",
         multiple=True,
-        help="Also every generator of this family that serves n and d; may come again.",
+        help="Also every generator of this family that serves n and d; may be given several times.",
     )(decorated)  # type: ignore[return-value]
 
 
 def quiet(command: F) -> F:
     """Add ``--quiet``."""
-    return click.option("--quiet", is_flag=True, help="No progress.")(command)
+    return click.option("--quiet", is_flag=True, help="Show no progress.")(command)
 
 
 def json(command: F) -> F:
@@ -231,7 +232,9 @@ def reading(command: F) -> F:
         given = [kwargs.pop(name.removeprefix("--")) for name in (*_TEXTS, "--wrap")]
         return command(*args, reading=reading_options(*given), **kwargs)
 
-    decorated = click.option("--wrap", is_flag=True, help="Bring points outside into the box.")(with_reading)
+    decorated = click.option(
+        "--wrap", is_flag=True, help="Move points outside the box into it, by whole sides."
+    )(with_reading)
     for name, (metavar, text) in reversed(_TEXTS.items()):
         decorated = click.option(name, metavar=metavar, help=text)(decorated)
     return decorated  # type: ignore[return-value]
@@ -239,8 +242,8 @@ def reading(command: F) -> F:
 
 # in the order of the arguments of reading_options
 _TEXTS = {
-    "--columns": ("X,Y", "Columns that are coordinates, by name; without names by number, from 1."),
-    "--raw": ("TYPE,D", "Binary without a header: float32,3 is three a point; >float32,3 big-endian."),
+    "--columns": ("X,Y", "Columns that hold the coordinates: their names, or numbers from 1."),
+    "--raw": ("TYPE,D", "Binary without a header: float32,3 means three a point; >float32,3 big-endian."),
     "--array": ("NAME", "Array of an .npz, or key of a JSON file, that holds the points."),
     "--period": ("SIDES", "Sides of the torus in the files' unit, such as 512,512 for pixels."),
     "--bounds": ("ENDS", "Ends of each axis, such as 0,512,0,256."),

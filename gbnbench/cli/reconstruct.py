@@ -66,7 +66,10 @@ class Size(click.ParamType):  # type: ignore[type-arg]  # takes no argument befo
 
 @click.command(cls=options.Command, epilog=EPILOG)
 @click.argument("points", type=click.Path(path_type=Path))
-@options.out_file("Picture to write, replacing any: .png .tif .jpg .bmp .pgm, or .npy.", required=True)
+@options.out_file(
+    "Picture to write; one that exists is replaced. Formats: .png .tif .jpg .bmp .pgm, or .npy.",
+    required=True,
+)
 @click.option(
     "--size",
     type=Size(),
@@ -78,18 +81,19 @@ class Size(click.ParamType):  # type: ignore[type-arg]  # takes no argument befo
     type=click.Choice(METHODS),
     default="shaping",
     show_default=True,
-    help="Kernels of the publication's amplitudes; of one width; or Voronoi cells.",
+    help="Shaped kernels, by the amplitudes of the publication; kernels of one width; or Voronoi cells.",
 )
 @click.option(
     "--against",
     metavar="IMAGE",
-    help="Tell PSNR and SSIM of the darkness, at the best gain; with --invert of the lightness.",
+    help="Print PSNR and SSIM of the darkness against this image, at the best gain; with --invert, of the "
+    "lightness.",
 )
-@click.option("--invert", is_flag=True, help="Dense is light, as after stipple --invert.")
+@click.option("--invert", is_flag=True, help="Take dense for light, as after stipple --invert.")
 @click.option(
     "--coverage",
     type=float,
-    help="Mean darkness (with --invert lightness), before what exceeds black is cut to it.  "
+    help="Mean darkness (with --invert, lightness), before values beyond black are clipped.  "
     "[default: what the file says]",
 )
 @click.option(
@@ -97,10 +101,10 @@ class Size(click.ParamType):  # type: ignore[type-arg]  # takes no argument befo
     type=click.Choice(["square", "pixels"]),
     default="square",
     show_default=True,
-    help="Of the file: 0 to 1, y up; or pixels, y down from the upper left.",
+    help="Unit of the file: the unit square, y up; or pixels, y down from the upper left.",
 )
 @click.option(
-    "--set", "index", type=click.IntRange(0), help="Which set, counted from 0, of a file of several."
+    "--set", "index", type=click.IntRange(0), help="Number of the set, counted from 0, in a file of several."
 )
 @click.option("--points-alone", is_flag=True, help="Leave out the amplitudes that the file has.")
 @options.reading

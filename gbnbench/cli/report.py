@@ -23,9 +23,10 @@ Examples:
 def report(runs: tuple[Path, ...], out: Path | None, pdf: bool) -> None:
     """Draw a finished run again, or set several side by side.
 
-    RUN is the folder of a comparison, also of stipplings, or of a study of integration. Several comparisons
-    with the same n and d are set side by side in one page: measures with a column a run, marked where they
-    are better or worse than in the first run beyond three standard errors, and all curves in the same charts.
+    RUN is the folder of a comparison, of a comparison of stipplings, or of a study of integration.
+    Several comparisons with the same n and d are set side by side on one page: it has a column of
+    measures for each run, marked where they are better or worse than in the first run by more than three
+    standard errors, and all curves in the same charts.
     """
     from gbnbench.api import comparison, integration, stippling_comparison
     from gbnbench.studies.integration.study_folder import is_study

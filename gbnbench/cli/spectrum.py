@@ -72,31 +72,33 @@ class Band(click.ParamType):  # type: ignore[type-arg]  # takes no argument befo
     "--fmax", type=click.IntRange(1),
     help="Largest harmonic on each axis.  [default: just beyond nu = 2, or as affordable]",
 )  # fmt: skip
-@click.option("--half", is_flag=True, help="Half the cube, f0 >= 0: the rest mirrors it.")
+@click.option("--half", is_flag=True, help="Half of the cube, f0 >= 0; the other half is its mirror image.")
 @click.option("--shells", is_flag=True, help="Radial power and anisotropy, without the cube.")
-@click.option("--band", "bands", type=Band(), metavar="LOW,HIGH", multiple=True, help="Only shells of these "
-              "|f|; a ring at an end holds only those inside. May come again.")  # fmt: skip
+@click.option("--band", "bands", type=Band(), metavar="LOW,HIGH", multiple=True, help="Only shells with "
+              "LOW <= |f| <= HIGH; rings at the ends are cut there. May be given several times.")  # fmt: skip
 @click.option("--corners", is_flag=True, help="Shells beyond fmax too, as far as the cube holds them.")
 @click.option("--at", type=click.Path(path_type=Path), metavar="LIST", help="Only the frequencies in this "
-              "file, a row each.")  # fmt: skip
+              "file, one per row.")  # fmt: skip
 @click.option("--weights", type=click.Path(path_type=Path), metavar="LIST", help="Weights of the points, one "
-              "a line.")  # fmt: skip
-@click.option("--filter", "sigma", type=click.FloatRange(0), metavar="SIGMA", help="Of the points convolved "
+              "per line.")  # fmt: skip
+@click.option("--filter", "sigma", type=click.FloatRange(0), metavar="SIGMA", help="Convolve the points "
               "with a Gaussian of this width, in spacings.")  # fmt: skip
 @click.option("--precision", type=click.Choice(["double", "float"]), default="double", show_default=True)
-@click.option("--floor", type=float, metavar="P", help="Smallest power to be known to 1%; the cheapest way "
-              "there is chosen.")  # fmt: skip
-@click.option("--each", is_flag=True, help="A spectrum of each set, not their mean; OUT gets numbers.")
-@click.option("--explain", is_flag=True, help="Say what would be done, why, at what cost and error; do "
-              "nothing.")  # fmt: skip
-@click.option("-n", "n", type=click.IntRange(1), help="Points a set, with --explain and no FILE.  "
+@click.option("--floor", type=float, metavar="P", help="Smallest power that must be known to 1%; the "
+              "cheapest evaluation that does so is chosen.")  # fmt: skip
+@click.option("--each", is_flag=True, help="Give a spectrum of each set, not their mean, in numbered files.")
+@click.option("--explain", is_flag=True, help="Only say what would be computed, why so, and at what cost and "
+              "error.")  # fmt: skip
+@click.option("-n", "n", type=click.IntRange(1), help="Points in a set, with --explain and no FILE.  "
               "[default: 1024]")  # fmt: skip
-@click.option("-d", "d", type=click.IntRange(1), help="Dimension, likewise.  [default: 2]")
-@click.option("--realizations", type=click.IntRange(1), help="Sets, likewise.  [default: 1]")
+@click.option("-d", "d", type=click.IntRange(1), help="Dimension, with --explain and no FILE.  [default: 2]")
+@click.option(
+    "--realizations", type=click.IntRange(1), help="Sets, with --explain and no FILE.  [default: 1]"
+)
 @options.reading
 @options.json
 @options.quiet
-@options.out_file("File to write, replacing any: .npz .npy .csv .png .pdf.")
+@options.out_file("File to write; one that exists is replaced. Formats: .npz .npy .csv .png .pdf.")
 @options.device
 def spectrum(
     files: tuple[Path, ...],
@@ -122,9 +124,9 @@ def spectrum(
 ) -> None:
     """Exact power of the point sets in files.
 
-    It is the mean over the sets of every FILE, at just what is asked for: without options the whole cube of
-    frequencies, less with --half, --shells (or --band, --corners) and --at. --json prints what a file would
-    hold, shells where it would be a cube.
+    The power is the mean over the sets of all FILEs. Without options it is given on the whole cube of
+    frequencies; --half, --shells (or --band, --corners) and --at ask for less, and only what is asked for
+    is computed. --json prints what a file would hold, and shells in place of a cube.
     """
     band = bands[0] if len(bands) == 1 else bands or None
     asked_for = {"--fmax": fmax, "--half": half, "--shells": shells, "--band": band, "--corners": corners}

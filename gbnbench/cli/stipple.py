@@ -33,45 +33,48 @@ Examples:
     "-n",
     "n",
     type=click.IntRange(1),
-    help="Dots.  [default: one for 2.5 x 2.5 pixels of black, 20,000 at most; with --dot-mm by coverage]",
+    help="Number of dots.  [default: one for 2.5 x 2.5 black pixels, at most 20,000; with --dot-mm, by "
+    "coverage]",
 )
 @click.option(
     "-o", "--out", metavar="FILE", required=True,
-    help="File to write, replacing any: .png, .svg, .pdf, .eps, .gcode; .txt and .csv with amplitudes; .gif "
-    "and .mp4 of how it forms. Of several images a folder.",
+    help="File to write; one that exists is replaced. .png, .svg, .pdf, .eps, .gcode; .txt and .csv with "
+    "amplitudes; .gif and .mp4 show how the picture forms. For several images, a folder.",
 )  # fmt: skip
 @click.option(
-    "--format", "file_format", metavar="SUFFIX", help="Kind of the files in a folder.  [default: png]"
+    "--format", "file_format", metavar="SUFFIX", help="Format of the files in a folder.  [default: png]"
 )
 @click.option("--method", default="gbn", show_default=True, help="Generator, such as 'gbn[sigma=0.85]'.")
-@click.option("--invert", is_flag=True, help="Light is dense; dots are white on black.")
+@click.option("--invert", is_flag=True, help="Draw white dots on black, dense where the image is light.")
 @click.option(
     "--gamma",
     type=float,
     default=1.0,
     show_default=True,
-    help="Exponent of the tones; 2.2 takes them as light: denser mid-tones, with --invert sparser.",
+    help="Exponent of the tones. 2.2 turns tones into the light they stand for: mid-tones become denser, "
+    "with --invert sparser.",
 )
 @click.option(
     "--white-cutoff",
     type=float,
-    help="Tone, 0 to 1, from which on there are no dots; with --invert, on black paper, no dots at 1 less "
-    "that or darker.",
+    help="Tone, 0 to 1, from which on there are no dots; with --invert, where the paper is black, there are "
+    "none from 1 minus this tone downwards.",
 )
 @click.option(
     "--toroidal",
     is_flag=True,
-    help="Opposite borders meet, for tiles; in pictures dots that cross one are drawn at both.",
+    help="Opposite borders meet, for tiles; a dot that crosses a border is drawn at both.",
 )
 @click.option(
     "--colour",
     type=click.Choice(["cmyk", "palette"]),
-    help="One layer for each ink; with gbn each ink is blue noise and so are all together.",
+    help="One layer for each ink; with gbn each ink is blue noise, and so are all inks together.",
 )
 @click.option(
     "--palette",
     metavar="COLOURS",
-    help="Inks, such as '#d00,#08c,#000', or how many to find in the image; 4 with --colour palette.",
+    help="Inks, such as '#d00,#08c,#000', or how many to find in the image.  [default: 4 with --colour "
+    "palette]",
 )
 @click.option("--width-mm", type=float, default=160.0, show_default=True, help="Width of the page.")
 @click.option(
@@ -82,7 +85,7 @@ Examples:
 @click.option(
     "--paper",
     metavar="COLOUR",
-    help="Colour of the paper, as #rgb, #rrggbb or a name of CSS.  [default: white; with --invert black]",
+    help="Colour of the paper, as #rgb, #rrggbb or a CSS name.  [default: white; with --invert black]",
 )
 @click.option("--ink", metavar="COLOUR", help="Colour of one ink.  [default: black; on dark paper white]")
 @click.option(
@@ -90,21 +93,23 @@ Examples:
     type=click.Choice(["equal", "tone"]),
     default="equal",
     show_default=True,
-    help="Dots of one size, denser in the dark; or also larger there.",
+    help="Dots of one size, denser in the dark; or dots that are larger there too.",
 )
-@click.option("--dot-mm", type=float, help="Diameter of all dots.  [default: they cover what is dark]")
 @click.option(
-    "--dpi", type=float, help="Pixels an inch of a .png, .gif or .mp4.  [default: 300; moving, 100]"
+    "--dot-mm", type=float, help="Diameter of all dots.  [default: such that they cover what is dark]"
+)
+@click.option(
+    "--dpi", type=float, help="Pixels per inch of a .png, .gif or .mp4.  [default: 300 for .png, else 100]"
 )
 @click.option(
     "--order",
     type=click.Choice(["drawn", "tour"]),
     default="drawn",
     show_default=True,
-    help="Order of the dots; tour is a short path for plotters, and its length is told.",
+    help="Order of the dots; tour is a short path for plotters, and its length is printed.",
 )
 @click.option(
-    "--progressive", is_flag=True, help="Order the dots so that the first ones of any number draw it."
+    "--progressive", is_flag=True, help="Order the dots so that the first ones, however many, draw the image."
 )
 @click.option(
     "--frames",
@@ -115,7 +120,7 @@ Examples:
 @click.option(
     "--gcode-template",
     type=click.Path(path_type=Path, dir_okay=False),
-    help="TOML with lines start, layer, move, down, up and end for .gcode.",
+    help="TOML file with the lines start, layer, move, down, up and end of a .gcode.",
 )
 @click.option("--preview", is_flag=True, help="Show the dots in the terminal, as Braille.")
 @options.seed
@@ -132,9 +137,10 @@ def stipple(
 ) -> None:  # fmt: skip
     """Draw an image by dots whose density follows its tones.
 
-    An IMAGE is a file (PNG, JPEG, TIFF and what else Pillow reads, or an array as .npy), or the name of an
-    image of scikit-image's such as camera, coins or astronaut. Several are drawn into a folder by worker
-    processes; one that cannot be drawn costs only itself, and the same command goes on where it was stopped.
+    An IMAGE is a file (PNG, JPEG, TIFF or any other format that Pillow reads, or an array as .npy), or
+    the name of an image in scikit-image such as camera, coins or astronaut. Several images are drawn into
+    a folder by worker processes. One that cannot be drawn does not keep the others from being drawn, and
+    if the command is stopped, the same command continues it.
     """
     from gbnbench.cli import stipple_files, stipple_input
     from gbnbench.cli.stipple_batch import stipple_folder
