@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from typing import ClassVar, get_args
 
@@ -91,6 +92,13 @@ def test_every_evaluator_is_a_method_that_users_can_ask_for():
     for kind in EVALUATORS:
         assert kind.serves
         assert title_of(kind.method) == kind.title
+
+
+def test_the_docstring_of_periodogram_names_every_method_that_it_takes():
+    named = re.search(r"method : \{(.*)\}", periodogram.__doc__ or "")
+    assert named is not None
+    taken = {kind.method for kind in EVALUATORS if {"cube", "listed"} & set(kind.serves)}
+    assert {name.strip().strip('"') for name in named[1].split(",")} == taken
 
 
 @pytest.mark.parametrize(("word", "meant"), [("two-group product", "product"), ("grided", "gridded")])
