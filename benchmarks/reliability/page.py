@@ -47,7 +47,7 @@ def page(table: Table) -> str:
     time = f"; its pieces took\n{minutes:.0f} minutes one after the other, and two ran at a time"
     head = resources.files(PACKAGE).joinpath(HEAD).read_text(encoding="utf-8")
     lines = [head.replace("{counts}", counts).replace("{time}", time)]
-    lines += ["| part | pieces carried out | trials | faults | not to be had here |", "|---|--:|--:|--:|--:|"]
+    lines += ["| part | pieces carried out | trials | faults | not available here |", "|---|--:|--:|--:|--:|"]
     lines += [_part_row(part, table) for part in PARTS]
     for part in PARTS:
         lines += ["", f"## {part.title}", "", paragraph(part.says), ""]
@@ -70,7 +70,7 @@ def _plain_table(trials: list[Trials]) -> Iterator[str]:
     if not trials:
         yield "Not tried yet."
         return
-    yield "| | tried | what came of it | trials |"
+    yield "| | tried | outcome | trials |"
     yield "|---|---|---|--:|"
     for one in trials:
         bold = "**" if one.verdict == FAULT else ""
@@ -92,7 +92,7 @@ def _file_table(trials: list[Trials]) -> Iterator[str]:
     yield ""
     yield "By what was done to the file:"
     yield ""
-    yield "| done | files | read | refused | faults |"
+    yield "| damage | files | read | refused | faults |"
     yield "|---|--:|--:|--:|--:|"
     for done in dict.fromkeys(one.tried for one in trials):
         of = [one for one in trials if one.tried == done]

@@ -124,48 +124,52 @@ def _plants(quick: bool) -> list[Piece]:
 PARTS = (
     Part(
         "files", "Damaged files",
-        "Sound files of every format, damaged in one to four ways: bits flipped, ends cut off, bytes and "
-        "lines inserted, deleted, doubled or swapped, numbers, counts and headers changed, two files in "
-        "one, packed, under another suffix, with reading options that do not fit, and bombs. Each has to "
-        "give the points that a strict reading in plain Python finds, which shares no code with the "
-        "readers, or be refused in one line that names it; within 10 s, 256 MB, finite and in [0, 1).",
+        "Sound files of every format are damaged in one to four ways: bits flipped, ends cut off, bytes and "
+        "lines inserted, deleted, doubled or swapped, numbers, counts and headers changed, two files "
+        "joined, compressed, given another suffix, read with options that do not fit, or replaced by "
+        "decompression bombs. Each file must either give the points that a strict reader in plain Python "
+        "finds, which shares no code with the readers, or be refused in one line that names it. The points "
+        "must be finite and in [0, 1), and reading may take at most 256 MB and 10 s.",
         _files,
     ),
     Part(
         "kills", "Kills",
         "A command is killed (SIGKILL) at a random moment, every other time with its workers, and started "
-        "again, five times over; every file that stands then has to be whole, and the last run has to end "
-        "with what an undisturbed one leaves, bit for bit but for times of day and CPU times. In one chain"
-        " of five no kernel is in the cache.",
+        "again, five times over. Every file that exists then must be complete, and the last run must end "
+        "with the same bits as an undisturbed run, except for times of day and CPU times. In one chain of "
+        "five no kernel is in the cache.",
         _kills,
     ),
     Part(
         "disk", "Full disks, quotas, full outputs",
-        "A file system (tmpfs) of a random size up to what the command leaves, a largest size of a file "
-        "(RLIMIT_FSIZE) set at a random moment, and /dev/full as the output. The command has to say so in "
-        "words with exit code 2; with room again, the same command has to end with the same bits.",
+        "Three limits are tried: a file system (tmpfs) of a random size up to what the command leaves, a "
+        "largest file size (RLIMIT_FSIZE) set at a random moment, and /dev/full as the output. The command "
+        "must report the problem with exit code 2; once there is room again, the same command must end with "
+        "the same bits.",
         _disk,
     ),
     Part(
         "together", "Several at once",
-        "The same command started two or four times at once on one folder: one has to work, the others say"
-        " who holds it or do the same to the end, and what is left has the same bits as from one alone.",
+        "The same command is started two or four times at once on one folder. One must work, the others "
+        "must say who holds the folder or do the same work to the end, and the result must have the same "
+        "bits as that of a single command.",
         _together,
     ),
     Part(
         "memory", "Little memory",
-        "Address spaces (ulimit -v) from 64 MB to 2 GB, most of them near what the libraries need to "
-        "start: the command ends as without a limit, or says in words that it cannot.",
+        "Address spaces (ulimit -v) are limited to 64 MB to 2 GB, most of them near what the libraries need "
+        "to start. The command must end as without a limit, or say that it cannot.",
         _memory,
     ),
     Part(
         "runtimes", "OpenCL runtimes",
-        "`gbnbench doctor` in full and a spectrum against numpy under runtimes of several makers.",
+        "`gbnbench doctor` is run in full, and a spectrum is compared with numpy, with OpenCL runtimes of "
+        "several makers.",
         _runtimes,
     ),
     Part(
         "plants", "Wrong kernels",
-        "One mistake at a time is planted in the text of a kernel; `gbnbench doctor` has to say that the "
+        "One mistake at a time is planted in the text of a kernel. `gbnbench doctor` must say that the "
         "device is not to be trusted, and name the kernel.",
         _plants,
     ),

@@ -16,18 +16,19 @@ from gbnbench.verification.without_reference import WITHOUT_REFERENCE
 from gbnbench.verification.wording import agreeing, values
 
 HEAD = """\
-# Generators held against what is known of them
+# Generators compared with what is known about them
 
 `gbnbench generators --verify -o docs/verification.md` draws these sets anew, measures them and writes this
-page; its exit code is 1 where a figure does not agree. *Reference* is the figure to agree with, and *kind*
+page; its exit code is 1 if a figure does not agree. *Reference* is the figure to compare with, and *kind*
 says where it comes from:
 
 {kinds}
 
-*Ours* is a measure of all sets together, as [the measures](measures.md) define it, or the mean of a figure of
-each set, which [the end of this page](#measures-defined-here) defines. It agrees if it is what the next
-column says; *room* says why it need not be nearer. An isotropic method has an `anisotropy_db` of -10 log10 M
-over M sets: that is an expectation, which does not say what the publication of the method measured.
+*Ours* is either a measure of all sets together, as defined in [the measures](measures.md), or the mean of
+a figure of each set, as defined at [the end of this page](#measures-defined-here). It agrees if the
+condition in the next column holds; *room* gives the reason for that tolerance. The `anisotropy_db` of an
+isotropic method is expected to be -10 log10 M over M sets; this is an expectation, not what the
+publication of the method measured.
 """
 COLUMNS = (
     "generator",
@@ -54,7 +55,7 @@ def markdown(found: Sequence[Verified]) -> str:
     Returns
     -------
     str
-        A table a family, how many agree, the measures that only this page has, what is held against nothing.
+        A table a family, how many agree, the measures that only this page has, what has no reference.
     """
     kinds = "\n".join(f"- *{kind}*: {meaning};" for kind, meaning in KINDS.items())
     parts = [HEAD.format(kinds=f"{kinds[:-1]}.")]
@@ -63,7 +64,7 @@ def markdown(found: Sequence[Verified]) -> str:
     for family, group in groupby(found, lambda one: GENERATORS[parse(one.figure.generator)[0]].family):
         rows = [_row(COLUMNS), _row(["---"] * len(COLUMNS)), *(_row(_cells(one)) for one in group)]
         parts.append(f"## {family.capitalize()}\n\n" + "\n".join(rows) + "\n")
-    parts.append("\n".join(["## Held against nothing", "", *_without_reference(), ""]))
+    parts.append("\n".join(["## Without a reference", "", *_without_reference(), ""]))
     definitions = list(_definitions([one.figure for one in found]))
     if definitions:
         parts.append("\n".join(["## Measures defined here", "", *definitions, ""]))
@@ -85,7 +86,7 @@ def _row(cells: Sequence[str]) -> str:
 
 
 def _without_reference() -> Iterator[str]:
-    yield "These generators have no row, because"
+    yield "These generators have no row, for the following reasons:"
     yield ""
     ends = [*[";"] * (len(WITHOUT_REFERENCE) - 1), "."]
     for (name, reason), end in zip(WITHOUT_REFERENCE.items(), ends, strict=True):

@@ -12,7 +12,7 @@ from gbnbench.core.torus import FloatArray, check_points
 
 
 def net_quality(x: FloatArray) -> int:
-    """Least t with which 2**m points are a (t, m, d)-net: 2**t in every elementary interval of 2**(t - m).
+    """Least t with which 2**m points are a (t, m, d)-net: 2**t per elementary interval of volume 2**(t - m).
 
     Parameters
     ----------

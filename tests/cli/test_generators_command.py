@@ -140,7 +140,7 @@ def test_figures_that_do_not_agree_end_with_1(
     assert "measured lloyd[iterations=2], n=16, d=2" in err
     page = Path("page.md").read_text()
     heads = re.findall(r"^## (.*)$", page, re.MULTILINE)
-    assert heads == ["Direct", "Cellular", "Held against nothing"]
+    assert heads == ["Direct", "Cellular", "Without a reference"]
     assert "**Published figure: 2 of 4 agree.**" in page
     assert "| a &#124; few | Cook |" in page
     assert "| at least 1.00 | **no** | never |" in page

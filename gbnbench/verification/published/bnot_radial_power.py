@@ -41,7 +41,7 @@ def ring_power(x: FloatArray) -> FloatArray:
 
 @dataclass(frozen=True)
 class PowerOverPublished:
-    """Mean, over the rings named, of a set's power over that of the published sets.
+    """Mean over the named rings of a set's power over that of the published sets.
 
     Attributes
     ----------

@@ -13,7 +13,7 @@ SATURATION = "Torquato, Uche & Stillinger, Random sequential addition of hard sp
 
 
 def covered_share(x: FloatArray) -> float:
-    """Share of the torus that discs about the points, of half the least distance as radius, cover in 2D."""
+    """Share of the torus in 2D that discs around the points cover, of half the least distance as radius."""
     least = float(nearest_distances(x).min())  # in densest spacings, where they cover pi / sqrt(12)
     return math.pi / math.sqrt(12) * least**2
 

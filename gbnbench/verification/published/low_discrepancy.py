@@ -29,7 +29,7 @@ def of_whole(least: int, most: int) -> tuple[float, float]:
 
 
 def zaremba_figure_of_merit(x: FloatArray) -> float:
-    """Least max(1, |h_1|) max(1, |h_2|) over all h but 0 of the dual of an unshifted rank-1 lattice in 2D."""
+    """Least max(1, |h_1|) max(1, |h_2|) over all h != 0 of the dual of an unshifted rank-1 lattice in 2D."""
     n = len(x)
     generator = round(float(x[1, 1]) * n)  # the point that follows 0 on the first axis
     second = np.arange(1, n // 2 + 1)

@@ -29,7 +29,7 @@ def spread_of_voronoi_areas(x: FloatArray) -> float:
 
 
 def gain_in_integration(x: FloatArray) -> float:
-    """Variance of integrals by independent points over the squared errors by these, of 256 Gaussians.
+    """Variance of the integrals of 256 Gaussians by independent points, over the squared errors of this set.
 
     Parameters
     ----------

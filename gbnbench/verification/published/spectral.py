@@ -14,7 +14,7 @@ STEP_SETS = "measured on sets published by the deepsampling project"
 
 
 def oscillations_of_one_set(x: FloatArray) -> float:
-    """Mean over the sets of ``oscillations`` of one set: of several together chance evens out a part."""
+    """Mean over the sets of the ``oscillations`` of each; of several together, noise partly cancels."""
     return float(measures(x)["oscillations"])
 
 

@@ -16,7 +16,7 @@ POWER_LAW = {"bnot": 4, "jittered": 8}
 
 
 def exponential_less_power_law(x: FloatArray) -> float:
-    """``profile_residual_db`` less ``powerlaw_residual_db`` of a set: below 0 the exponential fits better."""
+    """``profile_residual_db`` minus ``powerlaw_residual_db`` of a set; if < 0 the exponential fits better."""
     found = measures(x)
     return float(found["profile_residual_db"] - found["powerlaw_residual_db"])
 
