@@ -17,6 +17,9 @@ from gbnbench.core.torus import FloatArray, as_realizations
 if TYPE_CHECKING:
     import pandas as pd
 
+ROUNDED = 2.0**-52  # box sides; what a coordinate near 1, and its distance from there, may be off by
+EDGE = 1e-12  # relative rounding of a distance in spacings
+
 
 @dataclass(frozen=True)
 class EdgeDensity:
@@ -93,7 +96,8 @@ def edge_density(
     Notes
     -----
     A bin [a, b) is the shell between two boxes, in a cube of volume (1 - 2 a / L)^d - (1 - 2 b / L)^d with
-    L = n^(1/d): so corners, which belong to several faces, are counted once and need no correction.
+    L = n^(1/d): so corners, which belong to several faces, are counted once and need no correction. A depth
+    that is an edge to rounding counts beyond it, so that the rows of a grid at either face stay together.
 
     Examples
     --------
@@ -109,7 +113,9 @@ def edge_density(
     side = n ** (1 / d) * (np.ones(d) if lengths is None else np.array(lengths))
     last = min(depth, float(np.min(side)) / 2)
     edges = np.append(np.arange(0, last - width / 1e6, width), last)
-    distance = (np.minimum(points, 1 - points) * side).min(axis=2)  # (sets, n)
+    distance = _distances(points, side)
+    # The last bin of a histogram holds its upper edge, as it should at the centre alone.
+    distance = np.where(distance < last, distance, last if last == side.min() / 2 else np.inf)
     volume = _shell_volumes(np.minimum(2 * edges[:, None] / side, 1))
     gaps = [points.min(axis=1) * side, (1 - points.max(axis=1)) * side]
     extremes = np.concatenate(gaps, axis=1).mean(axis=1)
@@ -125,6 +131,12 @@ def edge_density(
         float(_error(extremes)),
         sets,
     )
+
+
+def _distances(points: FloatArray, side: FloatArray) -> FloatArray:
+    """Distances to the nearest face, (sets, n): where one is an edge but for rounding, not below it."""
+    nearest = (np.minimum(points, 1 - points) + ROUNDED) * side
+    return np.asarray(nearest.min(axis=2) * (1 + EDGE), dtype=np.float64)
 
 
 def _error(values: FloatArray) -> FloatArray:

@@ -14,6 +14,9 @@ from numpy.typing import NDArray
 
 from gbnbench.core.torus import FloatArray
 
+# Relative slack of a band's edges: a nu = |f| n^(-1/d) that is exactly an edge may round to either side.
+EDGE = 1e-12
+
 
 @dataclass(frozen=True)
 class Shells:
@@ -163,11 +166,8 @@ def annuli(fmax: int, d: int, width: float) -> Shells:
     Shells
     """
     r2 = squared_radius(fmax, d)
-    return _group(np.floor(np.sqrt(r2) / width).astype(np.int64), r2, fmax)
-
-
-# Relative slack of a band's edges: a nu = |f| n^(-1/d) that is exactly an edge may round to either side.
-EDGE = 1e-12
+    # An edge that |f| meets but for rounding belongs to the annulus above it.
+    return _group(np.floor(np.sqrt(r2) / width * (1 + EDGE)).astype(np.int64), r2, fmax)
 
 
 def in_band(nu: FloatArray, low: float, high: float) -> NDArray[np.bool_]:

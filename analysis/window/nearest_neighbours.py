@@ -76,9 +76,8 @@ def nearest_distances(points: FloatArray, window: Window) -> NearestDistances:
     distance = np.asarray(tree.query(points, k=2)[0])[:, 1]
     border = np.minimum(points - window.low, window.high - points).min(axis=1)
     counts = distance < border
-    weight = np.where(
-        counts, 1 / np.prod(window.sides - 2 * np.minimum(distance, border)[:, None], axis=1), 0
-    )
+    farther = window.sides - 2 * np.where(counts, distance, 0.0)[:, None]
+    weight = np.where(counts, 1 / np.prod(farther, axis=1), 0.0)
     total = float(weight.sum())
     if total == 0.0:
         return NearestDistances(np.empty(0), np.empty(0), np.nan, np.nan, float(distance.min()), 1.0, 0.0)

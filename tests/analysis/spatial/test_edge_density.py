@@ -39,6 +39,22 @@ def test_a_grid_counts_whole_rows():
     assert list(profile.to_frame().columns) == ["low", "high", "density", "standard_error", "cumulative"]
 
 
+@pytest.mark.parametrize(("n", "width"), [(32, 0.25), (49, 0.25), (96, 0.1), (100, 0.3)])
+def test_rows_of_a_grid_at_edges_of_bins_count_beyond_them(n, width):
+    """Of k/n on the line one point has depth 0, and two each have depth 1, 2, ... spacings."""
+    profile = edge_density(np.arange(n)[:, None] / n, width=width, depth=8.0)
+    edges = [Fraction(k) * Fraction(str(width)) for k in range(len(profile.edges) - 1)] + [Fraction(8)]
+    expected = [
+        sum((1 if k == 0 else 2) for k in range(9) if a <= k < b) for a, b in itertools.pairwise(edges)
+    ]
+    assert profile.density * 2 * np.diff(profile.edges) == pytest.approx(expected)
+
+
+def test_the_last_bin_holds_the_centre():
+    profile = edge_density(np.array([[0.0], [0.25], [0.5], [0.75]]), width=1.0)
+    assert profile.density * 2 * np.diff(profile.edges) == pytest.approx([1, 3])
+
+
 @pytest.mark.parametrize(("n", "d"), [(100_000, 1), (40_000, 2), (5_000, 3)])
 def test_thin_shells_of_many_points_have_exact_volumes(n, d):
     x = np.random.default_rng(n).random((n, d))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from fractions import Fraction
 from itertools import product
 from math import isqrt, sqrt
 
@@ -39,6 +40,16 @@ def test_digit_classes_are_the_sorted_absolute_digits(fmax, d):
     assert sorted(zip(classes.radius.round(12).tolist(), classes.count.tolist(), strict=True)) == sorted(
         (round(sqrt(r2), 12), count) for (r2, _), count in expected.items()
     )
+
+
+@pytest.mark.parametrize(("fmax", "d", "width"), [(40, 1, 1.1), (8, 2, sqrt(2)), (5, 3, sqrt(3))])
+def test_frequencies_at_an_edge_of_annuli_belong_above_it(fmax, d, width):
+    """|f| = k width but for rounding, as 33 = 30 * 1.1, opens annulus k, as in a box of unequal sides."""
+    square = squared_radius(fmax, d)
+    inside = (square > 0) & (square <= fmax**2)
+    ratio = Fraction(width**2).limit_denominator(1000)
+    numbers = [isqrt(int(s / ratio)) for s in square[inside].tolist()]
+    assert annuli(fmax, d, width).count.tolist() == np.unique(numbers, return_counts=True)[1].tolist()
 
 
 def test_annuli_are_psas():

@@ -113,3 +113,12 @@ def test_poisson_points_have_g_one_and_the_known_mean_distance(d):
     scores = (table["g"] - 1) / table["standard_error"]
     assert abs(scores.mean()) < 0.6
     assert 0.5 < (scores**2).mean() < 1.8
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_lone_point_on_the_axis_of_the_window_has_no_weight():
+    """Its border, half the shortest side, leaves no window within, whose volume it was divided by."""
+    points = np.array([[0.5, 50.0], *[[0.5, 1 + 0.1 * k] for k in range(19)]])
+    found = nearest_distances(*check_window(points, 0, [1, 100]))
+    assert len(found.distance) == 19
+    assert found.mean == pytest.approx(0.1)
