@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import os
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeVar
@@ -71,10 +72,9 @@ class WholeNumbers(click.ParamType):  # type: ignore[type-arg]  # takes no argum
         """
         if isinstance(value, tuple):
             return value
-        try:
-            numbers = tuple(int(word) for word in str(value).split(","))
-        except ValueError:
+        if not re.fullmatch(r"(\s*[+-]?(0|[1-9](_?\d)*)\s*,)+", f"{value},"):  # 1,024 is no list
             self.fail(f"must be whole numbers parted by commas; got {value!r}", param, ctx)
+        numbers = tuple(map(int, str(value).split(",")))
         if bad := [number for number in numbers if number < 1]:
             self.fail(f"must be at least 1; got {bad[0]}", param, ctx)
         return numbers

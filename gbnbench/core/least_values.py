@@ -8,7 +8,7 @@ from gbnbench.core.errors import InputError
 
 
 def require(**whole: tuple[int, int]) -> None:
-    """Refuse numbers that are too small.
+    """Refuse numbers that are not whole or too small.
 
     Parameters
     ----------
@@ -18,13 +18,15 @@ def require(**whole: tuple[int, int]) -> None:
     Raises
     ------
     InputError
-        If a value is below its least.
+        If a value is no whole number, or below its least.
 
     Examples
     --------
     >>> require(n=(8, 1), seed=(0, 0))
     """
     for name, (value, least) in whole.items():
+        if isinstance(value, bool) or not isinstance(value, numbers.Integral):
+            raise InputError(f"{name} must be a whole number; got {value!r}")
         if value < least:
             raise InputError(f"{name} must be at least {least}; got {value}")
 

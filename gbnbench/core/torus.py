@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gbnbench.core.errors import InputError
+from gbnbench.core.real_numbers import as_real_numbers
 
 FloatArray = NDArray[np.float64]
 
@@ -92,8 +93,8 @@ def wrap(x: ArrayLike) -> FloatArray:
 
     Raises
     ------
-    ValueError
-        If x holds anything but numbers.
+    InputError
+        If x holds anything but real numbers, or masked ones.
 
     Notes
     -----
@@ -104,7 +105,8 @@ def wrap(x: ArrayLike) -> FloatArray:
     >>> wrap([1.25, -1e-17])
     array([0.25, 0.  ])
     """
-    turned = np.mod(np.asarray(x, dtype=np.float64), 1.0)
+    reals = as_real_numbers(x, "x must be an array of real numbers, none of them masked, (..., d)")
+    turned: FloatArray = np.atleast_1d(np.mod(reals, 1.0))
     turned[turned >= 1.0] = 0.0
     return turned
 
@@ -135,13 +137,12 @@ def scale(x: ArrayLike, low: ArrayLike = 0.0, high: ArrayLike = 1.0) -> FloatArr
     array([[0.  , 0.5 ],
            [0.25, 0.  ]])
     """
+    rule = "x, low and high must be real numbers, none masked: x (..., d), low, high one number or d of them"
+    points, least, most = (as_real_numbers(value, rule) for value in (x, low, high))
     try:
-        points, least, most = (np.asarray(value, dtype=np.float64) for value in (x, low, high))
         outside = ~((points >= least) & (points <= most))
-    except (TypeError, ValueError):
-        raise InputError(
-            "x, low and high must be real numbers: x (..., d), low and high one number or d of them"
-        ) from None
+    except ValueError:
+        raise InputError(rule) from None
     if outside.shape != points.shape:
         raise InputError(f"low and high must be one number or one an axis of x; x has shape {points.shape}")
     if not (np.isfinite(least).all() and np.isfinite(most).all() and (least < most).all()):

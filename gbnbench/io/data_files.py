@@ -46,7 +46,8 @@ def read_or_explain(path: Path, read: Callable[[Path], T]) -> T:
     except FormatError:
         raise
     except FileNotFoundError:
-        raise FormatError(path, "is missing from the run") from None
+        way_out = "put it back as it was, or make the run again in another folder"
+        raise FormatError(path, f"is missing from the run: {way_out}") from None
     except (ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile) as error:
         raise FormatError(path, f"is not what gbnbench wrote ({type(error).__name__}: {error})") from error
 

@@ -142,6 +142,11 @@ class ComparisonFolder(ResumableFolder):
         for name, rows in (("measures.csv", long_table(run)), ("table.csv", wide_table(run))):
             atomic_write.write_whole(self.path / name, data_files.to_csv(pd.DataFrame(rows)))
 
+    def restore_tables(self, run: Run) -> None:
+        """Write the tables of a finished run again where one was deleted."""
+        if not all((self.path / name).is_file() for name in ("measures.csv", "table.csv")):
+            self.write_tables(run)
+
     def finish(self, manifest: Mapping[str, Any]) -> None:
         """Declare it whole: checksums of the data, and the manifest as the very last file."""
         self.drop("parts")
@@ -211,9 +216,10 @@ def read_run(folder: str | Path) -> Run:
         verdicts = {(v["source"], v["measure"]): v["verdict"] for v in manifest["verdicts"]}
     except (KeyError, TypeError, ValueError) as error:
         raise FormatError(path / MANIFEST, f"is not what gbnbench wrote ({error!r})") from None
+    way_out = f"put it back as it was, or delete the folder {path} and make the run again"
     for name, expected in sums.items():
         if not (path / name).is_file():
-            raise FormatError(path / name, "is missing from the run")
+            raise FormatError(path / name, f"is missing from the run: {way_out}")
         if checksum(path / name) != expected:
-            raise FormatError(path / name, "was changed after the run was written")
+            raise FormatError(path / name, f"was changed after the run was written: {way_out}")
     return Run(manifest, tuple(source_files.decode(path / "sources" / key) for key in keys), verdicts)

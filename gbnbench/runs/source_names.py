@@ -34,6 +34,8 @@ def generator_named(name: str) -> Generator | None:
     InputError
         If it is neither.
     """
+    if not name.strip():
+        raise InputError("a source is an empty text, such as an unset variable of the shell leaves")
     base, bracket, _ = name.partition("[")
     base = base.strip()
     names = generator_names()

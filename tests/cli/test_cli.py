@@ -114,6 +114,8 @@ def test_bad_use_is_one_line_and_exit_2(here: Path, capsys: pytest.CaptureFixtur
     for arguments, words in (
         (["compare", "jittered", "-n", "50"], "nearest is 49"),
         (["compare", "random", "-n", "64,x"], "whole numbers parted by commas"),
+        (["compare", "random", "-n", "1,024"], "whole numbers parted by commas; got '1,024'"),
+        (["compare", ""], "a source is an empty text"),
         (["compare", "random", "--out", "thesis"], "not empty and is not a run"),
         (["compare", "random", "--baseline", "thesis"], "not a run of gbnbench"),
         (["generate", "random", "-o", "x.docx"], "x.docx"),

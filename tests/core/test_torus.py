@@ -17,6 +17,7 @@ from gbnbench.core.torus import (
     densest_spacing,
     displacement,
     fixed_point,
+    scale,
     spacing,
     toroidal_distance,
     wrap,
@@ -69,6 +70,27 @@ def test_wrap_stays_below_one_and_moves_by_whole_turns(x):
 
 def test_a_tiny_negative_wraps_to_zero_and_not_to_one():
     assert wrap([-1e-17])[0] == 0.0
+
+
+def test_a_single_number_wraps_as_one_coordinate():
+    assert wrap(1.25).tolist() == [0.25]
+
+
+@pytest.mark.parametrize(
+    "x",
+    [
+        np.ma.masked_less([[0.1, 0.9]], 0.5),
+        np.array([0.5 + 1j]),
+        [["0.1", "0.2"]],
+        "mine.txt",
+        [[0.1], [0.2, 1]],
+    ],
+    ids=["masked", "complex", "texts", "a path", "ragged"],
+)
+def test_what_is_no_real_number_is_neither_wrapped_nor_scaled(x):
+    for bring in (wrap, scale):
+        with pytest.raises(InputError, match="real numbers, none"):
+            bring(x)
 
 
 @given(arrays(float, (5, 2), elements=st.floats(0, 1, exclude_max=True)), st.integers(-3, 3))

@@ -58,6 +58,7 @@ FOREIGN: list[tuple[str, str, bytes, str]] = [
     ("LAS", "a.las", b"LASF" + bytes(300), "numpy.save('points.npy', laspy.read(FILE).xyz)"),
     ("ImageJ", "a.roi", b"Iout" + bytes(100), "is a selection of ImageJ"),
     ("FITS", "a.fits", b"SIMPLE  =                    T" + bytes(100), "is a FITS file"),
+    ("Git LFS", "a.txt", b"version https://git-lfs.github.com/spec/v1\noid sha256:0a\n", "git lfs pull"),
     ("R", "a.rds", gzip.compress(b"X\n\0\0\0\x03" + bytes(60)), "row.names = FALSE"),
     ("MATLAB 4", "a.mat", bytes(20) + b"x\0" + P.tobytes(), "is a MATLAB file"),
     ("MATLAB 7.3", "a.mat", b"MATLAB 7.3 MAT-file" + bytes(500) + b"\x89HDF", "is a MATLAB file"),

@@ -136,6 +136,19 @@ def test_the_tables_hold_every_source_and_measure(tmp_path: Path) -> None:
     assert pd.read_csv(tmp_path / "table.csv", dtype=str).loc[0, "noise_floor"] == "0.1"
 
 
+def test_a_deleted_table_of_a_finished_run_is_written_again(tmp_path: Path) -> None:
+    run = Run({}, (result(),), {})
+    folder = comparison_folder.ComparisonFolder(tmp_path, identity())
+    folder.write_tables(run)
+    before = (tmp_path / "table.csv").read_bytes()
+    (tmp_path / "table.csv").unlink()
+    folder.restore_tables(run)
+    assert (tmp_path / "table.csv").read_bytes() == before
+    (tmp_path / "table.csv").write_text("notes of the user's own")
+    folder.restore_tables(run)
+    assert (tmp_path / "table.csv").read_text() == "notes of the user's own"
+
+
 def test_a_folder_without_its_manifest_is_no_run(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="not a run of gbnbench: there is no such folder"):
         comparison_folder.read_run(tmp_path / "absent")

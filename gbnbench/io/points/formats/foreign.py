@@ -47,6 +47,7 @@ SIGNATURES: tuple[tuple[bytes, str, str], ...] = (
     (b"LASF", "a LAS file", "save its points by numpy.save('points.npy', laspy.read(FILE).xyz)"),
     (b"Iout", "a selection of ImageJ", "open it there, and save what Analyze > Measure lists as .csv"),
     (b"SIMPLE  =", "a FITS file", _TEXT),
+    (b"version https://git-lfs", "a pointer of Git LFS", "fetch the file itself by 'git lfs pull'"),
     (b"CDF\x01", "a NetCDF file", _TEXT),
     (b"CDF\x02", "a NetCDF file", _TEXT),
     (b"CDF\x05", "a NetCDF file", _TEXT),
