@@ -242,7 +242,7 @@ def reading(command: F) -> F:
 
 # in the order of the arguments of reading_options
 _TEXTS = {
-    "--columns": ("X,Y", "Columns that hold the coordinates: their names, or numbers from 1."),
+    "--columns": ("X,Y", "Columns of the coordinates, by name; without names by number, from 1."),
     "--raw": ("TYPE,D", "Binary without a header: float32,3 means three a point; >float32,3 big-endian."),
     "--array": ("NAME", "Array of an .npz, or key of a JSON file, that holds the points."),
     "--period": ("SIDES", "Sides of the torus in the files' unit, such as 512,512 for pixels."),

@@ -34,7 +34,9 @@ class EnergyEvaluation(Protocol):
         The evaluation, as a plan names it.
     error : float
         Bound on the error of a gradient's component, in units of the largest force of one pair: n pairs
-        that all round alike, as those of tight clusters do. Scattered points come to a root of it.
+        that all round alike, as those of tight clusters do. Scattered points come to a root of it. Besides,
+        the whole field may be off by a factor within 1 ± 1e-15 b, b = 2 (pi sigma / L)^2, since the side
+        L = n^(1/d) is rounded: this counts only where the kernel is wider than the box.
     """
 
     method: str

@@ -63,6 +63,18 @@ def test_small_boxes_agree_with_the_theta_function(n, d, sigma):
             check(evaluate, n, d, sigma, precision, x, expected)
 
 
+@pytest.mark.parametrize(("n", "d", "sigma"), [(2, 2, 1.5), (2, 2, 3.0), (3, 2, 3.0), (14, 3, 3.0)])
+def test_kernels_wider_than_the_box_are_off_by_the_rounding_of_its_side(n, d, sigma):
+    """The lowest weight, exp(-89) for two points at sigma = 3, multiplies the rounding of its exponent."""
+    for seed in range(3):
+        x = np.random.default_rng(seed).random((n, d))
+        gradient = theta_field(x, sigma, 120)[0]
+        by_side = 1e-15 * kernel.decay(kernel.side_of(n, d), sigma) * np.abs(gradient).max()
+        for evaluate in serving(n, d, sigma, "double"):
+            allowed = evaluate.error * kernel.largest_force(n, d, sigma) + by_side
+            assert np.abs(evaluate(x[None]).gradient[0] - gradient).max() <= allowed, evaluate.method
+
+
 HARD = {
     "scattered": lambda rng, n, d: rng.random((n, d)),
     "clustered": lambda rng, n, d: 0.5 + 1e-3 * rng.standard_normal((n, d)),
