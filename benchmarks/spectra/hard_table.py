@@ -41,23 +41,25 @@ NEAR = 1024  # |f_a| up to which float's coordinates hardly count; beyond, error
 LISTED = {"numpy": "numpy direct sum"}  # what an evaluation is called where frequencies are listed
 HEAD = """# Hard cases
 
-Point sets that bring out the errors of a periodogram, by every evaluation, as met on
+This page lists point sets that bring out the errors of a periodogram, and the errors of every evaluation on
 `{device}`.
 
-Errors are of the square root of power, |F| / sqrt(n), against closed forms or exact integer phases, long
-double cosines and exact sums (`benchmarks/spectra/reference.py`). A power P is off by at most
-2 sqrt(P) *bound* + *bound*^2.
+Errors are those of the square root of power, |F| / sqrt(n). The reference values are closed forms, or come
+from exact integer phases, long double cosines and exact sums (`benchmarks/spectra/reference.py`). A power P
+is off by at most 2 sqrt(P) *bound* + *bound*^2.
 
-- *largest*, *rms*: errors met.
-- *stated rms*: what the spectrum says is typical of scattered points.
-- *bound*: what the spectrum says is the worst case.
-- *over*: bound over largest error of the row; at least 1 where the bound holds.
-- *slack*: bound over the largest error met at that n by the method, in any row of its table (rows up to
-  |f_a| = {near} and rows beyond apart); at most {slack} where the bound is not idle.
-- the last column: *ok*; *loose* where the bound holds but it or the typical error is idle; *fails* otherwise.
+- *largest*, *rms*: largest and root-mean-square error that occurred.
+- *stated rms*: the error that the spectrum states as typical of scattered points.
+- *bound*: the error that the spectrum states as the worst case.
+- *over*: bound divided by the largest error of the row; at least 1 where the bound holds.
+- *slack*: bound divided by the largest error of the method at that n, in any row of its table (rows up to
+  |f_a| = {near} and rows beyond are treated separately); at most {slack} where the
+  bound is not far too large.
+- the last column: *ok*; *loose* where the bound holds but the bound or the stated rms is too far from the
+  errors that occurred; *fails* otherwise.
 
-Remake it with `python -m gbnbench.benchmarks.spectra.hard_table docs/hard_cases.md`. The tests hold every
-row. The bounds of the non-uniform FFTs are empirical."""
+Remake it with `python -m gbnbench.benchmarks.spectra.hard_table docs/hard_cases.md`. The tests check
+every row. The bounds of the non-uniform FFTs are empirical."""
 
 
 def evaluate(case: HardCase) -> Iterator[Row]:

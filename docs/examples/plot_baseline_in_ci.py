@@ -3,13 +3,13 @@ My own sampler in continuous integration
 ========================================
 
 A sampler that is being worked on should not become worse unnoticed. ``gbnbench compare --baseline RUN``
-holds it against an earlier run, measure by measure, and its exit code is 1 where a difference is beyond
+compares it with an earlier run, measure by measure. The exit code is 1 if a measure is worse by more than
 three standard errors.
 """
 
 # %%
-# A sampler of your own is any object that draws one set: here jitter of a regular grid, by half a cell at
-# first. The baseline is a run of the version that you trust, kept with your tests.
+# A sampler of your own is any object that draws one set. Here it jitters a regular grid, at first by half a
+# cell. The baseline is a run of the version that you trust, which you keep with your tests.
 
 import tempfile
 from dataclasses import dataclass
@@ -45,11 +45,10 @@ folder = Path(tempfile.mkdtemp())
 gbnbench.compare({"mine": sets(Mine(), 0)}, out=folder / "trusted", quiet=True)
 
 # %%
-# Later someone makes the jitter wider. The comparison says so. In a job of continuous integration the
-# same are two commands: ``gbnbench compare mine.npz --out trusted`` once, with sets of the version that you
-# trust, and ``gbnbench compare mine.npz --baseline trusted`` in each job, with a file of that name which the
-# version at hand has made. The exit code of the second fails the job. A source is held against the one of its
-# own name.
+# Later someone makes the jitter wider, and the comparison shows it. In continuous integration two commands
+# do the same. Run ``gbnbench compare mine.npz --out trusted`` once, with sets made by the version that you
+# trust. In each job, run ``gbnbench compare mine.npz --baseline trusted``, with a file of the same name made
+# by the current version; its exit code fails the job. Each source is compared with the one of the same name.
 
 after = gbnbench.compare(
     {"mine": sets(Mine(width=0.8), 1)}, out=folder / "now", baseline=folder / "trusted", quiet=True
@@ -62,7 +61,7 @@ print(
 )
 
 # %%
-# The reason is seen in the radial power: wider jitter lets low frequencies rise.
+# The radial power shows the reason: wider jitter raises the power at low frequencies.
 
 figure, axis = plt.subplots(figsize=(6.5, 4), layout="constrained")
 for sampler, seed, name in ((Mine(), 0, "trusted"), (Mine(width=0.8), 1, "now")):

@@ -2,8 +2,8 @@
 Normalisation: freud, MDAnalysis and scipy
 ==========================================
 
-Fields write the same quantities with other units and factors. This page holds ours against three
-packages, with numbers.
+Different fields define the same quantities with different units and factors. This page compares our
+definitions with those of three packages, by numbers.
 """
 
 # %%
@@ -11,9 +11,9 @@ packages, with numbers.
 # structure factor ``S(k)`` of particles in a periodic box of side ``L`` at ``k = 2 pi f / L``, in
 # radians a unit of length. Both are 1 for independent points. ``freud`` averages it over bins of
 # ``|k|``; we average our powers over the same bins, whose edges lie between shells. One more difference
-# has to be known: ``freud`` visits those ``k`` alone whose three components are all positive or zero, an
-# eighth of the directions. Those of a single set are not alike, so that its means differ from those over
-# all directions by their scatter.
+# matters: ``freud`` uses only those ``k`` whose three components are all positive or zero, an eighth of
+# the directions. The power of a single set differs from direction to direction, so that means over this
+# octant differ at random from means over all directions.
 
 import freud
 import matplotlib.pyplot as plt
@@ -55,13 +55,13 @@ worst = np.max(np.abs(np.sqrt(theirs.S_k) - np.sqrt(octant)))
 print(f"largest difference of the square root of S(k) over the same directions: {worst:.0e}")
 
 # %%
-# They agree to the single precision that freud computes in, which is coarse beside the lowest powers here:
-# their square root is 5e-6.
+# They agree to the single precision in which freud computes. That precision is coarse compared with the
+# lowest powers here, whose square root is 5e-6.
 #
-# **Pair correlation.** ``g(r)`` is 1 at large distances everywhere. It counts pairs against those that
-# are expected of independent points: ``n - 1`` others for each point with us, and with MDAnalysis's
-# ``InterRDF`` where a point is excluded from its own neighbours; ``n`` others in freud by default, which
-# is lower by a factor of ``(n - 1) / n``.
+# **Pair correlation.** ``g(r)`` tends to 1 at large distances in all packages. It divides the number of
+# pairs by the number that is expected of independent points. We expect ``n - 1`` others for each point, and
+# so does MDAnalysis's ``InterRDF`` if a point is excluded from its own neighbours. freud by default expects
+# ``n`` others, so that its values are lower by a factor of ``(n - 1) / n``.
 
 import MDAnalysis
 from MDAnalysis.analysis.rdf import InterRDF

@@ -2,13 +2,13 @@
 Exactly n Poisson-disk points
 =============================
 
-Dart throwing is told a distance, and the number of points follows. Most uses want it the other way
-round: ``n`` points that keep as far apart as they can while remaining random.
+Dart throwing starts from a given distance, which determines the number of points. Most applications need
+the opposite: exactly ``n`` points that are as far apart as they can be while remaining random.
 """
 
 # %%
-# Four ways to exactly 1,000 points on the torus. ``maximalpoisson`` relaxes its radius until ``n``
-# points fill the domain, so that no gap is left; ``elimination`` draws many and removes those that are
+# There are four ways to get exactly 1,000 points on the torus. ``maximalpoisson`` relaxes its radius until
+# ``n`` points fill the domain, so that no gap is left; ``elimination`` draws many and removes those that are
 # too near; ``bestcandidate`` adds the farthest of several candidates; ``fpo`` moves points until they
 # are nearly as far apart as is possible without a lattice.
 
@@ -29,6 +29,6 @@ for (points, line), name in zip(axes.T, names, strict=True):
     print(f"{name:15} {len(x)} points, least distance {found['min_distance']:.3f} of the hexagonal lattice's")
 
 # %%
-# A larger least distance is bought by a higher peak in the spectrum, and none of the four is low at
-# small frequencies as Gaussian Blue Noise is: ``gbnbench compare elimination fpo gbn`` shows all of it
-# side by side.
+# A larger least distance comes with a higher peak in the spectrum, and none of the four has as little power
+# at low frequencies as Gaussian Blue Noise. ``gbnbench compare elimination fpo gbn`` shows all of this side
+# by side.

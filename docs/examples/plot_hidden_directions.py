@@ -8,8 +8,8 @@ variance of power over each ring, in units of its squared mean.
 """
 
 # %%
-# Jittered points and a Sobol' sequence beside Gaussian Blue Noise, eight sets each. The power of one
-# frequency of a random set is distributed exponentially, with a variance that equals its squared mean.
+# We compare jittered points, a Sobol' sequence and Gaussian Blue Noise, with eight sets of each. The power
+# of one frequency of a random set is distributed exponentially; its variance equals its squared mean.
 # The mean over eight sets has an eighth of that: -9 dB, which is where an isotropic method lies.
 
 import matplotlib.pyplot as plt

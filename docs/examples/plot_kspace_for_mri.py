@@ -2,16 +2,16 @@
 Sampling k-space for magnetic resonance imaging
 ===============================================
 
-A scanner measures an image's Fourier transform, *k-space*, and a scan is shorter the fewer places it
-visits. Compressed sensing wants them random, so that what is missing looks like noise rather than like
-ghosts; dense at the centre, where the energy is; and without gaps or clumps. That is blue noise with a
-density.
+A scanner measures an image's Fourier transform, *k-space*, and the fewer places it visits, the shorter the
+scan. For compressed sensing these places should be random, so that missing data look like noise rather
+than like ghosts. They should be dense at the centre, where the energy is, and leave neither gaps nor clumps.
+Blue noise that follows a density has these properties.
 """
 
 # %%
 # The density falls with the distance from the centre; outside of the circle nothing is measured. Any
-# function of the position will do. Independent samples of the same density are the usual choice, and
-# stand beside.
+# function of the position can be the density. Independent samples of the same density are the usual choice,
+# and are shown for comparison.
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -27,7 +27,7 @@ blue = gbnbench.stipple(1 - density / density.max(), SAMPLES, seed=2).points
 independent = gbnbench.stipple(1 - density / density.max(), SAMPLES, method="rejection", seed=2).points
 
 # %%
-# The point-spread function: what a single bright point of the image becomes. Aliasing is its part beyond
+# The point-spread function is the image of a single bright point. Aliasing is its part beyond
 # the central peak. Blue noise keeps a zone about the peak clear, and moves the aliasing to large
 # distances, where it is spread as noise.
 

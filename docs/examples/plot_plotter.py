@@ -2,8 +2,8 @@
 A picture for a pen plotter
 ===========================
 
-Dots whose density follows the darkness of an image, in an order that keeps the pen's way short, as an
-SVG in millimetres.
+This example draws dots whose density follows the darkness of an image, orders them so that the pen's path
+is short, and writes them as an SVG in millimetres.
 """
 
 # %%
@@ -34,7 +34,8 @@ written = subprocess.run(
 print(written.stdout or written.stderr)
 
 # %%
-# The picture that the points alone draw, by the paper's Algorithm 2, tells how much of it they hold.
+# The picture that is reconstructed from the points alone, by the paper's Algorithm 2, shows how much of the
+# original they preserve.
 
 back = gbnbench.reconstruct(made.points, shape=made.size[::-1])
 figure, (dots, image) = plt.subplots(1, 2, figsize=(10, 4.2), layout="constrained")

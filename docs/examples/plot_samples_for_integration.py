@@ -3,13 +3,13 @@ Which samples for my integral?
 ==============================
 
 The error of an average over samples depends on both spectra: the samples' and the integrand's. Smooth
-integrands have little power at high frequencies, so that a low noise floor pays; edges have much, and
-then it pays less.
+integrands have little power at high frequencies, so that a low noise floor helps a lot. Integrands with
+edges have much power there, so that it helps less.
 """
 
 # %%
-# Variance of the estimate against the number of samples, for smooth bumps and for half spaces with an
-# edge, each with a known integral, over random shifts of the samples.
+# The plots show the variance of the estimate, over random shifts of the samples, against the number of
+# samples. The integrands are smooth bumps and half spaces with an edge, all with known integrals.
 
 import tempfile
 

@@ -13,7 +13,7 @@ if (reload) {
   });
   if (Date.now() - Date.parse(document.lastModified) > 3600e3) {
     reload.setAttribute("aria-pressed", "true");
-    reload.after(" Nothing was added for an hour, so it has stopped: the run may have ended. The same command goes on with it.");
+    reload.after(" The page has stopped reloading, because nothing was added for an hour: the run may have ended. The same command continues it.");
   }
   setInterval(() => {
     const stopped = reload.getAttribute("aria-pressed") === "true";
