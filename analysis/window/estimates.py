@@ -111,7 +111,7 @@ def in_window(
     Parameters
     ----------
     points : (n, d) array_like
-        Points in any unit, n >= 16, d <= 8: what a window shows of a pattern that goes on beyond it, alike
+        Points in any unit, n >= 16, d <= 8: what a window shows of a pattern that continues beyond it, alike
         everywhere and in all directions (stationary and isotropic).
     low, high : float or (d,) array_like
         Opposite corners of the window: not of the points' bounding box, which is smaller.

@@ -1,4 +1,4 @@
-"""Kills at random moments: what is finished stays whole, and the same command goes on to the same bits."""
+"""Kills at random moments: what is finished stays whole, and the same command continues to the same bits."""
 
 from __future__ import annotations
 

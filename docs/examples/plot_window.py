@@ -2,7 +2,7 @@
 A window that is no torus
 =========================
 
-Cells under a microscope and trees in a plot are what a window shows of a pattern that goes on beyond it.
+Cells under a microscope and trees in a plot are what a window shows of a pattern that continues beyond it.
 Measured as a torus, points near opposite sides would count as neighbours. ``in_window`` makes no such
 error, and gives every number a standard error from a single set.
 """

@@ -39,7 +39,7 @@ def compare(
     pdf: bool = False,
     command: str = "gbnbench.compare",
 ) -> Comparison:
-    """Make and measure every source, in a folder from which the same call goes on where it was stopped.
+    """Make and measure every source, in a folder from which the same call continues if it is stopped.
 
     Parameters
     ----------

@@ -47,7 +47,7 @@ def compare_stipplings(
     pictures: bool = False,
     command: str = "gbnbench.compare_stipplings",
 ) -> StipplingComparison:
-    """Draw and measure stipplings of one image, in a folder from which the same call goes on.
+    """Draw and measure stipplings of one image, in a folder from which the same call continues.
 
     Parameters
     ----------

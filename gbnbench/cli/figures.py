@@ -75,7 +75,10 @@ def figures(
     check_sets(wanted, options)
     with progress.choose(quiet) as teller:
         if options.scale == "full":
-            teller.say("the paper's counts: hours for all; --quick is minutes. Stop it at will, it goes on.")
+            teller.say(
+                "these are the paper's counts, which take hours for all figures; --quick takes minutes. Stop "
+                "it at any time: the same command continues from there."
+            )
         made = make(wanted, out, options, jobs or os.cpu_count() or 1, teller, not no_captions)
     for one in made:
         click.echo(f"{out / one.stem}.png  {one.figure.title}")

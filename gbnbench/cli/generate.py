@@ -152,7 +152,7 @@ def _monitored(trace: Trace | None, checkpoint: Path | None, quiet: bool) -> Ite
                 shown.advance("done", most - counted)
         except KeyboardInterrupt:
             if checkpoint is not None and checkpoint.exists():
-                raise KeyboardInterrupt(f"repeat the command to go on from {checkpoint}") from None
+                raise KeyboardInterrupt(f"repeat the command to continue from {checkpoint}") from None
             raise
 
 

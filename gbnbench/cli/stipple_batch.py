@@ -94,7 +94,7 @@ def _draw(run: TaskRun, jobs: int, teller: Progress, folder: Path) -> None:
             for remark in () if done.failure else done.value.remarks:
                 teller.say(f"gbnbench: {remark}")
     except UnfinishedError as error:
-        kept = f"what is drawn is kept in {folder}, and the same command goes on"
+        kept = f"what is drawn is kept in {folder}, and the same command continues from there"
         raise UnfinishedError(f"{error}; {kept}") from error
 
 

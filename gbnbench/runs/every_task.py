@@ -66,7 +66,7 @@ def run_tasks(
                 failures.append(f"{labels[str(done.key)]}: {done.failure}")
                 progress.say(failures[-1])
     except UnfinishedError as error:
-        kept = f"what is finished is kept in {store.path}, and the same command goes on"
+        kept = f"what is finished is kept in {store.path}, and the same command continues from there"
         raise UnfinishedError(f"{error}; {kept}") from error
     if failures:
         raise UnfinishedError(

@@ -92,11 +92,12 @@ def explain_interruption(folder: Path) -> Iterator[None]:
     except (KeyboardInterrupt, ImportError) as error:
         if not is_interruption(error):
             raise
-        raise KeyboardInterrupt(f"what is finished is kept in {folder}; the same command goes on") from None
+        kept = f"what is finished is kept in {folder}; the same command continues from there"
+        raise KeyboardInterrupt(kept) from None
     except BrokenPipeError:
         raise
     except OSError as error:  # a full disk above all
-        text = f"{error.strerror}; what is finished is kept and the same command goes on"
+        text = f"{error.strerror}; what is finished is kept and the same command continues from there"
         raise OSError(error.errno, text, error.filename or str(folder)) from error
 
 

@@ -135,7 +135,7 @@ def test_ctrl_c_keeps_the_state_and_says_how_to_go_on(here, capsys, monkeypatch)
     with monkeypatch.context() as patched:
         patched.setattr(Nesterov, "advance", stopped)
         assert command("gbn[gradients=20]", "-n", 100, "-o", "x.npy", "--checkpoint", "state") == 130
-    assert "repeat the command to go on from state" in capsys.readouterr().err
+    assert "repeat the command to continue from state" in capsys.readouterr().err
     assert int(np.load("state")["gradients"]) == 11
     assert command("gbn[gradients=20]", "-n", 100, "-o", "x.npy", "--checkpoint", "state") == 0
     assert np.array_equal(np.load("x.npy"), expected)

@@ -55,7 +55,7 @@ def test_ctrl_c_stops_at_once_and_says_how_to_go_on(tmp_path: Path) -> None:
     _, said = busy.communicate(timeout=30)
     assert busy.returncode == 130
     assert said.splitlines()[-1] == (
-        "gbnbench: stopped; what is finished is kept in run; the same command goes on"
+        "gbnbench: stopped; what is finished is kept in run; the same command continues from there"
     )
     assert "Traceback" not in said
     with pytest.raises(ProcessLookupError):  # no worker is left in its session
@@ -105,7 +105,7 @@ def test_a_full_disk_is_one_line_and_loses_nothing(tmp_path: Path) -> None:
     assert full.returncode == 2
     assert full.stderr == (
         "gbnbench: error: run/parts/random_n200000_d2/000000.npz: File too large; what is finished is kept "
-        "and the same command goes on\n"
+        "and the same command continues from there\n"
     )
     left = {path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*") if path.is_file()}
     assert left == {

@@ -84,7 +84,7 @@ def test_the_scheduler_killed_is_said_and_another_goes_on(alone: Path, tmp_path:
     assert code == 2, said
     assert "the Dask scheduler at" in said
     assert "is gone" in said
-    assert "the same command goes on" in said
+    assert "the same command continues" in said
     assert "Traceback" not in said
     kept = finished_pieces(out)
     code, said = ended(spread("local", out, "--jobs", 2))

@@ -1,4 +1,4 @@
-"""A rank of MPI that is killed ends the whole job, and the same command goes on from the kept pieces."""
+"""A rank of MPI that is killed ends the whole job, and the same command continues from the kept pieces."""
 
 from __future__ import annotations
 
