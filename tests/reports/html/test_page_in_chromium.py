@@ -145,7 +145,7 @@ def test_a_growing_page_that_got_nothing_new_for_an_hour_stands_still(browser, r
     loads = []
     page.on("load", lambda: loads.append(page.url))
     page.goto(path.as_uri())
-    assert "Nothing was added for an hour" in page.locator("p.growing").inner_text()
+    assert "nothing was added for an hour" in page.locator("p.growing").inner_text()
     page.wait_for_timeout(2500)
     assert len(loads) == 1
     context.close()
