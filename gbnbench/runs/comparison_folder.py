@@ -135,17 +135,22 @@ class ComparisonFolder(ResumableFolder):
         except FormatError:
             return None
 
-    def write_tables(self, run: Run) -> None:
-        """Write ``measures.csv`` (a row a source and measure) and ``table.csv`` (a row a source)."""
+    def write_tables(self, run: Run, *, missing: bool = False) -> None:
+        """Write ``measures.csv`` (a row a source and measure) and ``table.csv`` (a row a source).
+
+        Parameters
+        ----------
+        run : Run
+            Whose tables they are.
+        missing : bool
+            Write only a table that is not there: one that the user has edited stays as it is.
+        """
         import pandas as pd
 
-        for name, rows in (("measures.csv", long_table(run)), ("table.csv", wide_table(run))):
-            atomic_write.write_whole(self.path / name, data_files.to_csv(pd.DataFrame(rows)))
-
-    def restore_tables(self, run: Run) -> None:
-        """Write the tables of a finished run again where one was deleted."""
-        if not all((self.path / name).is_file() for name in ("measures.csv", "table.csv")):
-            self.write_tables(run)
+        for name, rows in (("measures.csv", long_table), ("table.csv", wide_table)):
+            if not (missing and (self.path / name).is_file()):
+                content = data_files.to_csv(pd.DataFrame(rows(run)))
+                atomic_write.write_whole(self.path / name, content)
 
     def finish(self, manifest: Mapping[str, Any]) -> None:
         """Declare it whole: checksums of the data, and the manifest as the very last file."""

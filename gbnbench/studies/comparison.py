@@ -143,7 +143,7 @@ def run_comparison(
             run = comparison_folder.read_run(store.path)
             changes, notes = ((), ()) if earlier is None else judge(run, earlier)
             if run.verdicts == _verdicts(changes):
-                store.restore_tables(run)
+                store.write_tables(run, missing=True)
                 return ComparisonOutcome(
                     run, store.path, changes, notes, len(tasks), len(tasks), time.monotonic() - began
                 )

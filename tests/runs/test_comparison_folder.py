@@ -142,11 +142,17 @@ def test_a_deleted_table_of_a_finished_run_is_written_again(tmp_path: Path) -> N
     folder.write_tables(run)
     before = (tmp_path / "table.csv").read_bytes()
     (tmp_path / "table.csv").unlink()
-    folder.restore_tables(run)
+    folder.write_tables(run, missing=True)
     assert (tmp_path / "table.csv").read_bytes() == before
+
+
+def test_a_table_that_the_user_edited_stays_when_the_other_is_written_again(tmp_path: Path) -> None:
+    run = Run({}, (result(),), {})
+    folder = comparison_folder.ComparisonFolder(tmp_path, identity())
     (tmp_path / "table.csv").write_text("notes of the user's own")
-    folder.restore_tables(run)
+    folder.write_tables(run, missing=True)
     assert (tmp_path / "table.csv").read_text() == "notes of the user's own"
+    assert (tmp_path / "measures.csv").is_file()
 
 
 def test_a_folder_without_its_manifest_is_no_run(tmp_path: Path) -> None:
